@@ -1,0 +1,166 @@
+use std::fmt;
+use std::net::{IpAddr, Ipv6Addr};
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+/// The TCP port of the management protocol when an address names none.
+pub const DEFAULT_MANAGEMENT_PORT: u16 = 7943;
+
+/// Where a controller's management protocol answers: `host[:port]`.
+///
+/// The host is an IPv4 address, an IPv6 address in brackets, or a host name.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct Address {
+    host: String,
+    port: u16,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum AddressError {
+    #[error("the address is empty")]
+    Empty,
+    #[error("\"{0}\" is not an IP address or a host name")]
+    Host(String),
+    #[error("\"{0}\" is not a port between 1 and 65535")]
+    Port(String),
+}
+
+impl Address {
+    pub fn host(&self) -> &str {
+        &self.host
+    }
+
+    pub fn port(&self) -> u16 {
+        self.port
+    }
+
+    /// The address when the host is a literal one.
+    pub fn ip(&self) -> Option<IpAddr> {
+        self.host.parse().ok()
+    }
+
+    /// What `getaddrinfo` and URLs want: brackets around IPv6.
+    pub fn authority(&self) -> String {
+        match self.ip() {
+            Some(IpAddr::V6(ip)) => format!("[{ip}]:{}", self.port),
+            _ => format!("{}:{}", self.host, self.port),
+        }
+    }
+
+    /// Sort key: literal addresses in numeric order before names.
+    pub fn sort_key(&self) -> (bool, Option<IpAddr>, &str, u16) {
+        (self.ip().is_none(), self.ip(), &self.host, self.port)
+    }
+}
+
+impl FromStr for Address {
+    type Err = AddressError;
+
+    fn from_str(text: &str) -> Result<Self, AddressError> {
+        let text = text.trim();
+        if text.is_empty() {
+            return Err(AddressError::Empty);
+        }
+        let (host, port) = split_port(text)?;
+        let port = match port {
+            None => DEFAULT_MANAGEMENT_PORT,
+            Some(port) => port.parse().ok().filter(|p| *p != 0).ok_or_else(|| AddressError::Port(port.to_owned()))?,
+        };
+        if host.parse::<IpAddr>().is_ok() || is_host_name(host) {
+            Ok(Self { host: host.to_ascii_lowercase(), port })
+        } else {
+            Err(AddressError::Host(host.to_owned()))
+        }
+    }
+}
+
+fn split_port(text: &str) -> Result<(&str, Option<&str>), AddressError> {
+    let bad_host = || AddressError::Host(text.to_owned());
+    if let Some(rest) = text.strip_prefix('[') {
+        let (host, tail) = rest.split_once(']').ok_or_else(bad_host)?;
+        host.parse::<Ipv6Addr>().map_err(|_| bad_host())?;
+        return match tail.strip_prefix(':') {
+            Some(port) => Ok((host, Some(port))),
+            None if tail.is_empty() => Ok((host, None)),
+            None => Err(bad_host()),
+        };
+    }
+    if text.parse::<Ipv6Addr>().is_ok() {
+        return Ok((text, None));
+    }
+    Ok(text.rsplit_once(':').map_or((text, None), |(host, port)| (host, Some(port))))
+}
+
+/// RFC 1123 names; a last label of digits only is a mistyped IPv4 address, not a name.
+fn is_host_name(host: &str) -> bool {
+    let label = |l: &str| {
+        (1..=63).contains(&l.len())
+            && l.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-' || b == b'_')
+            && !l.starts_with('-')
+            && !l.ends_with('-')
+    };
+    host.len() <= 253
+        && host.split('.').all(label)
+        && !host.rsplit('.').next().is_some_and(|last| last.bytes().all(|b| b.is_ascii_digit()))
+}
+
+impl fmt::Display for Address {
+    /// The default port is left out, as the engineer would write it.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.port == DEFAULT_MANAGEMENT_PORT { f.write_str(&self.host) } else { f.write_str(&self.authority()) }
+    }
+}
+
+impl TryFrom<String> for Address {
+    type Error = AddressError;
+    fn try_from(text: String) -> Result<Self, AddressError> {
+        text.parse()
+    }
+}
+
+impl From<Address> for String {
+    fn from(address: Address) -> Self {
+        address.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shown(text: &str) -> String {
+        text.parse::<Address>().expect(text).to_string()
+    }
+
+    #[test]
+    fn hosts_ports_and_names_are_understood() {
+        assert_eq!(shown(" 192.168.10.1 "), "192.168.10.1");
+        assert_eq!(shown("192.168.10.1:7943"), "192.168.10.1");
+        assert_eq!(shown("192.168.10.1:8000"), "192.168.10.1:8000");
+        assert_eq!(shown("Robot-7.plant.local:8000"), "robot-7.plant.local:8000");
+        assert_eq!(shown("[::1]:8000"), "[::1]:8000");
+        assert_eq!("::1".parse::<Address>().expect("v6").authority(), "[::1]:7943");
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        assert_eq!("".parse::<Address>(), Err(AddressError::Empty));
+        assert_eq!("10.0.0.999".parse::<Address>(), Err(AddressError::Host("10.0.0.999".into())));
+        assert_eq!("robot:0".parse::<Address>(), Err(AddressError::Port("0".into())));
+        assert_eq!("robot:70000".parse::<Address>(), Err(AddressError::Port("70000".into())));
+        assert!("ro bot".parse::<Address>().is_err());
+        assert!("机器人".parse::<Address>().is_err());
+    }
+
+    #[test]
+    fn addresses_sort_by_number() {
+        let mut list: Vec<Address> =
+            ["robot", "10.0.0.10", "10.0.0.9"].iter().map(|s| s.parse().expect("address")).collect();
+        list.sort_by(|a, b| a.sort_key().cmp(&b.sort_key()));
+        let shown: Vec<String> = list.iter().map(ToString::to_string).collect();
+        assert_eq!(shown, ["10.0.0.9", "10.0.0.10", "robot"]);
+    }
+}

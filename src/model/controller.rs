@@ -1,0 +1,296 @@
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::{ErrorCode, Problem};
+
+/// The controller series a configurator can talk to (manual 1.3.1.1).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum ControllerSeries {
+    #[serde(rename = "RC90")]
+    Rc90,
+    #[serde(rename = "RC700")]
+    Rc700,
+    #[serde(rename = "T/VT")]
+    TVt,
+    #[serde(rename = "RC800")]
+    Rc800,
+}
+
+impl ControllerSeries {
+    pub const ALL: [Self; 4] = [Self::Rc90, Self::Rc700, Self::TVt, Self::Rc800];
+
+    /// The name as the manual prints it.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Rc90 => "RC90",
+            Self::Rc700 => "RC700",
+            Self::TVt => "T/VT",
+            Self::Rc800 => "RC800",
+        }
+    }
+
+    /// The oldest firmware that carries an OPC UA server at all (manual 1.3.1.1).
+    pub const fn oldest_firmware(self) -> FirmwareVersion {
+        match self {
+            Self::Rc90 | Self::Rc700 => FirmwareVersion::new(7, 5, 4),
+            Self::TVt => FirmwareVersion::new(7, 5, 54),
+            Self::Rc800 => FirmwareVersion::new(8, 0, 0),
+        }
+    }
+
+    /// Refuses firmware without OPC UA with the message of manual 6.2.
+    pub fn check_firmware(self, firmware: FirmwareVersion) -> Result<(), Problem> {
+        let oldest = self.oldest_firmware();
+        if firmware < oldest {
+            return Err(Problem::with_detail(
+                ErrorCode::FirmwareNotSupported,
+                format!("{} {firmware} < {oldest}", self.as_str()),
+            ));
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for ControllerSeries {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.as_str())
+    }
+}
+
+impl FromStr for ControllerSeries {
+    type Err = NameError;
+
+    /// Case and the slash of `T/VT` do not matter: `tvt` is a series too.
+    fn from_str(text: &str) -> Result<Self, NameError> {
+        let plain = |s: &str| s.to_ascii_uppercase().replace(['/', '-', ' '], "");
+        Self::ALL
+            .into_iter()
+            .find(|series| plain(series.as_str()) == plain(text))
+            .ok_or_else(|| NameError::UnknownSeries(text.to_owned()))
+    }
+}
+
+/// A firmware version, `major.minor.patch`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct FirmwareVersion {
+    major: u16,
+    minor: u16,
+    patch: u16,
+}
+
+/// Which of the two sets of rules a controller follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FirmwareGeneration {
+    /// Below 8.0.0: activated by keys, server keys made on the PC.
+    Legacy,
+    /// 8.0.0 and later: activated as a controller option, server keys made in the controller.
+    Current,
+}
+
+impl FirmwareVersion {
+    pub const fn new(major: u16, minor: u16, patch: u16) -> Self {
+        Self { major, minor, patch }
+    }
+
+    pub const fn generation(self) -> FirmwareGeneration {
+        if self.major < 8 { FirmwareGeneration::Legacy } else { FirmwareGeneration::Current }
+    }
+}
+
+impl fmt::Display for FirmwareVersion {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}.{}.{}", self.major, self.minor, self.patch)
+    }
+}
+
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+#[error("\"{0}\" is not a firmware version such as 7.5.4")]
+pub struct VersionError(String);
+
+impl FromStr for FirmwareVersion {
+    type Err = VersionError;
+
+    fn from_str(text: &str) -> Result<Self, VersionError> {
+        let parts: Vec<u16> =
+            text.split('.').map(|p| p.parse().map_err(|_| VersionError(text.to_owned()))).collect::<Result<_, _>>()?;
+        match parts[..] {
+            [major, minor, patch] => Ok(Self { major, minor, patch }),
+            _ => Err(VersionError(text.to_owned())),
+        }
+    }
+}
+
+impl TryFrom<String> for FirmwareVersion {
+    type Error = VersionError;
+    fn try_from(text: String) -> Result<Self, VersionError> {
+        text.parse()
+    }
+}
+
+impl From<FirmwareVersion> for String {
+    fn from(version: FirmwareVersion) -> Self {
+        version.to_string()
+    }
+}
+
+/// Why a name, a serial number or a series was not understood.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NameError {
+    #[error("the name is empty")]
+    Empty,
+    #[error("the name has {0} characters; at most {max} are allowed", max = ControllerName::MAX_CHARS)]
+    TooLong(usize),
+    #[error("the name contains a control character")]
+    ControlCharacter,
+    #[error("\"{0}\" is not a serial number: 1 to 32 letters, digits, \"-\" or \"_\"")]
+    Serial(String),
+    #[error("\"{0}\" is not a controller series; known are RC90, RC700, T/VT and RC800")]
+    UnknownSeries(String),
+}
+
+/// The name an engineer gives a connection target: 1–32 characters, any script, no control characters (2.5.1).
+///
+/// Two names are the same when they differ in nothing but surrounding blanks, which are dropped.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct ControllerName(String);
+
+impl ControllerName {
+    pub const MAX_CHARS: usize = 32;
+
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl FromStr for ControllerName {
+    type Err = NameError;
+
+    fn from_str(text: &str) -> Result<Self, NameError> {
+        let text = text.trim();
+        let chars = text.chars().count();
+        if chars == 0 {
+            Err(NameError::Empty)
+        } else if chars > Self::MAX_CHARS {
+            Err(NameError::TooLong(chars))
+        } else if text.chars().any(char::is_control) {
+            Err(NameError::ControlCharacter)
+        } else {
+            Ok(Self(text.to_owned()))
+        }
+    }
+}
+
+impl TryFrom<String> for ControllerName {
+    type Error = NameError;
+    fn try_from(text: String) -> Result<Self, NameError> {
+        text.parse()
+    }
+}
+
+impl From<ControllerName> for String {
+    fn from(name: ControllerName) -> Self {
+        name.0
+    }
+}
+
+impl fmt::Display for ControllerName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// A controller's serial number. It also names the controller's folder on the PC, so it is limited to characters
+/// that are safe in a file name: a controller cannot choose where its files land.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct SerialNumber(String);
+
+impl SerialNumber {
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl FromStr for SerialNumber {
+    type Err = NameError;
+
+    fn from_str(text: &str) -> Result<Self, NameError> {
+        let fits =
+            (1..=32).contains(&text.len()) && text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-' || b == b'_');
+        if fits { Ok(Self(text.to_owned())) } else { Err(NameError::Serial(text.to_owned())) }
+    }
+}
+
+impl TryFrom<String> for SerialNumber {
+    type Error = NameError;
+    fn try_from(text: String) -> Result<Self, NameError> {
+        text.parse()
+    }
+}
+
+impl From<SerialNumber> for String {
+    fn from(serial: SerialNumber) -> Self {
+        serial.0
+    }
+}
+
+impl fmt::Display for SerialNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn firmware_is_ordered_by_number_not_by_text() {
+        let version = |s: &str| s.parse::<FirmwareVersion>().expect("a version");
+        assert!(version("7.5.54") > version("7.5.6"));
+        assert_eq!(version("7.5.54").generation(), FirmwareGeneration::Legacy);
+        assert_eq!(version("8.0.0").generation(), FirmwareGeneration::Current);
+        assert!("8.0".parse::<FirmwareVersion>().is_err());
+        assert!("8.0.x".parse::<FirmwareVersion>().is_err());
+    }
+
+    #[test]
+    fn firmware_without_opc_ua_is_refused() {
+        let old = ControllerSeries::TVt.check_firmware(FirmwareVersion::new(7, 5, 53)).expect_err("too old");
+        assert_eq!(old.code, ErrorCode::FirmwareNotSupported);
+        assert!(ControllerSeries::TVt.check_firmware(FirmwareVersion::new(7, 5, 54)).is_ok());
+        assert!(ControllerSeries::Rc90.check_firmware(FirmwareVersion::new(7, 5, 4)).is_ok());
+        assert!(ControllerSeries::Rc800.check_firmware(FirmwareVersion::new(7, 9, 0)).is_err());
+    }
+
+    #[test]
+    fn a_name_is_1_to_32_characters_of_any_script() {
+        assert_eq!("  Weld 1 ".parse::<ControllerName>().expect("a name").as_str(), "Weld 1");
+        assert_eq!("".parse::<ControllerName>(), Err(NameError::Empty));
+        assert!("焊".repeat(32).parse::<ControllerName>().is_ok());
+        assert_eq!("焊".repeat(33).parse::<ControllerName>(), Err(NameError::TooLong(33)));
+        assert_eq!("a\nb".parse::<ControllerName>(), Err(NameError::ControlCharacter));
+    }
+
+    #[test]
+    fn a_serial_number_cannot_leave_its_folder() {
+        for bad in ["", "..", "a/b", "a\\b", "C:", "a b", "号"] {
+            assert!(bad.parse::<SerialNumber>().is_err(), "{bad}");
+        }
+        assert!("R7A0000001".parse::<SerialNumber>().is_ok());
+    }
+
+    #[test]
+    fn a_series_is_known_by_its_name_however_written() {
+        assert_eq!("tvt".parse(), Ok(ControllerSeries::TVt));
+        assert_eq!("T/VT".parse(), Ok(ControllerSeries::TVt));
+        assert_eq!("rc800".parse(), Ok(ControllerSeries::Rc800));
+        assert!("RC1".parse::<ControllerSeries>().is_err());
+    }
+}

@@ -1,0 +1,59 @@
+use chrono::{DateTime, Utc};
+use serde::{Deserialize, Serialize};
+
+use super::{
+    CertificateSummary, CertificateType, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion, ListLimits,
+    SerialNumber,
+};
+
+/// State of the OPC UA server inside a controller (manual 2.4.4.2).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+pub enum ServerStatus {
+    Run,
+    Stop,
+    /// It cannot run, or failed while starting or stopping; [`ControllerInfo::error`] says why.
+    Error,
+}
+
+impl ServerStatus {
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Run => "Run",
+            Self::Stop => "Stop",
+            Self::Error => "Error",
+        }
+    }
+}
+
+/// Everything "Get new information" reads from a controller (manual 2.4.4.1).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ControllerInfo {
+    /// The name the controller itself carries; the configurator's list has its own.
+    pub name: String,
+    pub serial: SerialNumber,
+    pub series: ControllerSeries,
+    pub firmware: FirmwareVersion,
+    pub status: ServerStatus,
+    /// Why the status is [`ServerStatus::Error`] (manual 6.1).
+    pub error: Option<ErrorCode>,
+    pub activated: bool,
+    /// The certificate type in use, with its certificate, if one is installed.
+    pub certificate: Option<(CertificateType, CertificateSummary)>,
+    /// ApplicationName of the OPC UA server, and the default common name of its certificate.
+    pub application_name: String,
+    /// `opc.tcp://host:port` as clients reach it.
+    pub endpoint: String,
+    /// TCP ports taken by other functions of the controller.
+    pub used_ports: Vec<u16>,
+    pub limits: ListLimits,
+    /// The controller's clock.
+    pub clock: DateTime<Utc>,
+    /// Counts every change of the configuration; a change must name the revision it was based on.
+    pub revision: u64,
+}
+
+impl ControllerInfo {
+    pub fn generation(&self) -> FirmwareGeneration {
+        self.firmware.generation()
+    }
+}

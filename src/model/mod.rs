@@ -1,0 +1,33 @@
+//! What a controller is and may have: plain types, rules, limits and the registry of errors.
+//!
+//! No I/O, no async, no egui. Text becomes one of these types once, at the edge (a dialog, the command line, a
+//! message), and is trusted from there on. Section numbers in the docs are those of the controller's OPC UA manual.
+
+mod address;
+mod certificate;
+mod client_list;
+mod controller;
+mod country;
+mod info;
+mod language;
+mod problem;
+mod settings;
+mod user;
+
+pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
+pub use certificate::{
+    CertificateSummary, CertificateType, KeyLength, SelfSignedRequest, Subject, SubjectError, Validity,
+    default_common_name, offered_key_lengths,
+};
+pub use client_list::{ClientList, ListLimits};
+pub use controller::{
+    ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber, VersionError,
+};
+pub use country::{COUNTRIES, Country};
+pub use info::{ControllerInfo, ServerStatus};
+pub use language::Language;
+pub use problem::{ErrorCode, Explanation, Problem};
+pub use settings::{
+    PortError, SecurityPolicy, ServerPort, ServerSettings, SettingsError, SettingsWarning, StartupMode, UserTokenPolicy,
+};
+pub use user::{Credential, CredentialError, MAX_USERS, UserName, UserPassword};
