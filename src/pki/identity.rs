@@ -54,3 +54,46 @@ pub fn tls_identity(common_name: &str, now: DateTime<Utc>) -> Result<TlsIdentity
         private_key_pkcs8: Zeroizing::new(key.serialize_der()),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pki::{Certificate, samples::now};
+
+    #[test]
+    fn an_identity_does_not_expire() {
+        let identity = tls_identity("SN0000123", now()).unwrap();
+        let certificate = Certificate::from_der(&identity.certificate_der).unwrap();
+        assert_eq!(certificate.common_name().as_deref(), Some("SN0000123"));
+        assert!(certificate.is_self_signed());
+        assert!(certificate.not_before() < now());
+        assert_eq!(certificate.not_after().to_rfc3339(), "9999-12-31T00:00:00+00:00");
+    }
+
+    #[test]
+    fn every_identity_has_its_own_key_and_fingerprint() {
+        let (one, other) = (tls_identity("same", now()).unwrap(), tls_identity("same", now()).unwrap());
+        assert_ne!(one.private_key_pkcs8, other.private_key_pkcs8);
+        assert_ne!(one.fingerprint(), other.fingerprint());
+        assert_eq!(one.fingerprint(), Fingerprint::of(&one.certificate_der));
+    }
+
+    #[test]
+    fn key_and_certificate_serve_tls() {
+        let identity = tls_identity("SN0000123", now()).unwrap();
+        let key = rustls::pki_types::PrivatePkcs8KeyDer::from(identity.private_key_pkcs8.to_vec());
+        let provider = std::sync::Arc::new(rustls::crypto::aws_lc_rs::default_provider());
+        rustls::ServerConfig::builder_with_provider(provider)
+            .with_safe_default_protocol_versions()
+            .unwrap()
+            .with_no_client_auth()
+            .with_single_cert(vec![identity.certificate_der.into()], key.into())
+            .unwrap();
+    }
+
+    #[test]
+    fn debug_shows_the_fingerprint_only() {
+        let identity = tls_identity("SN0000123", now()).unwrap();
+        assert_eq!(format!("{identity:?}"), format!("TlsIdentity({})", identity.fingerprint()));
+    }
+}
