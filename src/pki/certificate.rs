@@ -66,10 +66,12 @@ impl Certificate {
         Self::from_der(bytes)
     }
 
+    /// The certificate itself, as it was read.
     pub fn der(&self) -> &[u8] {
         &self.der
     }
 
+    /// As PEM, ending with a line feed.
     pub fn to_pem(&self) -> String {
         pem::certificate(&self.der)
     }
@@ -89,10 +91,12 @@ impl Certificate {
         self.facts.common_name.clone()
     }
 
+    /// Valid from this second on.
     pub const fn not_before(&self) -> DateTime<Utc> {
         self.facts.not_before
     }
 
+    /// Valid up to and with this second.
     pub const fn not_after(&self) -> DateTime<Utc> {
         self.facts.not_after
     }

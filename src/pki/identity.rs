@@ -3,7 +3,7 @@ use std::fmt;
 use chrono::{DateTime, Utc};
 use rcgen::{
     CertificateParams, DistinguishedName, DnType, ExtendedKeyUsagePurpose, IsCa, KeyPair, KeyUsagePurpose,
-    PKCS_ECDSA_P256_SHA256, date_time_ymd,
+    PKCS_ECDSA_P256_SHA256,
 };
 use zeroize::Zeroizing;
 
@@ -15,6 +15,7 @@ use super::{Fingerprint, PkiError};
 /// `Debug` shows the fingerprint only; the key is wiped when it is dropped.
 #[derive(Clone, PartialEq, Eq)]
 pub struct TlsIdentity {
+    /// Self-signed.
     pub certificate_der: Vec<u8>,
     /// ECDSA P-256, unencrypted.
     pub private_key_pkcs8: Zeroizing<Vec<u8>>,
@@ -46,14 +47,17 @@ pub fn tls_identity(common_name: &str, now: DateTime<Utc>) -> Result<TlsIdentity
     params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth];
     params.is_ca = IsCa::ExplicitNoCa;
     params.serial_number = Some(random_serial_number()?.into());
-    params.not_before = date(now - CLOCK_SKEW)?;
-    params.not_after = date_time_ymd(9999, 12, 31);
+    params.not_before = date(now.checked_sub_signed(CLOCK_SKEW))?;
+    params.not_after = date(DateTime::from_timestamp(NEVER, 0))?;
     let certificate = params.self_signed(&*key).map_err(|_| PkiError::Signing)?;
     Ok(TlsIdentity {
         certificate_der: certificate.der().to_vec(),
         private_key_pkcs8: Zeroizing::new(key.serialize_der()),
     })
 }
+
+/// 9999-12-31T23:59:59Z, which X.509 defines as "does not expire".
+const NEVER: i64 = 253_402_300_799;
 
 #[cfg(test)]
 mod tests {
@@ -67,7 +71,7 @@ mod tests {
         assert_eq!(certificate.common_name().as_deref(), Some("SN0000123"));
         assert!(certificate.is_self_signed());
         assert!(certificate.not_before() < now());
-        assert_eq!(certificate.not_after().to_rfc3339(), "9999-12-31T00:00:00+00:00");
+        assert_eq!(certificate.not_after().to_rfc3339(), "9999-12-31T23:59:59+00:00");
     }
 
     #[test]

@@ -54,6 +54,7 @@ impl PrivateKey {
         let bits = modulus_bits(der)?;
         let length = KeyLength::try_from(bits).map_err(|_| PkiError::KeyLength(bits))?;
         let material = match length {
+            // Checks the primes against the modulus, and computes anew what follows from them.
             KeyLength::Rsa1024 => {
                 let key = RsaPrivateKey::from_pkcs8_der(der).map_err(|_| PkiError::NotAPrivateKey)?;
                 Material::Legacy(Box::new(key))
@@ -76,6 +77,7 @@ impl PrivateKey {
         }
     }
 
+    /// 1024, 2048 or 4096.
     pub const fn bits(&self) -> u16 {
         self.length.bits()
     }

@@ -16,7 +16,9 @@ pub const PKCS12_ITERATIONS: u32 = 10_000;
 
 /// Writes a key and its certificates under a password: PBES2 with AES-256 and HMAC-SHA-256, and a MAC with SHA-256.
 ///
-/// The first certificate is the one for the key. `alias` is the key's friendly name. Blocks for some milliseconds.
+/// The first certificate is the one for the key. `alias` is the key's friendly name. The format
+/// writes `alias` and the password in UCS-2, so what lies beyond, such as emoji, is refused; Java's reader takes
+/// ASCII passwords only. Blocks for some milliseconds.
 pub fn pkcs12_write(
     alias: &str,
     key: &PrivateKey,
@@ -51,7 +53,8 @@ pub fn pkcs12_write(
 /// Reads a key and its certificates: first the one for the key, then the others in the order of the file.
 ///
 /// Takes the modern algorithms and the old ones of Windows and OpenSSL 1. Exactly one private key is expected. Blocks;
-/// how long is up to whoever wrote the file.
+/// how long is up to whoever wrote
+/// the file, within a million hashings of the password for each of its parts.
 pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Certificate>), PkiError> {
     check_outside(bytes)?;
     let archive = Pkcs12Archive::from_pkcs12(bytes, password).map_err(reading)?;
@@ -136,9 +139,16 @@ mod tests {
                 let bytes = pkcs12_write("server", key, &[&certificate], password).unwrap();
                 let (read_key, certificates) = pkcs12_read(&bytes, password).unwrap();
                 assert_eq!(*read_key.to_pkcs8_der().unwrap(), *key.to_pkcs8_der().unwrap());
-                assert_eq!(certificates, [certificate.clone()]);
+                assert_eq!(certificates, std::slice::from_ref(&certificate));
             }
         }
+    }
+
+    #[test]
+    fn what_the_format_cannot_write_is_refused() {
+        let write = |alias, password| pkcs12_write(alias, samples::key(), &[samples::certificate()], password);
+        assert_eq!(write("server", "robot 🤖"), Err(PkiError::Pkcs12Encoding));
+        assert_eq!(write("🤖", PASSWORD), Err(PkiError::Pkcs12Encoding));
     }
 
     #[test]

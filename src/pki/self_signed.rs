@@ -15,7 +15,9 @@ use crate::model::{SelfSignedRequest, Subject, SubjectError};
 pub struct ServerNames {
     /// The ApplicationUri of the server's application description; clients compare the two.
     pub application_uri: String,
+    /// IPv4 or IPv6.
     pub ips: Vec<IpAddr>,
+    /// Host names, with or without a domain.
     pub dns: Vec<String>,
 }
 
@@ -50,8 +52,8 @@ pub fn self_signed(
     params.key_identifier_method = KeyIdMethod::Sha256;
     params.use_authority_key_identifier_extension = true;
     params.serial_number = Some(random_serial_number()?.into());
-    params.not_before = date(now - CLOCK_SKEW)?;
-    params.not_after = date(now + request.validity.duration())?;
+    params.not_before = date(now.checked_sub_signed(CLOCK_SKEW))?;
+    params.not_after = date(now.checked_add_signed(request.validity.duration()))?;
     let certificate = params.self_signed(key).map_err(|_| PkiError::Signing)?;
     Certificate::from_der(certificate.der())
 }
@@ -67,8 +69,11 @@ pub(super) fn random_serial_number() -> Result<Vec<u8>, PkiError> {
     Ok(bytes.to_vec())
 }
 
-pub(super) fn date(when: DateTime<Utc>) -> Result<OffsetDateTime, PkiError> {
-    OffsetDateTime::from_unix_timestamp(when.timestamp()).map_err(|_| PkiError::Dates)
+/// Refuses `None`, and what X.509 cannot write: years before 0 or after 9999.
+pub(super) fn date(when: Option<DateTime<Utc>>) -> Result<OffsetDateTime, PkiError> {
+    let seconds = when.ok_or(PkiError::Dates)?.timestamp();
+    let date = OffsetDateTime::from_unix_timestamp(seconds).ok().filter(|date| date.year() >= 0);
+    date.ok_or(PkiError::Dates)
 }
 
 fn distinguished_name(subject: &Subject) -> Result<DistinguishedName, PkiError> {
@@ -210,6 +215,14 @@ mod tests {
         let certificate = samples::certificate();
         assert_eq!(certificate.not_before(), now() - Duration::days(1));
         assert_eq!(certificate.not_after(), now() + request(KeyLength::Rsa2048).validity.duration());
+    }
+
+    #[test]
+    fn a_clock_beyond_all_dates_is_an_error_and_no_crash() {
+        for now in [DateTime::<Utc>::MIN_UTC, DateTime::<Utc>::MAX_UTC, now() - Duration::days(365 * 2040)] {
+            let made = self_signed(&request(KeyLength::Rsa2048), &names(), samples::key(), now);
+            assert_eq!(made, Err(PkiError::Dates));
+        }
     }
 
     #[test]
