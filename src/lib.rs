@@ -26,6 +26,7 @@
 #![warn(missing_debug_implementations, clippy::unwrap_used, clippy::dbg_macro)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod cli;
 pub mod jobs;
 pub mod model;
 pub mod pki;
