@@ -8,8 +8,9 @@ use parking_lot::Mutex;
 
 /// The folder the OPC UA crate reads certificates from.
 ///
-/// Its own key lies there only while the server is being built. Trust is asked of the folder anew for every session,
-/// so changing the files changes who is let in. Only exact certificates are trusted; issuers and revocation are not
+/// The crate reads the server's certificate and key from it again for every connection, so the key lies there, for
+/// this account's eyes only, until the server is dropped. It asks the folder for trust in every new session, so
+/// changing the files changes who is let in. Only exact certificates are trusted; issuers and revocation are not
 /// looked at.
 #[derive(Debug)]
 pub(super) struct PkiFolder {
@@ -47,11 +48,10 @@ impl PkiFolder {
         write_private_file(&self.root.join(OWN_KEY), key_pem.as_bytes())
     }
 
-    /// The server has read its key and keeps it in memory. From now on nothing a stranger sends is written to disk
-    /// either: the crate would store every unknown certificate in the folder for rejected ones, without any limit,
-    /// and refuse it even after it became trusted. A plain file in that folder's place stops it.
-    pub(super) fn seal(&self) -> io::Result<()> {
-        remove_if_there(&self.root.join(OWN_KEY))?;
+    /// Keeps what strangers send off the disk: the crate would store every unknown certificate in the folder for
+    /// rejected ones, without any limit, and refuse it even after it became trusted. A plain file in that folder's
+    /// place stops it; the crate insists on a folder only while it builds the server.
+    pub(super) fn close_rejected(&self) -> io::Result<()> {
         let rejected = self.root.join(REJECTED);
         fs::remove_dir_all(&rejected)?;
         write_private_file(&rejected, &[])
@@ -81,6 +81,14 @@ impl PkiFolder {
             }
         }
         Ok(())
+    }
+}
+
+impl Drop for PkiFolder {
+    fn drop(&mut self) {
+        if let Err(e) = remove_if_there(&self.root.join(OWN_KEY)) {
+            tracing::warn!("the OPC UA server's key stays in {}: {e}", self.root.display());
+        }
     }
 }
 

@@ -30,7 +30,7 @@ fn modes(policy: SecurityPolicy) -> Vec<(SecurityPolicy, MessageSecurityMode)> {
     }
 }
 
-fn wire(policy: SecurityPolicy) -> WirePolicy {
+pub(super) fn wire(policy: SecurityPolicy) -> WirePolicy {
     match policy {
         SecurityPolicy::None => WirePolicy::None,
         SecurityPolicy::Basic128Rsa15 => WirePolicy::Basic128Rsa15,

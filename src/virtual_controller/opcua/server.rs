@@ -10,7 +10,6 @@ use opcua::server::node_manager::ServerContext;
 use opcua::server::node_manager::memory::{CoreNodeManagerBuilder, InMemoryNodeManagerBuilder};
 use opcua::server::{Server, ServerBuilder, ServerHandle};
 use opcua::types::BuildInfo;
-use rsa::RsaPrivateKey;
 use rsa::pkcs8::{EncodePrivateKey, LineEnding};
 use rsa::traits::PublicKeyParts;
 use tokio::net::TcpListener;
@@ -140,20 +139,15 @@ fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHan
     let devices = NodeSet::devices().map_err(StartError::Failed)?;
     let pki = PkiFolder::create(config.pki_folder.clone()).map_err(failed)?;
     pki.set_trusted(&config.trusted_clients).map_err(failed)?;
-    let built = write_key(config, &key, &pki)
-        .and_then(|()| builder(config, address, key.size() * 8, devices, &pki).build().map_err(StartError::Failed));
-    // Whether or not it could be built, the key must not stay on disk.
-    pki.seal().map_err(failed)?;
-    let (server, handle) = built?;
+    let pem = key.to_pkcs8_pem(LineEnding::LF).map_err(failed)?;
+    pki.write_own(&config.certificate_der, &pem).map_err(failed)?;
+    let (server, handle) =
+        builder(config, address, key.size() * 8, devices, &pki).build().map_err(StartError::Failed)?;
+    pki.close_rejected().map_err(failed)?;
     if handle.info().server_pkey.is_none() || handle.info().server_certificate.is_none() {
         return Err(StartError::InvalidParameter("the server certificate or its key cannot be used".to_owned()));
     }
     Ok((server, handle, pki))
-}
-
-fn write_key(config: &OpcUaConfig, key: &RsaPrivateKey, pki: &PkiFolder) -> Result<(), StartError> {
-    let pem = key.to_pkcs8_pem(LineEnding::LF).map_err(failed)?;
-    pki.write_own(&config.certificate_der, &pem).map_err(failed)
 }
 
 fn builder(
