@@ -33,3 +33,4 @@ pub mod pki;
 pub mod protocol;
 pub mod session;
 pub mod workspace;
+pub mod virtual_controller;

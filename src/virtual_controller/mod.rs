@@ -1,0 +1,3 @@
+//! The bundled mock controller.
+
+pub mod opcua;
