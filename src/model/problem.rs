@@ -69,6 +69,7 @@ pub enum ErrorCode {
     AddressTaken,
     UnknownController,
     FileUnreadable,
+    NotConfirmed,
     // the PC
     WorkspaceReadOnly,
     WorkspaceFull,
@@ -616,6 +617,15 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("无法读取文件", "文件不存在，或当前账户没有读取权限。", "请检查文件名和权限。"),
     ),
     (
+        ErrorCode::NotConfirmed,
+        text(
+            "The operation was not confirmed",
+            "It changes the controllers, and there is no terminal to ask on.",
+            "Repeat the command with --yes.",
+        ),
+        text("操作未确认", "该操作会更改控制器，且没有可询问的终端。", "请加上 --yes 重新执行命令。"),
+    ),
+    (
         ErrorCode::WorkspaceReadOnly,
         text(
             "The workspace cannot be written",
@@ -727,7 +737,8 @@ mod tests {
             | NameTaken
             | AddressTaken
             | UnknownController
-            | FileUnreadable => 12,
+            | FileUnreadable
+            | NotConfirmed => 13,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
             | Cancelled | Internal => 7,
         }
@@ -736,10 +747,10 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        assert_eq!(codes.len(), 7 + 11 + 15 + 12 + 7);
+        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 7);
         codes.sort();
         codes.dedup();
-        assert_eq!(codes.len(), 52);
+        assert_eq!(codes.len(), 53);
         for code in ErrorCode::all() {
             assert!(counted(code) > 0);
             let (en, zh) = (code.explain(Language::En), code.explain(Language::Zh));

@@ -1,0 +1,34 @@
+//! What an engineer does to many controllers at once.
+//!
+//! An [`Operation`] says what to do to one controller; [`run`] does it to many, side by side, reporting
+//! [`JobEvent`]s. Window and command line build the same operations and read the same events.
+//!
+//! | file | operation |
+//! |---|---|
+//! | `get_info` | read everything a row shows |
+//! | `server_control` | start and stop the OPC UA server |
+//! | `settings` | read and change the basic settings |
+//! | `users` | list, add, remove users |
+//! | `self_signed` | make and install a self-signed certificate |
+//! | `clients` | list and add trusted client certificates |
+//! | `enroll` | meet a new controller: fingerprint, password, first information |
+
+mod clients;
+mod enroll;
+mod get_info;
+mod operation;
+mod runner;
+mod self_signed;
+mod server_control;
+mod settings;
+mod users;
+
+pub use clients::{AddClientCertificates, ClientCertificateFile, ListClients};
+pub use enroll::{Enrolled, enroll, probe};
+pub use get_info::GetInfo;
+pub use operation::{Confirmation, Operation, Outcome, Run, Step};
+pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
+pub use self_signed::{SelfSigned, SelfSignedFields};
+pub use server_control::{StartServer, StopServer};
+pub use settings::{ReadSettings, SetSettings, SettingsChange};
+pub use users::{AddUser, ListUsers, RemoveUsers};

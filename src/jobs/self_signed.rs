@@ -1,0 +1,155 @@
+use std::net::IpAddr;
+
+use async_trait::async_trait;
+use chrono::Utc;
+use secrecy::SecretString;
+
+use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use crate::model::{
+    CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, Subject,
+    Validity,
+};
+use crate::pki::{self, Certificate, PrivateKey, ServerNames};
+use crate::protocol::{Base64Bytes, ImportCertificate, Installed, MakeSelfSigned, WireSecret};
+use crate::workspace::CertificateFiles;
+
+/// The fields of the self-signed dialog (manual 2.7.1.2).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SelfSignedFields {
+    /// `None`: each controller's own ApplicationName. The only choice for several controllers.
+    pub common_name: Option<String>,
+    pub country: String,
+    pub state: String,
+    pub locality: String,
+    pub organisation: String,
+    pub key_length: KeyLength,
+    pub validity: Validity,
+}
+
+impl SelfSignedFields {
+    /// The request for a controller that calls itself `application_name`.
+    pub fn request(&self, application_name: &str) -> SelfSignedRequest {
+        SelfSignedRequest {
+            subject: Subject {
+                common_name: self.common_name.clone().unwrap_or_else(|| application_name.to_owned()),
+                country: self.country.clone(),
+                state: self.state.clone(),
+                locality: self.locality.clone(),
+                organisation: self.organisation.clone(),
+            },
+            key_length: self.key_length,
+            validity: self.validity,
+        }
+    }
+}
+
+/// Makes a self-signed server certificate and installs it. Legacy firmware gets key and certificate from the PC;
+/// current firmware makes both itself.
+#[derive(Debug, Clone)]
+pub struct SelfSigned {
+    pub fields: SelfSignedFields,
+    /// Where to keep a copy (manual 2.8.1); `None` when backup is off.
+    pub backup: Option<CertificateFiles>,
+}
+
+fn bad_request(error: impl std::fmt::Display) -> Problem {
+    Problem::with_detail(ErrorCode::BadCertificateRequest, error)
+}
+
+#[async_trait]
+impl Operation for SelfSigned {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation {
+            stops_server: true,
+            replaces_certificate: true,
+            overwrites_backup: self.backup.is_some(),
+            ..Confirmation::default()
+        })
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        let application_name = controller.known.as_ref().map_or("x", |info| &info.application_name);
+        self.fields.request(application_name).subject.check().map_err(bad_request)
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let info = run.session.info().await?;
+        let settings = run.session.settings().await?;
+        let request = self.fields.request(&info.application_name);
+        request.check(&settings.value.security_policies).map_err(bad_request)?;
+        let (installed, key) = match info.generation() {
+            FirmwareGeneration::Current => {
+                run.begin(Step::Apply)?;
+                let change = MakeSelfSigned { revision: info.revision, request };
+                (run.session.make_self_signed(change).await?, None)
+            }
+            FirmwareGeneration::Legacy => {
+                let (installed, key) = make_and_send(run, &info, request).await?;
+                (installed, Some(key))
+            }
+        };
+        let certificate = Certificate::from_der(&installed.certificate.0)?;
+        let saved = match &self.backup {
+            None => None,
+            Some(files) => {
+                // Saved also after a cancel: a certificate that is in use without its backup is what nobody wants.
+                (run.on_step)(Step::SaveBackup);
+                let key = key.as_ref().map(|key| (key, run.password));
+                Some(files.save_self_signed(&info.serial, &certificate, key)?)
+            }
+        };
+        Ok(Outcome::Certificate { summary: certificate.summary(), saved })
+    }
+}
+
+async fn make_and_send(
+    run: &mut Run<'_>,
+    info: &ControllerInfo,
+    request: SelfSignedRequest,
+) -> Result<(Installed, PrivateKey), Problem> {
+    run.begin(Step::MakeKey)?;
+    let names = server_names(info, run.controller);
+    let password = transfer_password()?;
+    let alias = info.serial.to_string();
+    let (key, pkcs12, password) = run
+        .on_a_core(move || -> Result<_, pki::PkiError> {
+            let key = PrivateKey::generate(request.key_length)?;
+            let certificate = pki::self_signed(&request, &names, &key, Utc::now())?;
+            let pkcs12 = pki::pkcs12_write(&alias, &key, &[&certificate], secrecy::ExposeSecret::expose_secret(&password))?;
+            Ok((key, pkcs12, password))
+        })
+        .await??;
+    run.begin(Step::Apply)?;
+    let change = ImportCertificate {
+        revision: info.revision,
+        kind: CertificateType::SelfSigned,
+        pkcs12: Base64Bytes(pkcs12),
+        password: WireSecret(password),
+    };
+    Ok((run.session.import_certificate(change).await?, key))
+}
+
+/// What clients will compare with the certificate: the ApplicationUri the server announces (OPC 10000-6 §6.2.2), and
+/// the names it is reached by, from both sides.
+fn server_names(info: &ControllerInfo, controller: &JobController) -> ServerNames {
+    let announced = info.endpoint.strip_prefix("opc.tcp://").and_then(|rest| rest.split('/').next()).unwrap_or_default();
+    let announced = announced.rsplit_once(':').map_or(announced, |(host, _)| host).trim_matches(['[', ']']);
+    let mut names =
+        ServerNames { application_uri: format!("urn:{}", info.application_name), ips: Vec::new(), dns: Vec::new() };
+    for host in [announced, controller.address.host()] {
+        match host.parse::<IpAddr>() {
+            Ok(ip) if !names.ips.contains(&ip) && !ip.is_unspecified() => names.ips.push(ip),
+            Err(_) if !host.is_empty() && !names.dns.iter().any(|d| d == host) => names.dns.push(host.to_owned()),
+            _ => {}
+        }
+    }
+    names
+}
+
+/// A password for one transfer, known to nobody but the two ends.
+fn transfer_password() -> Result<SecretString, Problem> {
+    let mut bytes = [0u8; 24];
+    getrandom::fill(&mut bytes).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
+    Ok(SecretString::from(hex::encode(bytes)))
+}

@@ -1,0 +1,38 @@
+use async_trait::async_trait;
+
+use super::{Confirmation, Operation, Outcome, Run, Step};
+use crate::model::Problem;
+
+/// Starts the OPC UA server (manual 2.4.3).
+#[derive(Debug, Clone, Copy)]
+pub struct StartServer;
+
+#[async_trait]
+impl Operation for StartServer {
+    fn confirmation(&self) -> Option<Confirmation> {
+        None
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Apply)?;
+        run.session.start_server().await?;
+        Ok(Outcome::Done)
+    }
+}
+
+/// Stops the OPC UA server, cutting its clients off (manual 2.4.3).
+#[derive(Debug, Clone, Copy)]
+pub struct StopServer;
+
+#[async_trait]
+impl Operation for StopServer {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Apply)?;
+        run.session.stop_server().await?;
+        Ok(Outcome::Done)
+    }
+}

@@ -1,0 +1,123 @@
+use std::collections::BTreeSet;
+
+use async_trait::async_trait;
+
+use super::{Confirmation, Operation, Outcome, Run, Step};
+use crate::model::{
+    ErrorCode, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
+};
+use crate::protocol;
+
+/// Reads the basic settings.
+#[derive(Debug, Clone, Copy)]
+pub struct ReadSettings;
+
+#[async_trait]
+impl Operation for ReadSettings {
+    fn confirmation(&self) -> Option<Confirmation> {
+        None
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        Ok(Outcome::Settings(run.session.settings().await?))
+    }
+}
+
+/// The settings to be changed; what is `None` stays as it is in each controller.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct SettingsChange {
+    pub port: Option<ServerPort>,
+    pub startup: Option<StartupMode>,
+    pub security_policies: Option<BTreeSet<SecurityPolicy>>,
+    pub user_tokens: Option<BTreeSet<UserTokenPolicy>>,
+    pub server_log: Option<bool>,
+    pub delete_log: bool,
+}
+
+impl SettingsChange {
+    /// Every setting, as a dialog applies them.
+    pub fn all(settings: ServerSettings, delete_log: bool) -> Self {
+        Self {
+            port: Some(settings.port),
+            startup: Some(settings.startup),
+            security_policies: Some(settings.security_policies),
+            user_tokens: Some(settings.user_tokens),
+            server_log: Some(settings.server_log),
+            delete_log,
+        }
+    }
+
+    fn apply(&self, settings: &mut ServerSettings) {
+        if let Some(port) = self.port {
+            settings.port = port;
+        }
+        if let Some(startup) = self.startup {
+            settings.startup = startup;
+        }
+        if let Some(policies) = &self.security_policies {
+            settings.security_policies.clone_from(policies);
+        }
+        if let Some(tokens) = &self.user_tokens {
+            settings.user_tokens.clone_from(tokens);
+        }
+        if let Some(server_log) = self.server_log {
+            settings.server_log = server_log;
+        }
+    }
+}
+
+/// Changes the basic settings (manual 2.6.1).
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct SetSettings {
+    pub change: SettingsChange,
+    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
+    pub based_on: Option<u64>,
+    /// What was typed to allow switching the server log on.
+    pub log_password: Option<String>,
+}
+
+#[async_trait]
+impl Operation for SetSettings {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { stops_server: true, deletes_log: self.change.delete_log, ..Confirmation::default() })
+    }
+
+    fn check(&self, controller: &super::JobController) -> Result<(), Problem> {
+        let empty = |set: Option<bool>| set == Some(true);
+        if empty(self.change.security_policies.as_ref().map(BTreeSet::is_empty))
+            || empty(self.change.user_tokens.as_ref().map(BTreeSet::is_empty))
+        {
+            return Err(ErrorCode::BadSettings.into());
+        }
+        if self.change.server_log == Some(true)
+            && self.log_password.as_deref().is_some_and(|p| p != ServerSettings::LOG_PASSWORD)
+        {
+            return Err(ErrorCode::LogPassword.into());
+        }
+        match (&controller.known, self.change.port) {
+            (Some(known), Some(port)) if known.used_ports.contains(&port.get()) => {
+                Err(Problem::with_detail(ErrorCode::PortConflict, port))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let current = run.session.settings().await?;
+        let mut settings = current.value;
+        self.change.apply(&mut settings);
+        settings.check().map_err(|e| Problem::with_detail(ErrorCode::BadSettings, e))?;
+        run.begin(Step::Apply)?;
+        run.session
+            .set_settings(protocol::SetSettings {
+                revision: self.based_on.unwrap_or(current.revision),
+                settings,
+                delete_log: self.change.delete_log,
+                log_password: self.log_password.clone(),
+            })
+            .await?;
+        Ok(Outcome::Done)
+    }
+}

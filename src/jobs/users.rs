@@ -1,0 +1,87 @@
+use async_trait::async_trait;
+
+use super::{Confirmation, Operation, Outcome, Run, Step};
+use crate::model::{Credential, ErrorCode, MAX_USERS, Problem, UserName};
+use crate::protocol::{self, WireSecret};
+
+/// Lists the users of an OPC UA server; never their passwords (manual 2.6.2.1).
+#[derive(Debug, Clone, Copy)]
+pub struct ListUsers;
+
+#[async_trait]
+impl Operation for ListUsers {
+    fn confirmation(&self) -> Option<Confirmation> {
+        None
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        Ok(Outcome::Users(run.session.users().await?))
+    }
+}
+
+/// Adds one user (manual 2.6.2.2).
+#[derive(Debug, Clone)]
+pub struct AddUser {
+    pub credential: Credential,
+    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
+    pub based_on: Option<u64>,
+}
+
+#[async_trait]
+impl Operation for AddUser {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let current = run.session.users().await?;
+        if current.value.contains(&self.credential.name) {
+            return Err(Problem::with_detail(ErrorCode::UserExists, &self.credential.name));
+        }
+        if current.value.len() >= MAX_USERS {
+            return Err(ErrorCode::TooManyUsers.into());
+        }
+        run.begin(Step::Apply)?;
+        run.session
+            .add_user(protocol::AddUser {
+                revision: self.based_on.unwrap_or(current.revision),
+                name: self.credential.name.clone(),
+                password: WireSecret(self.credential.password.secret().clone()),
+            })
+            .await?;
+        Ok(Outcome::Done)
+    }
+}
+
+/// Removes users (manual 2.6.2.3).
+#[derive(Debug, Clone)]
+pub struct RemoveUsers {
+    pub names: Vec<UserName>,
+    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
+    pub based_on: Option<u64>,
+}
+
+#[async_trait]
+impl Operation for RemoveUsers {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let current = run.session.users().await?;
+        if let Some(missing) = self.names.iter().find(|name| !current.value.contains(name)) {
+            return Err(Problem::with_detail(ErrorCode::UserNotFound, missing));
+        }
+        run.begin(Step::Apply)?;
+        run.session
+            .remove_users(protocol::RemoveUsers {
+                revision: self.based_on.unwrap_or(current.revision),
+                names: self.names.clone(),
+            })
+            .await?;
+        Ok(Outcome::Done)
+    }
+}

@@ -1,0 +1,263 @@
+//! The driver for the management protocol over HTTPS.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use async_trait::async_trait;
+use reqwest::{Method, StatusCode};
+use secrecy::SecretString;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::pinned_tls::PinVerifier;
+use super::{Connector, ControllerSession};
+use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
+use crate::pki::Fingerprint;
+use crate::protocol::{
+    self, AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
+    MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
+};
+
+/// How long the driver waits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Timeouts {
+    /// For the TCP and TLS handshakes. Default 5 s.
+    pub connect: Duration,
+    /// For an answer that takes no work in the controller. Default 10 s.
+    pub read: Duration,
+    /// For a change: the controller may have to make a 4096-bit key and restart its server. Default 120 s.
+    pub change: Duration,
+}
+
+impl Default for Timeouts {
+    fn default() -> Self {
+        Self { connect: Duration::from_secs(5), read: Duration::from_secs(10), change: Duration::from_secs(120) }
+    }
+}
+
+/// Opens sessions over HTTPS with a pinned certificate.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ManagementConnector {
+    pub timeouts: Timeouts,
+}
+
+#[async_trait]
+impl Connector for ManagementConnector {
+    async fn probe(&self, address: &Address) -> Result<Fingerprint, Problem> {
+        let link = Link::new(address, None, self.timeouts)?;
+        let hello: Hello = link.send(Method::GET, protocol::HELLO, None::<&()>, self.timeouts.read).await?;
+        if hello.product != protocol::PRODUCT {
+            return Err(ErrorCode::NotAController.into());
+        }
+        if !hello.versions.contains(&protocol::VERSION) {
+            return Err(Problem::with_detail(ErrorCode::ProtocolVersion, format!("{:?}", hello.versions)));
+        }
+        link.verifier.seen().ok_or_else(|| ErrorCode::NotAController.into())
+    }
+
+    async fn connect(
+        &self,
+        address: &Address,
+        fingerprint: Fingerprint,
+        password: &SecretString,
+    ) -> Result<Box<dyn ControllerSession>, Problem> {
+        let mut link = Link::new(address, Some(fingerprint), self.timeouts)?;
+        let login = Login { password: WireSecret(password.clone()) };
+        let session: Session = link.send(Method::POST, protocol::LOGIN, Some(&login), self.timeouts.read).await?;
+        link.token = Some(session.token);
+        Ok(Box::new(link))
+    }
+}
+
+/// One HTTPS connection that is kept open, and the token of the session on it.
+struct Link {
+    client: reqwest::Client,
+    verifier: Arc<PinVerifier>,
+    base: String,
+    pin: Option<Fingerprint>,
+    token: Option<WireSecret>,
+    timeouts: Timeouts,
+}
+
+impl Link {
+    fn new(address: &Address, pin: Option<Fingerprint>, timeouts: Timeouts) -> Result<Self, Problem> {
+        let internal = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::Internal, e);
+        let verifier = PinVerifier::new(pin);
+        let tls = verifier.client_config().map_err(|e| internal(&e))?;
+        let client = reqwest::Client::builder()
+            .tls_backend_preconfigured(tls)
+            .https_only(true)
+            // A proxy would see the plant's addresses, and controllers are on the local network.
+            .no_proxy()
+            .redirect(reqwest::redirect::Policy::none())
+            .connect_timeout(timeouts.connect)
+            .pool_max_idle_per_host(1)
+            .build()
+            .map_err(|e| internal(&e))?;
+        Ok(Self { client, verifier, base: format!("https://{}", address.authority()), pin, token: None, timeouts })
+    }
+
+    async fn send<B: Serialize + Sync, R: DeserializeOwned>(
+        &self,
+        method: Method,
+        path: &str,
+        body: Option<&B>,
+        timeout: Duration,
+    ) -> Result<R, Problem> {
+        let mut request = self.client.request(method, format!("{}{path}", self.base)).timeout(timeout);
+        if let Some(token) = &self.token {
+            request = request.bearer_auth(token.expose());
+        }
+        if let Some(body) = body {
+            request = request.json(body);
+        }
+        let response = request.send().await.map_err(|e| self.explain(&e))?;
+        let status = response.status();
+        let bytes = self.read_bounded(response).await?;
+        if status.is_success() {
+            // An answer without content is JSON `null`.
+            let json: &[u8] = if bytes.is_empty() { b"null" } else { &bytes };
+            return serde_json::from_slice(json).map_err(|e| Problem::with_detail(ErrorCode::NotAController, e));
+        }
+        match serde_json::from_slice::<Failure>(&bytes) {
+            Ok(failure) => Err(failure.into()),
+            Err(_) if status == StatusCode::NOT_FOUND => Err(ErrorCode::ProtocolVersion.into()),
+            Err(_) => Err(Problem::with_detail(ErrorCode::NotAController, format!("HTTP {status}"))),
+        }
+    }
+
+    /// A lying server must not fill the memory of this one.
+    async fn read_bounded(&self, mut response: reqwest::Response) -> Result<Vec<u8>, Problem> {
+        let mut bytes = Vec::new();
+        while let Some(chunk) = response.chunk().await.map_err(|e| self.explain(&e))? {
+            if bytes.len() + chunk.len() > protocol::MAX_RESPONSE_BYTES {
+                return Err(Problem::with_detail(ErrorCode::NotAController, "the answer is too large"));
+            }
+            bytes.extend_from_slice(&chunk);
+        }
+        Ok(bytes)
+    }
+
+    /// What a failed exchange means to the engineer.
+    fn explain(&self, error: &reqwest::Error) -> Problem {
+        if let (Some(pin), Some(seen)) = (self.pin, self.verifier.seen())
+            && pin != seen
+        {
+            return Problem::with_detail(
+                ErrorCode::FingerprintChanged,
+                format!("expected {}, found {}", pin.grouped(), seen.grouped()),
+            );
+        }
+        let detail = innermost(error);
+        if error.is_connect() {
+            // The TCP connection stands once a certificate was seen; a TLS or protocol error that comes before means
+            // that something else listens there.
+            let code = if is_caused_by::<rustls::Error>(error) || is_invalid_data(error) {
+                ErrorCode::NotAController
+            } else {
+                ErrorCode::Unreachable
+            };
+            return Problem::with_detail(code, detail);
+        }
+        if error.is_timeout() {
+            return ErrorCode::Timeout.into();
+        }
+        if error.is_decode() || is_caused_by_http_parse(error) {
+            return Problem::with_detail(ErrorCode::NotAController, detail);
+        }
+        Problem::with_detail(ErrorCode::ConnectionLost, detail)
+    }
+
+    async fn get<R: DeserializeOwned>(&self, path: &str) -> Result<R, Problem> {
+        self.send(Method::GET, path, None::<&()>, self.timeouts.read).await
+    }
+
+    async fn change<B: Serialize + Sync, R: DeserializeOwned>(&self, path: &str, body: &B) -> Result<R, Problem> {
+        self.send(Method::POST, path, Some(body), self.timeouts.change).await
+    }
+}
+
+fn causes<'a>(error: &'a (dyn std::error::Error + 'static)) -> impl Iterator<Item = &'a (dyn std::error::Error + 'static)> {
+    std::iter::successors(Some(error), |e| e.source())
+}
+
+fn innermost(error: &reqwest::Error) -> String {
+    causes(error).last().map(ToString::to_string).unwrap_or_default()
+}
+
+fn is_caused_by<E: std::error::Error + 'static>(error: &reqwest::Error) -> bool {
+    causes(error).any(|e| {
+        e.is::<E>()
+            || e.downcast_ref::<std::io::Error>().and_then(|io| io.get_ref()).is_some_and(|inner| inner.is::<E>())
+    })
+}
+
+/// How rustls reports, through `std::io`, that the peer does not speak TLS.
+fn is_invalid_data(error: &reqwest::Error) -> bool {
+    causes(error)
+        .filter_map(|e| e.downcast_ref::<std::io::Error>())
+        .any(|io| matches!(io.kind(), std::io::ErrorKind::InvalidData | std::io::ErrorKind::UnexpectedEof))
+}
+
+fn is_caused_by_http_parse(error: &reqwest::Error) -> bool {
+    causes(error).filter_map(|e| e.downcast_ref::<hyper::Error>()).any(hyper::Error::is_parse)
+}
+
+#[async_trait]
+impl ControllerSession for Link {
+    async fn info(&mut self) -> Result<ControllerInfo, Problem> {
+        self.get(protocol::INFO).await
+    }
+
+    async fn start_server(&mut self) -> Result<Changed, Problem> {
+        self.change(protocol::SERVER_START, &serde_json::json!({})).await
+    }
+
+    async fn stop_server(&mut self) -> Result<Changed, Problem> {
+        self.change(protocol::SERVER_STOP, &serde_json::json!({})).await
+    }
+
+    async fn settings(&mut self) -> Result<Revisioned<ServerSettings>, Problem> {
+        self.get(protocol::SETTINGS).await
+    }
+
+    async fn set_settings(&mut self, change: SetSettings) -> Result<Changed, Problem> {
+        self.send(Method::PUT, protocol::SETTINGS, Some(&change), self.timeouts.change).await
+    }
+
+    async fn users(&mut self) -> Result<Revisioned<Vec<UserName>>, Problem> {
+        self.get(protocol::USERS).await
+    }
+
+    async fn add_user(&mut self, change: AddUser) -> Result<Changed, Problem> {
+        self.change(protocol::USERS, &change).await
+    }
+
+    async fn remove_users(&mut self, change: RemoveUsers) -> Result<Changed, Problem> {
+        self.change(protocol::USERS_REMOVE, &change).await
+    }
+
+    async fn make_self_signed(&mut self, change: MakeSelfSigned) -> Result<Installed, Problem> {
+        self.change(protocol::SELF_SIGNED, &change).await
+    }
+
+    async fn import_certificate(&mut self, change: ImportCertificate) -> Result<Installed, Problem> {
+        self.change(protocol::CERTIFICATE_IMPORT, &change).await
+    }
+
+    async fn clients(&mut self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
+        self.get(&protocol::clients_path(list)).await
+    }
+
+    async fn add_clients(&mut self, list: ClientList, change: AddClients) -> Result<Changed, Problem> {
+        self.change(&protocol::clients_path(list), &change).await
+    }
+
+    async fn close(&mut self) {
+        let bye = self.send::<(), Option<()>>(Method::POST, protocol::LOGOUT, None, Duration::from_secs(2));
+        if let Err(problem) = bye.await {
+            tracing::debug!(%problem, "logout failed");
+        }
+        self.token = None;
+    }
+}

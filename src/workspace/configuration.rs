@@ -1,0 +1,163 @@
+use std::collections::BTreeMap;
+
+use chrono::{DateTime, Utc};
+use serde::{Deserialize, Serialize};
+
+use crate::model::{Address, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, Language, Problem};
+use crate::pki::Fingerprint;
+
+const VERSION: u32 = 1;
+
+/// The most controllers a job may be set to work on at once.
+pub const MAX_PARALLELISM: usize = 64;
+
+/// `epson_opcua_config.json`: the list of controllers and the options.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Configuration {
+    version: u32,
+    #[serde(default)]
+    pub controllers: Vec<ControllerEntry>,
+    #[serde(default)]
+    pub options: Options,
+}
+
+/// A connection target. Its password is not here: see [`super::Passwords`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct ControllerEntry {
+    pub name: ControllerName,
+    pub address: Address,
+    pub series: ControllerSeries,
+    /// The management identity that was compared and accepted; without it nothing is sent to the controller.
+    #[serde(default)]
+    pub fingerprint: Option<Fingerprint>,
+    /// What was read last, so that the table is not empty after a restart.
+    #[serde(default)]
+    pub last: Option<Retrieved>,
+}
+
+/// Information with the time of this PC at which it was read.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Retrieved {
+    pub at: DateTime<Utc>,
+    pub info: ControllerInfo,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ThemeChoice {
+    #[default]
+    System,
+    Light,
+    Dark,
+}
+
+/// What the window remembers of itself.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[serde(default)]
+pub struct WindowState {
+    /// Inner size in points.
+    pub size: Option<(f32, f32)>,
+    /// Column widths in points, by the column's key.
+    pub columns: BTreeMap<String, f32>,
+    /// The column sorted by, and whether ascending.
+    pub sort: Option<(String, bool)>,
+}
+
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Options {
+    /// Keep copies of certificates made here, and of their keys where they exist on the PC (manual 2.8.1). Default off.
+    pub backup: bool,
+    /// How many controllers a job works on at once: 1 to [`MAX_PARALLELISM`]. Default 16.
+    pub parallelism: usize,
+    /// `None` follows the operating system.
+    pub language: Option<Language>,
+    pub theme: ThemeChoice,
+    pub window: WindowState,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            backup: false,
+            parallelism: 16,
+            language: None,
+            theme: ThemeChoice::System,
+            window: WindowState::default(),
+        }
+    }
+}
+
+impl Default for Configuration {
+    fn default() -> Self {
+        Self { version: VERSION, controllers: Vec::new(), options: Options::default() }
+    }
+}
+
+impl Configuration {
+    /// The reason in words when the bytes are not a configuration.
+    pub(super) fn from_json(bytes: &[u8]) -> Result<Self, String> {
+        let mut configuration: Self = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
+        if configuration.version != VERSION {
+            return Err(format!("version {} is not one this program knows", configuration.version));
+        }
+        configuration.options.parallelism = configuration.options.parallelism.clamp(1, MAX_PARALLELISM);
+        Ok(configuration)
+    }
+
+    pub(super) fn to_json(&self) -> Vec<u8> {
+        serde_json::to_vec_pretty(self).unwrap_or_default()
+    }
+
+    pub fn find(&self, name: &str) -> Option<&ControllerEntry> {
+        self.controllers.iter().find(|c| c.name.as_str() == name)
+    }
+
+    /// Names, and addresses with their ports, are unique (manual 2.5.1).
+    pub fn check_new(&self, name: &ControllerName, address: &Address) -> Result<(), Problem> {
+        if self.controllers.iter().any(|c| c.name == *name) {
+            return Err(Problem::with_detail(ErrorCode::NameTaken, name));
+        }
+        if let Some(taken) = self.controllers.iter().find(|c| c.address == *address) {
+            return Err(Problem::with_detail(ErrorCode::AddressTaken, &taken.name));
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn with_one() -> Configuration {
+        Configuration {
+            controllers: vec![ControllerEntry {
+                name: "Weld 1".parse().unwrap(),
+                address: "192.168.0.1".parse().unwrap(),
+                series: ControllerSeries::Rc700,
+                fingerprint: None,
+                last: None,
+            }],
+            ..Configuration::default()
+        }
+    }
+
+    #[test]
+    fn names_and_addresses_are_unique() {
+        let configuration = with_one();
+        let check = |name: &str, address: &str| {
+            configuration.check_new(&name.parse().unwrap(), &address.parse().unwrap()).map_err(|p| p.code)
+        };
+        assert_eq!(check("Weld 1", "192.168.0.2"), Err(ErrorCode::NameTaken));
+        assert_eq!(check("Weld 2", "192.168.0.1:7943"), Err(ErrorCode::AddressTaken));
+        assert_eq!(check("Weld 2", "192.168.0.1:8000"), Ok(()));
+    }
+
+    #[test]
+    fn a_file_with_less_in_it_gets_the_defaults() {
+        let configuration = Configuration::from_json(br#"{"version":1}"#).unwrap();
+        assert_eq!(configuration, Configuration::default());
+        let silly = Configuration::from_json(br#"{"version":1,"options":{"parallelism":0}}"#).unwrap();
+        assert_eq!(silly.options.parallelism, 1);
+    }
+}

@@ -1,0 +1,257 @@
+//! The folder on the PC: configuration, per-serial folders, backup, secrets.
+//!
+//! ```text
+//! <workspace>/
+//!   epson_opcua_config.json          controllers and options
+//!   .lock                            held by whoever may write the configuration
+//!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
+//! ```
+//!
+//! Every file is written under a temporary name, flushed and renamed, readable by its owner only: a reader sees the
+//! old content or the new one, whatever happens in between.
+
+mod atomic;
+mod certificate_files;
+mod configuration;
+mod passwords;
+
+use std::fs::{self, File, TryLockError};
+use std::io;
+use std::path::{Path, PathBuf};
+
+use chrono::Utc;
+use thiserror::Error;
+
+pub use atomic::write_atomic;
+pub use certificate_files::{CertificateFiles, SavedCertificate};
+pub use configuration::{
+    Configuration, ControllerEntry, MAX_PARALLELISM, Options, Retrieved, ThemeChoice, WindowState,
+};
+pub use passwords::{KeyringPasswords, MemoryPasswords, Passwords};
+
+use crate::model::{ErrorCode, Problem};
+
+const CONFIGURATION: &str = "epson_opcua_config.json";
+const LOCK: &str = ".lock";
+
+/// A configuration larger than this is not one (10,000 controllers take about 12 MB).
+const MAX_CONFIGURATION_BYTES: u64 = 64 * 1024 * 1024;
+
+/// Why the folder could not be used.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum WorkspaceError {
+    #[error("{}: {source}", path.display())]
+    NotWritable { path: PathBuf, source: io::Error },
+    #[error("{}: {source}", path.display())]
+    Full { path: PathBuf, source: io::Error },
+    #[error("{} is in use", .0.display())]
+    Busy(PathBuf),
+    #[error("{}: {source}", path.display())]
+    Unreadable { path: PathBuf, source: io::Error },
+}
+
+impl WorkspaceError {
+    fn writing(path: &Path, source: io::Error) -> Self {
+        let path = path.to_owned();
+        match source.kind() {
+            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
+                Self::Full { path, source }
+            }
+            _ => Self::NotWritable { path, source },
+        }
+    }
+}
+
+impl From<WorkspaceError> for Problem {
+    fn from(error: WorkspaceError) -> Self {
+        let code = match &error {
+            WorkspaceError::NotWritable { .. } => ErrorCode::WorkspaceReadOnly,
+            WorkspaceError::Full { .. } => ErrorCode::WorkspaceFull,
+            WorkspaceError::Busy(_) => ErrorCode::WorkspaceBusy,
+            WorkspaceError::Unreadable { .. } => ErrorCode::FileUnreadable,
+        };
+        Self::with_detail(code, error)
+    }
+}
+
+/// A workspace folder.
+#[derive(Debug, Clone)]
+pub struct Workspace {
+    root: PathBuf,
+}
+
+/// The right to write the configuration; given up when dropped, or when the process ends in whatever way.
+#[derive(Debug)]
+pub struct WorkspaceLock {
+    _file: File,
+}
+
+/// A configuration as it was found.
+#[derive(Debug)]
+pub struct Loaded {
+    pub configuration: Configuration,
+    /// The file was damaged and is now kept under this name, with the reason.
+    pub damaged: Option<(PathBuf, String)>,
+}
+
+impl Loaded {
+    /// What to tell the engineer, if anything.
+    pub fn notice(&self) -> Option<Problem> {
+        self.damaged.as_ref().map(|(path, reason)| {
+            Problem::with_detail(ErrorCode::ConfigurationDamaged, format!("{reason}; kept as {}", path.display()))
+        })
+    }
+}
+
+impl Workspace {
+    /// `C:\EpsonRC80\OPCUA` on Windows, `~/EpsonRC80/OPCUA` elsewhere: where the vendor's tool keeps its files.
+    pub fn default_root() -> PathBuf {
+        let base = if cfg!(windows) { Some(PathBuf::from("C:\\")) } else { std::env::home_dir() };
+        base.unwrap_or_default().join("EpsonRC80").join("OPCUA")
+    }
+
+    /// The folder is made when something is first written.
+    pub fn new(root: impl Into<PathBuf>) -> Self {
+        Self { root: root.into() }
+    }
+
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    pub fn certificate_files(&self) -> CertificateFiles {
+        CertificateFiles::new(self.root.clone())
+    }
+
+    /// Takes the right to write the configuration: the window for as long as it is open, a command for one change.
+    pub fn lock(&self) -> Result<WorkspaceLock, WorkspaceError> {
+        atomic::create_folder(&self.root)?;
+        let path = self.root.join(LOCK);
+        let file = File::options()
+            .create(true)
+            .write(true)
+            .truncate(false)
+            .open(&path)
+            .map_err(|e| WorkspaceError::writing(&path, e))?;
+        match file.try_lock() {
+            Ok(()) => Ok(WorkspaceLock { _file: file }),
+            Err(TryLockError::WouldBlock) => Err(WorkspaceError::Busy(self.root.clone())),
+            Err(TryLockError::Error(e)) => Err(WorkspaceError::writing(&path, e)),
+        }
+    }
+
+    /// Reads the configuration; without one, an empty one.
+    ///
+    /// A damaged file is renamed to `epson_opcua_config.damaged-<time>.json` and never written to again. If even that
+    /// is impossible the workspace is refused, so that nothing can overwrite it.
+    pub fn load(&self) -> Result<Loaded, WorkspaceError> {
+        let path = self.root.join(CONFIGURATION);
+        let unreadable = |source| WorkspaceError::Unreadable { path: path.clone(), source };
+        let fresh = |damaged| Loaded { configuration: Configuration::default(), damaged };
+        let length = match fs::metadata(&path) {
+            Ok(metadata) => metadata.len(),
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(fresh(None)),
+            Err(e) => return Err(unreadable(e)),
+        };
+        let parsed = if length > MAX_CONFIGURATION_BYTES {
+            Err(format!("the file has {length} bytes"))
+        } else {
+            Configuration::from_json(&fs::read(&path).map_err(unreadable)?)
+        };
+        match parsed {
+            Ok(configuration) => Ok(Loaded { configuration, damaged: None }),
+            Err(reason) => {
+                let aside = self.unused_name();
+                fs::rename(&path, &aside).map_err(|e| WorkspaceError::writing(&path, e))?;
+                Ok(fresh(Some((aside, reason))))
+            }
+        }
+    }
+
+    fn unused_name(&self) -> PathBuf {
+        let stamp = Utc::now().format("%Y%m%dT%H%M%SZ");
+        (0u32..)
+            .map(|n| {
+                let suffix = if n == 0 { String::new() } else { format!("-{n}") };
+                self.root.join(format!("epson_opcua_config.damaged-{stamp}{suffix}.json"))
+            })
+            .find(|path| !path.exists())
+            .unwrap_or_else(|| self.root.join("epson_opcua_config.damaged.json"))
+    }
+
+    /// Replaces the configuration. The lock proves that nobody else is doing the same.
+    pub fn save(&self, configuration: &Configuration, _lock: &WorkspaceLock) -> Result<(), WorkspaceError> {
+        write_atomic(&self.root.join(CONFIGURATION), &configuration.to_json())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn entry(name: &str) -> ControllerEntry {
+        ControllerEntry {
+            name: name.parse().unwrap(),
+            address: "192.168.0.1".parse().unwrap(),
+            series: crate::model::ControllerSeries::Rc800,
+            fingerprint: None,
+            last: None,
+        }
+    }
+
+    #[test]
+    fn what_is_saved_is_loaded() {
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path().join("空 间"));
+        let mut configuration = workspace.load().unwrap().configuration;
+        assert!(configuration.controllers.is_empty());
+        configuration.controllers.push(entry("焊接 1"));
+        workspace.save(&configuration, &workspace.lock().unwrap()).unwrap();
+        assert_eq!(workspace.load().unwrap().configuration, configuration);
+    }
+
+    #[test]
+    fn a_damaged_configuration_is_kept_aside_and_said_so() {
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path());
+        let path = folder.path().join(CONFIGURATION);
+        for damaged in [&b"{\"version\":1,\"contr"[..], b"", b"\xff\xfe", b"{\"version\":99}"] {
+            fs::write(&path, damaged).unwrap();
+            let loaded = workspace.load().unwrap();
+            assert!(loaded.configuration.controllers.is_empty());
+            let (aside, _) = loaded.damaged.as_ref().expect("said so");
+            assert_eq!(fs::read(aside).unwrap(), damaged, "kept as it was");
+            assert_eq!(loaded.notice().unwrap().code, ErrorCode::ConfigurationDamaged);
+            workspace.save(&loaded.configuration, &workspace.lock().unwrap()).unwrap();
+            assert_eq!(fs::read(aside).unwrap(), damaged, "never overwritten");
+        }
+    }
+
+    #[test]
+    fn only_one_writer_at_a_time() {
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path());
+        let held = workspace.lock().unwrap();
+        assert!(matches!(workspace.lock(), Err(WorkspaceError::Busy(_))));
+        drop(held);
+        assert!(workspace.lock().is_ok());
+    }
+
+    #[test]
+    fn a_full_disk_is_told_from_a_missing_permission() {
+        let of = |kind: io::ErrorKind| Problem::from(WorkspaceError::writing(Path::new("x"), kind.into())).code;
+        assert_eq!(of(io::ErrorKind::StorageFull), ErrorCode::WorkspaceFull);
+        assert_eq!(of(io::ErrorKind::PermissionDenied), ErrorCode::WorkspaceReadOnly);
+        assert_eq!(of(io::ErrorKind::ReadOnlyFilesystem), ErrorCode::WorkspaceReadOnly);
+    }
+
+    #[test]
+    fn a_workspace_that_is_a_file_is_refused_with_its_path() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("file");
+        fs::write(&file, "x").unwrap();
+        let error = Workspace::new(&file).lock().expect_err("not a folder");
+        assert!(error.to_string().contains("file"), "{error}");
+    }
+}
