@@ -32,5 +32,5 @@ pub mod model;
 pub mod pki;
 pub mod protocol;
 pub mod session;
-pub mod workspace;
 pub mod virtual_controller;
+pub mod workspace;

@@ -58,7 +58,14 @@ const CERTIFICATES: Presentation = Presentation {
         let words = list
             .value
             .iter()
-            .map(|c| format!("{} {} until {}", c.summary.thumbprint, c.summary.issued_to, c.summary.not_after.format("%Y-%m-%d")))
+            .map(|c| {
+                format!(
+                    "{} {} until {}",
+                    c.summary.thumbprint,
+                    c.summary.issued_to,
+                    c.summary.not_after.format("%Y-%m-%d")
+                )
+            })
             .collect::<Vec<_>>();
         Shown { json: json!({ "certificates": json }), cells: vec![words.join("; ")] }
     },

@@ -12,15 +12,13 @@ const MAX_PASSWORD_BYTES: u64 = 1024;
 
 /// Reads a password: the first line of a file, or of standard input for `-`.
 pub fn read_secret(path: &Path) -> Result<SecretString, Problem> {
-    let unreadable = |e: &dyn std::fmt::Display| {
-        Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", path.display()))
-    };
+    let unreadable =
+        |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", path.display()));
     let mut text = zeroize::Zeroizing::new(String::new());
     let read = if path == Path::new("-") {
         std::io::stdin().take(MAX_PASSWORD_BYTES + 1).read_to_string(&mut text)
     } else {
-        std::fs::File::open(path)
-            .and_then(|file| file.take(MAX_PASSWORD_BYTES + 1).read_to_string(&mut text))
+        std::fs::File::open(path).and_then(|file| file.take(MAX_PASSWORD_BYTES + 1).read_to_string(&mut text))
     };
     let bytes = read.map_err(|e| unreadable(&e))?;
     if bytes as u64 > MAX_PASSWORD_BYTES {

@@ -62,8 +62,7 @@ fn all(configuration: &Configuration) -> Result<Vec<ControllerEntry>, Problem> {
 fn named(names: &[String], configuration: &Configuration) -> Result<Vec<ControllerEntry>, Problem> {
     let mut chosen: Vec<ControllerEntry> = Vec::new();
     for name in names {
-        let entry =
-            configuration.find(name).ok_or_else(|| Problem::with_detail(ErrorCode::UnknownController, name))?;
+        let entry = configuration.find(name).ok_or_else(|| Problem::with_detail(ErrorCode::UnknownController, name))?;
         if !chosen.iter().any(|c| c.name == entry.name) {
             chosen.push(entry.clone());
         }
@@ -91,9 +90,8 @@ mod tests {
 
     fn split(arguments: &[&str], all: bool) -> Result<(Vec<String>, Vec<String>), ErrorCode> {
         let arguments = arguments.iter().map(ToString::to_string).collect();
-        let (things, chosen) = ThingsThenSelect { arguments, all }
-            .resolve(&list(&["weld", "paint", "operator1"]))
-            .map_err(|p| p.code)?;
+        let (things, chosen) =
+            ThingsThenSelect { arguments, all }.resolve(&list(&["weld", "paint", "operator1"])).map_err(|p| p.code)?;
         Ok((things, chosen.iter().map(|c| c.name.to_string()).collect()))
     }
 

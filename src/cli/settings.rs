@@ -7,7 +7,9 @@ use super::batch::{Presentation, STATE, Shown};
 use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{Outcome, ReadSettings, SetSettings, SettingsChange};
-use crate::model::{ErrorCode, PortError, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy};
+use crate::model::{
+    ErrorCode, PortError, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
+};
 
 #[derive(Debug, Subcommand)]
 pub enum SettingsCommand {

@@ -1,6 +1,5 @@
 //! The controller's end of [`crate::protocol`].
 
-use std::collections::HashMap;
 use std::future::{pending, poll_fn};
 use std::net::IpAddr;
 use std::pin::pin;
@@ -24,7 +23,7 @@ use super::changes;
 use super::controller::{Controller, Effect, Outcome};
 use super::login::{Sessions, Throttle};
 use super::password::is_password;
-use crate::model::{CertificateType, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
+use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
     self, AddClients, AddUser, Base64Bytes, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate,
     Login, MakeSelfSigned, RemoveUsers, Revisioned, SESSION_IDLE_SECS, Session, SetSettings, WireSecret,

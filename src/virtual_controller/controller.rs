@@ -105,7 +105,8 @@ impl VirtualController {
             tracing::warn!(serial = %controller.state().identity.serial, %problem, "the OPC UA server did not start");
         }
         let off = CancellationToken::new();
-        let api = tokio::spawn(management::serve(listener, config, Arc::new(Api::new(Arc::clone(&controller))), off.clone()));
+        let api =
+            tokio::spawn(management::serve(listener, config, Arc::new(Api::new(Arc::clone(&controller))), off.clone()));
         Ok(Self { controller, address, fingerprint, off, api: Mutex::new(Some(api)) })
     }
 
@@ -399,8 +400,7 @@ impl Controller {
         }
         // One that died by itself.
         plant.stop().await;
-        let started =
-            if self.faults.get().server_error { Err(fault()) } else { self.run(&self.state()).await };
+        let started = if self.faults.get().server_error { Err(fault()) } else { self.run(&self.state()).await };
         match started {
             Ok(server) => {
                 plant.server = Some(server);
@@ -520,9 +520,9 @@ impl Plant {
 
     fn trust(&self, state: &State) -> Result<(), Problem> {
         match &self.server {
-            Some(server) => server.set_trusted_clients(&trusted_clients(state)).map_err(|source| {
-                StoreError::Io { path: PathBuf::from(OPCUA_FOLDER), source }.into()
-            }),
+            Some(server) => server
+                .set_trusted_clients(&trusted_clients(state))
+                .map_err(|source| StoreError::Io { path: PathBuf::from(OPCUA_FOLDER), source }.into()),
             None => Ok(()),
         }
     }

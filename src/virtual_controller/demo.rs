@@ -7,9 +7,7 @@ use secrecy::SecretString;
 use tokio::task::spawn_blocking;
 
 use super::controller::{ControllerSpec, VirtualController};
-use super::fleet::{
-    FleetError, FleetFirmware, FolderLock, plausible_identity, serial_number, shutdown_all, start_all,
-};
+use super::fleet::{FleetError, FleetFirmware, FolderLock, plausible_identity, serial_number, shutdown_all, start_all};
 use super::new_controller::{NewCertificate, NewController};
 use super::password::hash_connection_password;
 use super::ports::free_port;

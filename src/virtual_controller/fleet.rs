@@ -13,9 +13,7 @@ use super::new_controller::NewController;
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::Identity;
-use crate::model::{
-    ControllerName, ControllerSeries, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort,
-};
+use crate::model::{ControllerName, ControllerSeries, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort};
 
 /// Many virtual controllers in one process.
 #[derive(Debug, Clone)]
@@ -95,7 +93,8 @@ impl Fleet {
         config.check_ports()?;
         let lock = FolderLock::take(&config.data)?;
         let password = config.password.clone();
-        let hash = spawn_blocking(move || hash_connection_password(&password)).await.map_err(|_| FleetError::Worker)??;
+        let hash =
+            spawn_blocking(move || hash_connection_password(&password)).await.map_err(|_| FleetError::Worker)??;
         let specs = (0..config.count).map(|index| config.spec(index, &hash)).collect::<Result<Vec<_>, _>>()?;
         Ok(Self { controllers: start_all(specs).await?, _lock: lock })
     }
@@ -132,8 +131,8 @@ impl FleetConfig {
             0 => free_port(self.bind).map_err(FleetError::NoFreePort)?,
             first => ports(first)?,
         };
-        initial.settings.port = ServerPort::try_from(opcua)
-            .map_err(|_| FleetError::Ports { first: self.opcua_port, count: self.count })?;
+        initial.settings.port =
+            ServerPort::try_from(opcua).map_err(|_| FleetError::Ports { first: self.opcua_port, count: self.count })?;
         initial.used_ports.retain(|port| *port != opcua);
         let management_port = match self.management_port {
             0 => 0,

@@ -197,8 +197,9 @@ mod tests {
         let token = sessions.open(start).unwrap();
         sessions.close(token.expose_secret());
         assert!(!sessions.touch(token.expose_secret(), start));
-        let tokens: Vec<SecretString> =
-            (0..=MAX_SESSIONS as u32).map(|i| sessions.open(start + Duration::from_millis(i.into())).unwrap()).collect();
+        let tokens: Vec<SecretString> = (0..=MAX_SESSIONS as u32)
+            .map(|i| sessions.open(start + Duration::from_millis(i.into())).unwrap())
+            .collect();
         assert!(!sessions.touch(tokens[0].expose_secret(), start));
         assert!(tokens[1..].iter().all(|token| sessions.touch(token.expose_secret(), start)));
     }

@@ -51,10 +51,8 @@ impl NewController {
     /// Makes its keys. Slow when a server certificate is wanted.
     pub(super) fn make(self, around: &Surroundings) -> Result<State, Problem> {
         let tls = tls_identity(self.identity.serial.as_str(), around.now)?;
-        let management = KeyPair {
-            certificate: Base64Bytes(tls.certificate_der),
-            private_key: SecretBytes(tls.private_key_pkcs8),
-        };
+        let management =
+            KeyPair { certificate: Base64Bytes(tls.certificate_der), private_key: SecretBytes(tls.private_key_pkcs8) };
         let current = self.identity.firmware.generation() == FirmwareGeneration::Current;
         let mut state = State {
             identity: self.identity,
