@@ -7,7 +7,7 @@ use secrecy::SecretString;
 use super::passwords::read_secret;
 use super::{Ending, runtime};
 use crate::model::{ErrorCode, Problem};
-use crate::virtual_controller::{Fleet, FleetConfig, FleetFirmware, ReadyLine};
+use crate::virtual_controller::{Fleet, FleetConfig, FleetFirmware};
 
 #[derive(Debug, Args)]
 pub struct VirtualArgs {
@@ -81,7 +81,7 @@ pub fn run(args: &VirtualArgs) -> Result<Ending, Problem> {
     runtime()?.block_on(async {
         let fleet = Fleet::start(config).await.map_err(Problem::from)?;
         for controller in fleet.controllers() {
-            let line = serde_json::to_string(&ReadyLine::of(controller))
+            let line = serde_json::to_string(&controller.ready_line())
                 .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
             super::output::line(&line);
         }
