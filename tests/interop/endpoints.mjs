@@ -1,5 +1,5 @@
 // A second OPC UA client that nobody of this project wrote: node-opcua. Prints the endpoints of a server as one line
-// of JSON: node endpoints.mjs opc.tcp://HOST:PORT
+// of JSON: node endpoints.mjs opc.tcp://HOST:PORT. Without an address it only looks whether node-opcua is there.
 // Exit code 3: node-opcua-client is missing. OPCUA_INTEROP_NODE_MODULES says which node_modules folder holds it.
 
 import { mkdtempSync, rmSync } from "node:fs";
@@ -21,6 +21,9 @@ try {
 } catch (missing) {
   console.error(missing.message);
   process.exit(3);
+}
+if (process.argv.length < 3) {
+  process.exit(0);
 }
 
 const client = opcua.OPCUAClient.create({
