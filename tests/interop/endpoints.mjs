@@ -41,7 +41,7 @@ try {
     application_uri: endpoints[0].server.applicationUri,
     endpoints: endpoints.map((endpoint) => ({
       url: endpoint.endpointUrl,
-      policy: endpoint.securityPolicyUri.split("#").pop(),
+      policy: endpoint.securityPolicyUri.split("#").pop().replaceAll("_", ""),
       mode: opcua.MessageSecurityMode[endpoint.securityMode],
       tokens: [...new Set(endpoint.userIdentityTokens.map((token) => opcua.UserTokenType[token.tokenType]))].sort(),
     })),

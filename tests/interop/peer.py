@@ -88,7 +88,7 @@ async def endpoints(args):
         "endpoints": [
             {
                 "url": e.EndpointUrl,
-                "policy": e.SecurityPolicyUri.rsplit("#", 1)[-1],
+                "policy": e.SecurityPolicyUri.rsplit("#", 1)[-1].replace("_", ""),
                 "mode": e.SecurityMode.name.rstrip("_"),
                 "tokens": sorted({t.TokenType.name for t in e.UserIdentityTokens}),
             }

@@ -138,8 +138,11 @@ impl OpenSsl {
                 .arg(der),
         );
         let mut extensions = BTreeMap::new();
-        let mut lines = text.lines().map(str::trim).peekable();
+        let mut lines = text.lines().map(str::trim);
         while let Some(line) = lines.next() {
+            if line == "X509v3 extensions:" {
+                continue;
+            }
             if let Some((name, _)) = line.strip_prefix("X509v3 ").and_then(|rest| rest.split_once(':')) {
                 let parts = lines.next().unwrap_or_default().split(", ").map(str::to_owned).collect();
                 extensions.insert(name.to_owned(), parts);
