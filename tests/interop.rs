@@ -63,7 +63,7 @@ fn asyncua_gets_in_with_a_trusted_certificate_and_a_created_user_and_nobody_else
     assert_eq!(unknown["ok"], false, "{unknown}");
     assert!(["BadSecurityChecksFailed", "BadCertificateUntrusted"].contains(&text(&unknown["error"])), "{unknown}");
 
-    cell.run(&["stop", "--yes"]);
+    cell.run(&["stop"]);
     assert_eq!(cell.info()["status"], "Stop");
     let stopped = secure(&own, PASSWORD);
     assert_eq!(stopped["error"], "ConnectionRefused", "{stopped}");

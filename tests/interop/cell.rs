@@ -91,24 +91,24 @@ impl Cell {
     }
 
     pub fn set(&self, policies: &str, tokens: &str) {
-        self.run(&["settings", "set", "--policies", policies, "--tokens", tokens, "--yes"]);
+        self.run(&["settings", "set", "--policies", policies, "--tokens", tokens]);
     }
 
     pub fn make_certificate(&self, bits: &str, years: u8) {
         let subject = ["--country", "JP", "--state", "Nagano", "--locality", "Suwa", "--organisation", "Example"];
         let years = years.to_string();
-        let rest = ["--bits", bits, "--years", years.as_str(), "--yes"];
+        let rest = ["--bits", bits, "--years", years.as_str()];
         self.run(&[&["cert", "self-signed"][..], &subject, &rest].concat());
     }
 
     pub fn add_user(&self, name: &str, password: &str) {
         let file = self.folder().join("user-password");
         fs::write(&file, password).expect("the user's password file");
-        self.run(&["users", "add", name, "--password-file", utf8(&file), "--yes"]);
+        self.run(&["users", "add", name, "--password-file", utf8(&file)]);
     }
 
     pub fn trust(&self, client: &ClientCertificate) {
-        self.run(&["clients", "add", "--list", "trusted", utf8(&client.certificate), "--yes"]);
+        self.run(&["clients", "add", "--list", "trusted", utf8(&client.certificate)]);
     }
 
     /// Runs a command on the controller and gives its `result`. Panics unless the controller says it is done.
@@ -134,9 +134,9 @@ impl Cell {
             configurator(self.folder())
                 .arg("--workspace")
                 .arg(self.workspace())
-                .arg("--password-file")
+                .arg("--connection-password-file")
                 .arg(connection_password_file(self.folder()))
-                .arg("--json")
+                .args(["--json", "--yes"])
                 .args(command),
         )
         .expect("the program itself")
