@@ -88,3 +88,37 @@ async fn the_demo_has_something_of_everything() {
     })
     .await;
 }
+
+/// `cargo test --lib -- --ignored --nocapture five_hundred`
+#[cfg(target_os = "linux")]
+#[tokio::test(flavor = "multi_thread")]
+#[ignore = "a measurement, for people"]
+async fn five_hundred_stopped_controllers_cost_little() {
+    fn resident_kb() -> usize {
+        let status = std::fs::read_to_string("/proc/self/status").unwrap();
+        let line = status.lines().find(|line| line.starts_with("VmRSS")).unwrap();
+        line.split_whitespace().nth(1).unwrap().parse().unwrap()
+    }
+    bounded(async {
+        let data = tempfile::tempdir().unwrap();
+        // What a process pays once.
+        Fleet::start(config(&data.path().join("one"), 1)).await.unwrap().shutdown().await;
+        let (before, asked) = (resident_kb(), std::time::Instant::now());
+        let fleet = Fleet::start(config(&data.path().join("many"), 500)).await.unwrap();
+        let (after, started) = (resident_kb(), asked.elapsed());
+        println!("{} KB each, {started:?} to start 500", (after - before) / 500);
+        let asked = std::time::Instant::now();
+        let mut logins = tokio::task::JoinSet::new();
+        for controller in fleet.controllers() {
+            let mut client = Client::new(controller);
+            logins.spawn(async move { client.login("fleet").await.unwrap() });
+        }
+        while logins.join_next().await.is_some() {}
+        println!("{:?} for 500 logins; {} KB each after", asked.elapsed(), (resident_kb() - before) / 500);
+        let asked = std::time::Instant::now();
+        fleet.shutdown().await;
+        println!("{:?} to stop", asked.elapsed());
+        assert!((after - before) / 500 < 100);
+    })
+    .await;
+}

@@ -119,3 +119,37 @@ async fn a_body_over_its_bound_is_refused_and_the_answer_arrives() {
     })
     .await;
 }
+
+#[tokio::test]
+async fn silent_connections_do_not_keep_others_out_for_long() {
+    bounded(async {
+        let bench = Bench::new(initial(CURRENT)).await;
+        let address = bench.controller.management_address();
+        let mut silent = Vec::new();
+        for _ in 0..80 {
+            silent.push(tokio::net::TcpStream::connect(address).await.unwrap());
+        }
+        let asked = std::time::Instant::now();
+        Client::new(&bench.controller).hello().await;
+        assert!(asked.elapsed() < std::time::Duration::from_secs(15));
+        bench.controller.shutdown().await;
+    })
+    .await;
+}
+
+#[tokio::test]
+async fn latency_and_a_wrong_clock_show() {
+    bounded(async {
+        let bench = Bench::new(initial(CURRENT)).await;
+        let client = bench.client().await;
+        bench.controller.faults().update(|switches| {
+            switches.latency = std::time::Duration::from_millis(200);
+            switches.clock_offset = chrono::TimeDelta::days(-365);
+        });
+        let asked = std::time::Instant::now();
+        let info: ControllerInfo = client.get(protocol::INFO).await.unwrap();
+        assert!(asked.elapsed() >= std::time::Duration::from_millis(200));
+        assert!((chrono::Utc::now() - info.clock).num_days() >= 364);
+    })
+    .await;
+}

@@ -7,6 +7,8 @@ use crate::model::{ErrorCode, ServerStatus, StartupMode};
 use crate::protocol::{self, Changed};
 use crate::virtual_controller::{DropPoint, Switches};
 
+type Throw = fn(&mut Switches);
+
 /// Every kind of change that touches a running server.
 fn changes(revision: u64) -> [(&'static str, Value); 3] {
     [
@@ -44,7 +46,7 @@ async fn a_change_that_fails_leaves_everything_as_it_was() {
         let full = |switches: &mut Switches| switches.disk_full = true;
         let lost = |switches: &mut Switches| switches.drop_next_change = Some(DropPoint::BeforeApply);
         let broken = |switches: &mut Switches| switches.server_error = true;
-        let faults: [(fn(&mut Switches), Option<ErrorCode>); 3] =
+        let faults: [(Throw, Option<ErrorCode>); 3] =
             [(full, Some(ErrorCode::DiskFull)), (lost, None), (broken, Some(ErrorCode::ServerError))];
         for (fault, expected) in faults {
             for (path, body) in changes(1) {
