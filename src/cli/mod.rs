@@ -16,7 +16,7 @@ mod server;
 mod settings;
 mod table;
 mod users;
-// mod virtual_fleet;
+mod virtual_fleet;
 // mod window;
 
 use std::path::PathBuf;
@@ -70,6 +70,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Run virtual controllers without a window until Ctrl-C; one line of JSON each when it is ready
+    Virtual(virtual_fleet::VirtualArgs),
     /// List, add and remove controllers
     #[command(subcommand)]
     Controllers(controllers::ControllersCommand),
@@ -136,6 +138,7 @@ pub fn main() -> ExitCode {
     };
     let ending = match cli.command {
         None => Ok(Ending::AllDone),
+        Some(Command::Virtual(args)) => virtual_fleet::run(&args),
         Some(Command::Controllers(command)) => controllers::run(&settled, command),
         Some(Command::Info(select)) => server::info(&settled, &select),
         Some(Command::Start(select)) => server::start(&settled, &select),

@@ -71,7 +71,7 @@ impl Output {
 }
 
 /// A reader that went away (`| head`) is no reason to fail.
-fn line(text: &str) {
+pub fn line(text: &str) {
     let mut out = std::io::stdout().lock();
     let _gone = writeln!(out, "{text}").and_then(|()| out.flush());
 }

@@ -14,7 +14,9 @@ use super::new_controller::NewController;
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::Identity;
-use crate::model::{ControllerName, ControllerSeries, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort};
+use crate::model::{
+    ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort,
+};
 
 /// Many virtual controllers in one process.
 #[derive(Debug, Clone)]
@@ -65,6 +67,21 @@ pub enum FleetError {
     Name(#[from] NameError),
     #[error("a worker thread died")]
     Worker,
+}
+
+impl From<FleetError> for Problem {
+    fn from(error: FleetError) -> Self {
+        let code = match &error {
+            FleetError::Problem(problem) => return problem.clone(),
+            FleetError::TooMany { .. } | FleetError::Ports { .. } => ErrorCode::BadSettings,
+            FleetError::Busy { .. } => ErrorCode::WorkspaceBusy,
+            FleetError::Data { .. } => ErrorCode::WorkspaceReadOnly,
+            FleetError::NoFreePort(_) => ErrorCode::PortConflict,
+            FleetError::Controller { source: SwitchOnError::Listen { .. }, .. } => ErrorCode::PortConflict,
+            FleetError::Controller { .. } | FleetError::Name(_) | FleetError::Worker => ErrorCode::Internal,
+        };
+        Self::with_detail(code, error)
+    }
 }
 
 /// Running controllers. Dropped without [`Fleet::shutdown`], they stop too, but nobody waits for them.

@@ -62,24 +62,23 @@ impl InMemoryNodeManagerImpl for Controller {
         self.namespaces.clone()
     }
 
-    /// Nothing here can be written yet.
+    /// Nothing here can be written.
     async fn write(
         &self,
-        context: &RequestContext,
+        _context: &RequestContext,
         space: &RwLock<AddressSpace>,
         nodes: &mut [&mut WriteNode],
     ) -> Result<(), StatusCode> {
-        let mut space = space.write();
-        let types = context.type_tree().read();
+        let space = space.read();
         for node in nodes {
-            let refused = space.validate_node_write(context, node.value(), &*types).err();
-            node.set_status(refused.unwrap_or(StatusCode::BadNotWritable));
+            let known = space.find_node(&node.value().node_id).is_some();
+            node.set_status(if known { StatusCode::BadNotWritable } else { StatusCode::BadNodeIdUnknown });
         }
         Ok(())
     }
 }
 
-/// Builds nodes below one parent after the other.
+/// What new nodes are put into, and under which namespace indexes.
 struct Nodes<'a> {
     space: &'a mut AddressSpace,
     own: u16,
@@ -98,7 +97,7 @@ impl Nodes<'_> {
         .insert(self.space);
 
         let system = self.id(&[SYSTEM]);
-        ObjectBuilder::new(&system, QualifiedName::new(self.own, SYSTEM), identity.name.as_str())
+        ObjectBuilder::new(&system, QualifiedName::new(self.own, SYSTEM), SYSTEM)
             .component_of(NodeId::new(self.di, DEVICE_SET))
             .has_type_definition(device_type)
             .insert(self.space);

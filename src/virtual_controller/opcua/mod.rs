@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `config` | what a server is made of, checked before anything is started |
 //! | `server` | start, stop, and whether it still runs |
+//! | `relay` | the connections of the clients, passed on to the server |
 //! | `endpoints` | security policies and user tokens as OPC UA endpoints, and what a client may ask for |
 //! | `users` | password hashes, logging in, lock-out |
 //! | `certificate_store` | the private folder with the certificates of server and clients |
@@ -18,6 +19,7 @@ mod certificate_store;
 mod config;
 mod endpoints;
 mod nodesets;
+mod relay;
 mod server;
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,6 @@
 use std::fmt;
 use std::io;
-use std::net::{IpAddr, SocketAddr};
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -20,6 +20,7 @@ use super::certificate_store::{OWN_CERTIFICATE, OWN_KEY, PkiFolder};
 use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
 use super::nodesets::NodeSet;
+use super::relay::relay;
 use super::users::Users;
 
 /// Why a server could not be started.
@@ -38,28 +39,33 @@ pub struct OpcUaServer {
     address: SocketAddr,
     handle: ServerHandle,
     pki: PkiFolder,
-    task: JoinHandle<Result<(), String>>,
+    server: JoinHandle<Result<(), String>>,
+    relay: JoinHandle<()>,
 }
 
 impl OpcUaServer {
     /// Returns once the server accepts connections. When it fails, the port is free again.
     pub async fn start(config: OpcUaConfig) -> Result<Self, StartError> {
         // The port comes first: it is what fails most, and a port of 0 must be known before the endpoints' URLs are.
-        let listener = listen(config.bind, config.port).await?;
-        let address = listener.local_addr().map_err(failed)?;
+        let clients = listen(config.bind, config.port).await?;
+        let address = clients.local_addr().map_err(failed)?;
+        let inner = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await.map_err(failed)?;
+        let inner_address = inner.local_addr().map_err(failed)?;
         // Reads and writes files, checks the key, and builds some ten thousand nodes.
         let (server, handle, pki) =
             tokio::task::spawn_blocking(move || build(&config, address)).await.map_err(failed)??;
-        let mut starting = Self { address, handle, pki, task: tokio::spawn(server.run_with(listener)) };
-        let ready = tokio::time::timeout(START_TIMEOUT, starting.ready())
+        let stop_unless_ready = handle.token().clone().drop_guard();
+        let mut server = tokio::spawn(server.run_with(inner));
+        tokio::time::timeout(START_TIMEOUT, ready(&mut server, &handle, inner_address.port()))
             .await
-            .unwrap_or_else(|_| Err(StartError::Failed("it is not ready in time".to_owned())));
-        if let Err(e) = ready {
-            starting.stop().await;
-            return Err(e);
-        }
-        tracing::info!(endpoint = starting.endpoint(), "OPC UA server started");
-        Ok(starting)
+            .map_err(|_| StartError::Failed("it is not ready in time".to_owned()))??;
+        stop_unless_ready.disarm();
+        // Endpoint URLs are made with this port: it must be the one clients know before the first of them asks.
+        handle.info().port.store(address.port(), Ordering::Relaxed);
+        let relay = tokio::spawn(relay(clients, inner_address));
+        let running = Self { address, handle, pki, server, relay };
+        tracing::info!(endpoint = running.endpoint(), "OPC UA server started");
+        Ok(running)
     }
 
     /// The TCP port it listens on.
@@ -79,40 +85,28 @@ impl OpcUaServer {
 
     /// False once the server has ended by itself.
     pub fn is_running(&self) -> bool {
-        !self.task.is_finished()
+        !self.server.is_finished() && !self.relay.is_finished()
     }
 
     /// Closes every connection and the port. Takes at most a few seconds, whatever the clients do.
     pub async fn stop(mut self) {
         self.handle.cancel();
-        if self.is_running() && tokio::time::timeout(STOP_TIMEOUT, &mut self.task).await.is_err() {
-            tracing::warn!(endpoint = self.endpoint(), "OPC UA server did not stop in time and was cut off");
-            self.task.abort();
-            // The port is free when the task is gone.
-            let _ = tokio::time::timeout(STOP_TIMEOUT, &mut self.task).await;
+        // Clients that listen are told why they are disconnected; the others are cut off.
+        let told = ended(&mut self.server, FAREWELL).await;
+        self.relay.abort();
+        ended(&mut self.relay, STOP_TIMEOUT).await;
+        if !told && !ended(&mut self.server, STOP_TIMEOUT).await {
+            tracing::warn!(endpoint = self.endpoint(), "OPC UA server did not stop in time");
+            self.server.abort();
         }
         tracing::info!(endpoint = self.endpoint(), "OPC UA server stopped");
-    }
-
-    /// The crate stores its port when it begins to accept, and tells nobody.
-    async fn ready(&mut self) -> Result<(), StartError> {
-        while self.handle.info().port.load(Ordering::Relaxed) != self.port() {
-            if self.task.is_finished() {
-                return Err(match (&mut self.task).await {
-                    Ok(Err(reason)) => StartError::Failed(reason),
-                    Ok(Ok(())) => StartError::Failed("it ended at once".to_owned()),
-                    Err(e) => failed(e),
-                });
-            }
-            tokio::time::sleep(POLL).await;
-        }
-        Ok(())
     }
 }
 
 impl Drop for OpcUaServer {
     fn drop(&mut self) {
         self.handle.cancel();
+        self.relay.abort();
     }
 }
 
@@ -120,6 +114,31 @@ impl fmt::Debug for OpcUaServer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("OpcUaServer").field("endpoint", &self.endpoint()).finish_non_exhaustive()
     }
+}
+
+/// The crate stores its port when it begins to accept, and tells nobody.
+async fn ready(
+    server: &mut JoinHandle<Result<(), String>>,
+    handle: &ServerHandle,
+    port: u16,
+) -> Result<(), StartError> {
+    while handle.info().port.load(Ordering::Relaxed) != port {
+        if server.is_finished() {
+            return Err(match server.await {
+                Ok(Err(reason)) => StartError::Failed(reason),
+                Ok(Ok(())) => StartError::Failed("it ended at once".to_owned()),
+                Err(e) => failed(e),
+            });
+        }
+        tokio::time::sleep(POLL).await;
+    }
+    Ok(())
+}
+
+/// Whether a task has ended, or ends within the time given.
+async fn ended<T>(task: &mut JoinHandle<T>, within: Duration) -> bool {
+    // A task that has ended may have been awaited already and must not be again.
+    task.is_finished() || tokio::time::timeout(within, task).await.is_ok()
 }
 
 /// On Unix tokio sets `SO_REUSEADDR`, so connections of an earlier run that still linger do not hold the port, while
@@ -218,5 +237,17 @@ fn failed(error: impl fmt::Display) -> StartError {
 
 const PRODUCT_URI: &str = "urn:opcua-configurator:virtual-controller";
 const START_TIMEOUT: Duration = Duration::from_secs(10);
+const FAREWELL: Duration = Duration::from_secs(1);
 const STOP_TIMEOUT: Duration = Duration::from_secs(3);
 const POLL: Duration = Duration::from_millis(2);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ipv6_address_stands_in_brackets() {
+        assert_eq!(endpoint("[::1]:4840".parse().unwrap()), "opc.tcp://[::1]:4840");
+        assert_eq!(endpoint("192.168.0.1:4840".parse().unwrap()), "opc.tcp://192.168.0.1:4840");
+    }
+}
