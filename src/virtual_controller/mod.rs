@@ -19,6 +19,7 @@
 //! | `tls` | the management identity as a TLS server |
 //! | `opcua` | the OPC UA server |
 //! | `ports` | TCP ports nobody uses |
+//! | `file_limit` | room for a listener of each controller of a fleet |
 //! | `fleet` | [`Fleet`]: hundreds of controllers in one process |
 //! | `demo` | [`demo_fleet`]: controllers worth looking at |
 //!
@@ -41,6 +42,7 @@ mod changes;
 mod controller;
 mod demo;
 mod faults;
+mod file_limit;
 mod fleet;
 mod listener;
 mod login;
