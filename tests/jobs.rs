@@ -68,7 +68,7 @@ async fn from_an_empty_controller_to_a_running_server() {
         let info = report.info.expect("information");
         assert_eq!(summary.issued_to, info.application_name);
         assert_eq!(summary.application_uri, Some(format!("urn:{}", info.application_name)));
-        assert_eq!(info.certificate.map(|c| c.1), Some(summary.clone()));
+        assert_eq!(info.certificate.map(|c| c.summary), Some(summary.clone()));
     }
     assert_eq!(codes(&plant.run(policies(&[SecurityPolicy::Basic256Sha256])).await), [None; 3]);
     assert_eq!(codes(&plant.run(user("operator1")).await), [None; 3]);
@@ -234,7 +234,7 @@ async fn a_backup_holds_the_certificate_and_for_legacy_firmware_the_key() {
         let info = report.info.unwrap();
         assert_eq!(saved.certificate, files.self_signed_folder(&info.serial).join("1_cert.der"));
         let certificate = opcua_configurator::pki::Certificate::from_der(&std::fs::read(saved.certificate).unwrap());
-        assert_eq!(Some(certificate.unwrap().summary()), info.certificate.map(|c| c.1));
+        assert_eq!(Some(certificate.unwrap().summary()), info.certificate.map(|c| c.summary));
         let legacy = plant.controller(index).firmware().to_string().starts_with('7');
         assert_eq!(saved.key.is_some(), legacy);
         if let Some(key) = saved.key {

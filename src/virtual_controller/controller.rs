@@ -265,7 +265,7 @@ impl Controller {
             status,
             error,
             activated: state.activated,
-            certificate: state.certificate_summary(),
+            certificate: state.server_certificate(),
             application_name: state.application_name(&around),
             endpoint: self.endpoint(reached),
             used_ports: state.taken_ports(&around),

@@ -73,7 +73,7 @@ async fn the_demo_has_something_of_everything() {
         let days: Vec<i64> = infos
             .iter()
             .filter_map(|info| info.certificate.as_ref())
-            .map(|(_, certificate)| (certificate.not_after - now).num_days())
+            .map(|certificate| (certificate.summary.not_after - now).num_days())
             .collect();
         assert!(days.iter().any(|days| *days < 0) && days.iter().any(|days| (10..=12).contains(days)), "{days:?}");
         assert!(demo.entries().iter().any(|entry| entry.name.as_str().chars().count() == 32));
