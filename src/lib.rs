@@ -27,4 +27,5 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod model;
+pub mod pki;
 pub mod protocol;

@@ -1,0 +1,130 @@
+use thiserror::Error;
+
+use crate::model::{ErrorCode, Problem, SubjectError};
+
+/// Everything that can be wrong with a key, a certificate, or the wish for one. Holds no secret.
+#[non_exhaustive]
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum PkiError {
+    // a certificate file
+    #[error("the file is empty")]
+    Empty,
+    #[error("{bytes} bytes are too many; at most {max} are read")]
+    TooLarge { bytes: usize, max: usize },
+    #[error("not an X.509 certificate, or a damaged one")]
+    NotACertificate,
+    #[error("{0} bytes follow the certificate")]
+    TrailingBytes(usize),
+    #[error("the certificate names two different signature algorithms")]
+    SignatureAlgorithms,
+    #[error("the certificate has the same extension twice")]
+    RepeatedExtension,
+    #[error("the PEM text is damaged")]
+    BadPem,
+    #[error("there is no certificate in it")]
+    NoCertificate,
+    #[error("there are {0} certificates in it; exactly one is expected")]
+    SeveralCertificates(usize),
+    /// A private key does not belong among certificates, which are handed around.
+    #[error("there is a private key in it; a file with only the certificate is expected")]
+    PrivateKeyInside,
+
+    // a key
+    #[error("not an RSA private key in PKCS#8, or a damaged one")]
+    NotAPrivateKey,
+    #[error("RSA keys of {0} bits are not used; only 1024, 2048 and 4096 are")]
+    KeyLength(u16),
+    #[error("the key could not be made")]
+    KeyGeneration,
+    #[error("the key could not be written")]
+    KeyEncoding,
+
+    // a PKCS#12 file
+    #[error("not a PKCS#12 file")]
+    NotPkcs12,
+    #[error("this kind of PKCS#12 is not supported: {0}")]
+    UnsupportedPkcs12(&'static str),
+    /// The format cannot always tell the two apart.
+    #[error("the password is wrong, or the file is damaged")]
+    WrongPasswordOrDamaged,
+    #[error("there is no private key in it")]
+    NoKey,
+    #[error("there are {0} private keys in it; exactly one is expected")]
+    SeveralKeys(usize),
+    #[error("no certificate belongs to the private key")]
+    NotAPair,
+    #[error("the PKCS#12 could not be written")]
+    Pkcs12Encoding,
+
+    // a certificate to be made
+    #[error(transparent)]
+    Subject(#[from] SubjectError),
+    #[error("the application URI \"{0}\" is not a URI")]
+    ApplicationUri(String),
+    #[error("\"{0}\" is not a DNS name")]
+    DnsName(String),
+    #[error("a server certificate needs at least one IP address or DNS name")]
+    NoHostName,
+    #[error("a {asked}-bit key was asked for, but the key has {got} bits")]
+    OtherKeyLength { asked: u16, got: u16 },
+    #[error("the certificate's dates cannot be written")]
+    Dates,
+    #[error("no random numbers are to be had")]
+    Random,
+    #[error("the certificate could not be signed")]
+    Signing,
+}
+
+impl From<PkiError> for Problem {
+    fn from(error: PkiError) -> Self {
+        let code = match error {
+            PkiError::Subject(_) | PkiError::ApplicationUri(_) | PkiError::DnsName(_) | PkiError::NoHostName => {
+                ErrorCode::BadCertificateRequest
+            }
+            PkiError::KeyGeneration
+            | PkiError::KeyEncoding
+            | PkiError::Pkcs12Encoding
+            | PkiError::OtherKeyLength { .. }
+            | PkiError::Dates
+            | PkiError::Random
+            | PkiError::Signing => ErrorCode::Internal,
+            PkiError::Empty
+            | PkiError::TooLarge { .. }
+            | PkiError::NotACertificate
+            | PkiError::TrailingBytes(_)
+            | PkiError::SignatureAlgorithms
+            | PkiError::RepeatedExtension
+            | PkiError::BadPem
+            | PkiError::NoCertificate
+            | PkiError::SeveralCertificates(_)
+            | PkiError::PrivateKeyInside
+            | PkiError::NotAPrivateKey
+            | PkiError::KeyLength(_)
+            | PkiError::NotPkcs12
+            | PkiError::UnsupportedPkcs12(_)
+            | PkiError::WrongPasswordOrDamaged
+            | PkiError::NoKey
+            | PkiError::SeveralKeys(_)
+            | PkiError::NotAPair => ErrorCode::BadCertificate,
+        };
+        Self::with_detail(code, error)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_problem_says_whose_fault_it_is_and_why() {
+        let bad_file = Problem::from(PkiError::TrailingBytes(3));
+        assert_eq!(bad_file.code, ErrorCode::BadCertificate);
+        assert_eq!(bad_file.detail.as_deref(), Some("3 bytes follow the certificate"));
+
+        let bad_wish = Problem::from(PkiError::from(SubjectError::Empty("common name")));
+        assert_eq!(bad_wish.code, ErrorCode::BadCertificateRequest);
+        assert_eq!(bad_wish.detail.as_deref(), Some("common name is empty"));
+
+        assert_eq!(Problem::from(PkiError::Signing).code, ErrorCode::Internal);
+    }
+}

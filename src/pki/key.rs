@@ -1,0 +1,147 @@
+use std::fmt;
+
+use aws_lc_rs::encoding::AsDer as _;
+use aws_lc_rs::rand::SystemRandom;
+use aws_lc_rs::rsa::{KeyPair, KeySize};
+use aws_lc_rs::signature::{KeyPair as _, RSA_PKCS1_SHA256};
+use rsa::RsaPrivateKey;
+use rsa::pkcs1::EncodeRsaPublicKey as _;
+use rsa::pkcs1v15::Pkcs1v15Sign;
+use rsa::pkcs8::{DecodePrivateKey as _, EncodePrivateKey as _, PrivateKeyInfo};
+use rsa::rand_core::OsRng;
+use sha2::{Digest as _, Sha256};
+use zeroize::Zeroizing;
+
+use super::{Certificate, PkiError};
+use crate::model::KeyLength;
+
+/// An RSA private key of 1024, 2048 or 4096 bits, the key of an OPC UA application.
+///
+/// `Debug` shows its length only; the key material is wiped when it is dropped. As an [`rcgen::SigningKey`] it signs
+/// with PKCS#1 v1.5 and SHA-256, whatever its length.
+pub struct PrivateKey {
+    material: Material,
+    length: KeyLength,
+    /// In PKCS#1.
+    public_key: Vec<u8>,
+}
+
+enum Material {
+    /// From 2048 bits up: AWS-LC, fast and constant-time. It wipes what it frees.
+    Current(KeyPair),
+    /// 1024 bits, for the deprecated policies only. AWS-LC rightly refuses to make or use them.
+    Legacy(Box<RsaPrivateKey>),
+}
+
+impl PrivateKey {
+    /// Makes a new key.
+    ///
+    /// Blocks and is slow: on one core about 0.1 s for 2048 bits, but 1 s and at times several for 4096.
+    pub fn generate(length: KeyLength) -> Result<Self, PkiError> {
+        let material = match length {
+            KeyLength::Rsa1024 => {
+                let key = RsaPrivateKey::new(&mut OsRng, 1024).map_err(|_| PkiError::KeyGeneration)?;
+                Material::Legacy(Box::new(key))
+            }
+            KeyLength::Rsa2048 => Material::Current(generate(KeySize::Rsa2048)?),
+            KeyLength::Rsa4096 => Material::Current(generate(KeySize::Rsa4096)?),
+        };
+        Self::new(material, length)
+    }
+
+    /// From an unencrypted PKCS#8 and nothing after it. The key is checked to be consistent in itself.
+    pub fn from_pkcs8_der(der: &[u8]) -> Result<Self, PkiError> {
+        let bits = modulus_bits(der)?;
+        let length = KeyLength::try_from(bits).map_err(|_| PkiError::KeyLength(bits))?;
+        let material = match length {
+            KeyLength::Rsa1024 => {
+                let key = RsaPrivateKey::from_pkcs8_der(der).map_err(|_| PkiError::NotAPrivateKey)?;
+                Material::Legacy(Box::new(key))
+            }
+            KeyLength::Rsa2048 | KeyLength::Rsa4096 => {
+                Material::Current(KeyPair::from_pkcs8(der).map_err(|_| PkiError::NotAPrivateKey)?)
+            }
+        };
+        Self::new(material, length)
+    }
+
+    /// As an unencrypted PKCS#8.
+    pub fn to_pkcs8_der(&self) -> Result<Zeroizing<Vec<u8>>, PkiError> {
+        match &self.material {
+            Material::Current(pair) => {
+                let der = pair.as_der().map_err(|_| PkiError::KeyEncoding)?;
+                Ok(Zeroizing::new(der.as_ref().to_vec()))
+            }
+            Material::Legacy(key) => Ok(key.to_pkcs8_der().map_err(|_| PkiError::KeyEncoding)?.to_bytes()),
+        }
+    }
+
+    pub const fn bits(&self) -> u16 {
+        self.length.bits()
+    }
+
+    /// Whether the certificate is for this key.
+    pub fn matches(&self, certificate: &Certificate) -> bool {
+        certificate.rsa_public_key() == Some(self.public_key.as_slice())
+    }
+
+    fn new(material: Material, length: KeyLength) -> Result<Self, PkiError> {
+        let public_key = match &material {
+            Material::Current(pair) => pair.public_key().as_ref().to_vec(),
+            Material::Legacy(key) => key.to_public_key().to_pkcs1_der().map_err(|_| PkiError::KeyEncoding)?.into_vec(),
+        };
+        Ok(Self { material, length, public_key })
+    }
+
+    fn sign_sha256(&self, message: &[u8]) -> Result<Vec<u8>, PkiError> {
+        match &self.material {
+            Material::Current(pair) => {
+                let mut signature = vec![0; pair.public_modulus_len()];
+                pair.sign(&RSA_PKCS1_SHA256, &SystemRandom::new(), message, &mut signature)
+                    .map_err(|_| PkiError::Signing)?;
+                Ok(signature)
+            }
+            // With random numbers it blinds the operation, which hides the key from whoever measures its time.
+            Material::Legacy(key) => key
+                .sign_with_rng(&mut OsRng, Pkcs1v15Sign::new::<Sha256>(), &Sha256::digest(message))
+                .map_err(|_| PkiError::Signing),
+        }
+    }
+}
+
+impl rcgen::PublicKeyData for PrivateKey {
+    fn der_bytes(&self) -> &[u8] {
+        &self.public_key
+    }
+
+    fn algorithm(&self) -> &'static rcgen::SignatureAlgorithm {
+        &rcgen::PKCS_RSA_SHA256
+    }
+}
+
+impl rcgen::SigningKey for PrivateKey {
+    fn sign(&self, message: &[u8]) -> Result<Vec<u8>, rcgen::Error> {
+        self.sign_sha256(message).map_err(|_| rcgen::Error::RemoteKeyError)
+    }
+}
+
+impl fmt::Debug for PrivateKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "PrivateKey({} bits)", self.bits())
+    }
+}
+
+fn generate(size: KeySize) -> Result<KeyPair, PkiError> {
+    KeyPair::generate(size).map_err(|_| PkiError::KeyGeneration)
+}
+
+/// The length of the RSA key in a PKCS#8, which must be whole and end where it says.
+fn modulus_bits(der: &[u8]) -> Result<u16, PkiError> {
+    let info = PrivateKeyInfo::try_from(der).map_err(|_| PkiError::NotAPrivateKey)?;
+    if info.algorithm.oid != rsa::pkcs1::ALGORITHM_OID {
+        return Err(PkiError::NotAPrivateKey);
+    }
+    let key = rsa::pkcs1::RsaPrivateKey::try_from(info.private_key).map_err(|_| PkiError::NotAPrivateKey)?;
+    let modulus = rsa::BigUint::from_bytes_be(key.modulus.as_bytes());
+    u16::try_from(modulus.bits()).map_err(|_| PkiError::NotAPrivateKey)
+}

@@ -1,0 +1,38 @@
+//! Keys, certificates, PKCS#12 and PEM. Bytes in, bytes out: no I/O, no async, no clock of its own.
+//!
+//! | file | its one idea |
+//! |---|---|
+//! | `certificate` | [`Certificate`]: one X.509 certificate that was parsed and found whole |
+//! | `pem` | the text armour around DER, both ways |
+//! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
+//! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
+//! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
+//! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
+//! | `fingerprint` | [`Fingerprint`]: what a configurator pins of that |
+//! | `name` | the text of an X.509 name |
+//! | `error` | [`PkiError`]: everything that can be wrong, each with its cause |
+//!
+//! Making an RSA key, and everything with a PKCS#12, is slow and blocks: keep it off the window's thread and off async
+//! workers.
+//!
+//! What comes from outside is bounded before it is parsed: [`MAX_CERTIFICATE_BYTES`],
+//! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
+
+mod certificate;
+mod error;
+mod fingerprint;
+mod identity;
+mod key;
+mod name;
+mod pem;
+mod pkcs12;
+mod self_signed;
+
+pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
+pub use error::PkiError;
+pub use fingerprint::{Fingerprint, FingerprintError};
+pub use identity::{TlsIdentity, tls_identity};
+pub use key::PrivateKey;
+pub use pem::MAX_CERTIFICATE_FILE_BYTES;
+pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_write};
+pub use self_signed::{ServerNames, self_signed};

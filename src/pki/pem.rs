@@ -1,0 +1,68 @@
+//! The text armour around DER.
+//!
+//! The only place that reads PEM, with `rustls-pemfile`. That crate is archived (RUSTSEC-2025-0134: unmaintained, no
+//! known defect); it is a thin wrapper over the maintained parser in `rustls-pki-types`, and should it ever have to go,
+//! only this file changes.
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+use rustls_pemfile::Item;
+
+use super::PkiError;
+
+/// The largest file a certificate is looked for in. A certificate's printed form may stand around its PEM.
+pub const MAX_CERTIFICATE_FILE_BYTES: usize = 256 * 1024;
+
+/// Whether these bytes are PEM text rather than DER.
+pub(super) fn is_pem(bytes: &[u8]) -> bool {
+    // A certificate in DER starts with a SEQUENCE of more than 127 bytes, which no text can start with.
+    !matches!(bytes, [0x30, 0x80..=0x84, ..]) && bytes.windows(BEGIN.len()).any(|window| window == BEGIN)
+}
+
+/// The DER of the only certificate in a PEM text. Other text around it is passed over, a private key is not.
+pub(super) fn single_certificate(text: &[u8]) -> Result<Vec<u8>, PkiError> {
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    if has_private_key(text) {
+        return Err(PkiError::PrivateKeyInside);
+    }
+    let mut certificates = Vec::new();
+    let mut rest = text;
+    while let Some((item, after)) = rustls_pemfile::read_one_from_slice(rest).map_err(|_| PkiError::BadPem)? {
+        if let Item::X509Certificate(der) = item {
+            certificates.push(der);
+        }
+        rest = after;
+    }
+    match certificates.as_slice() {
+        [] => Err(PkiError::NoCertificate),
+        [der] => Ok(der.to_vec()),
+        several => Err(PkiError::SeveralCertificates(several.len())),
+    }
+}
+
+/// The PEM form of a certificate.
+pub(super) fn certificate(der: &[u8]) -> String {
+    let body = STANDARD.encode(der);
+    let mut text = String::with_capacity(body.len() + body.len() / 64 + 64);
+    text.push_str("-----BEGIN CERTIFICATE-----\n");
+    let mut rest = body.as_str();
+    while !rest.is_empty() {
+        let (line, after) = rest.split_at(rest.len().min(64));
+        text.push_str(line);
+        text.push('\n');
+        rest = after;
+    }
+    text.push_str("-----END CERTIFICATE-----\n");
+    text
+}
+
+/// Of any kind, also those the parser does not know, such as encrypted ones.
+fn has_private_key(text: &[u8]) -> bool {
+    text.split(|byte| matches!(byte, b'\n' | b'\r'))
+        .filter(|line| line.starts_with(BEGIN))
+        .any(|line| line.windows(PRIVATE_KEY.len()).any(|window| window == PRIVATE_KEY))
+}
+
+const BEGIN: &[u8] = b"-----BEGIN ";
+const PRIVATE_KEY: &[u8] = b"PRIVATE KEY";
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";

@@ -1,0 +1,105 @@
+use p12_keystore::error::Error;
+use p12_keystore::{EncryptionAlgorithm, KeyStore, KeyStoreEntry, MacAlgorithm, Pkcs12Archive, PrivateKeyChain};
+use sha1::{Digest as _, Sha1};
+
+use super::{Certificate, PkiError, PrivateKey};
+
+/// The largest PKCS#12 that is read.
+pub const MAX_PKCS12_BYTES: usize = 256 * 1024;
+
+/// How often the password is hashed, for the encryption and for the MAC.
+///
+/// What is written here crosses a connection that is already encrypted and is opened on arrival; it is not kept. So the
+/// count is that of Java's `keytool`, which a controller's processor does in a moment, and not that of a password
+/// store.
+pub const PKCS12_ITERATIONS: u32 = 10_000;
+
+/// Writes a key and its certificates under a password: PBES2 with AES-256 and HMAC-SHA-256, and a MAC with SHA-256.
+///
+/// The first certificate is the one for the key. `alias` is the key's friendly name. Blocks for some milliseconds.
+pub fn pkcs12_write(
+    alias: &str,
+    key: &PrivateKey,
+    certificates: &[&Certificate],
+    password: &str,
+) -> Result<Vec<u8>, PkiError> {
+    let leaf = certificates.first().ok_or(PkiError::NoCertificate)?;
+    if !key.matches(leaf) {
+        return Err(PkiError::NotAPair);
+    }
+    let encoding = |_: Error| PkiError::Pkcs12Encoding;
+    let pkcs8 = key.to_pkcs8_der()?;
+    let private_key = p12_keystore::PrivateKey::from_der(&pkcs8).map_err(encoding)?;
+    let chain: Vec<_> = certificates
+        .iter()
+        .map(|certificate| p12_keystore::Certificate::from_der(certificate.der()).map_err(encoding))
+        .collect::<Result<_, _>>()?;
+    // Other tools find the key's certificate by this id, and choose the thumbprint for it.
+    let id = Sha1::digest(leaf.der()).to_vec();
+    let mut store = KeyStore::new();
+    store.add_entry(alias, KeyStoreEntry::PrivateKeyChain(PrivateKeyChain::new(id, private_key, chain)));
+    store
+        .writer(password)
+        .encryption_algorithm(EncryptionAlgorithm::PbeWithHmacSha256AndAes256)
+        .encryption_iterations(PKCS12_ITERATIONS)
+        .mac_algorithm(MacAlgorithm::HmacSha256)
+        .mac_iterations(PKCS12_ITERATIONS)
+        .write()
+        .map_err(encoding)
+}
+
+/// Reads a key and its certificates: first the one for the key, then the others in the order of the file.
+///
+/// Takes the modern algorithms and the old ones of Windows and OpenSSL 1. Exactly one private key is expected. Blocks;
+/// how long is up to whoever wrote the file.
+pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Certificate>), PkiError> {
+    check_outside(bytes)?;
+    let archive = Pkcs12Archive::from_pkcs12(bytes, password).map_err(reading)?;
+    let key = match archive.keys.as_slice() {
+        [] => return Err(PkiError::NoKey),
+        [bag] => PrivateKey::from_pkcs8_der(bag.key.as_der())?,
+        several => return Err(PkiError::SeveralKeys(several.len())),
+    };
+    let mut certificates: Vec<_> =
+        archive.certs.iter().map(|bag| Certificate::from_der(bag.cert.as_der())).collect::<Result<_, _>>()?;
+    if certificates.is_empty() {
+        return Err(PkiError::NoCertificate);
+    }
+    let leaf = certificates.iter().position(|certificate| key.matches(certificate)).ok_or(PkiError::NotAPair)?;
+    certificates[..=leaf].rotate_right(1);
+    Ok((key, certificates))
+}
+
+/// Whether this is a PKCS#12 at all, seen from outside, so that everything found wrong later is damage or a password.
+fn check_outside(bytes: &[u8]) -> Result<(), PkiError> {
+    if bytes.is_empty() {
+        return Err(PkiError::Empty);
+    }
+    if bytes.len() > MAX_PKCS12_BYTES {
+        return Err(PkiError::TooLarge { bytes: bytes.len(), max: MAX_PKCS12_BYTES });
+    }
+    let inside = match bytes {
+        [SEQUENCE, 0x80, ..] => return Err(PkiError::UnsupportedPkcs12("it is in BER, not in DER")),
+        [SEQUENCE, 0x00..0x80, inside @ ..]
+        | [SEQUENCE, 0x81, _, inside @ ..]
+        | [SEQUENCE, 0x82, _, _, inside @ ..]
+        | [SEQUENCE, 0x83, _, _, _, inside @ ..] => inside,
+        _ => return Err(PkiError::NotPkcs12),
+    };
+    if inside.starts_with(VERSION_3) { Ok(()) } else { Err(PkiError::NotPkcs12) }
+}
+
+fn reading(error: Error) -> PkiError {
+    match error {
+        Error::UnsupportedEncryptionScheme | Error::UnsupportedMacAlgorithm => {
+            PkiError::UnsupportedPkcs12("unknown encryption")
+        }
+        Error::UnsupportedContentType => PkiError::UnsupportedPkcs12("it is not protected by a password"),
+        Error::UnsupportedCertificateType => PkiError::UnsupportedPkcs12("it holds a certificate that is not X.509"),
+        Error::InvalidParameters => PkiError::UnsupportedPkcs12("the password is to be hashed too often"),
+        _ => PkiError::WrongPasswordOrDamaged,
+    }
+}
+
+const SEQUENCE: u8 = 0x30;
+const VERSION_3: &[u8] = &[0x02, 0x01, 0x03];
