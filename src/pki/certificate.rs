@@ -66,10 +66,12 @@ impl Certificate {
         Self::from_der(bytes)
     }
 
+    /// The certificate itself, as it was read.
     pub fn der(&self) -> &[u8] {
         &self.der
     }
 
+    /// As PEM, ending with a line feed.
     pub fn to_pem(&self) -> String {
         pem::certificate(&self.der)
     }
@@ -89,10 +91,12 @@ impl Certificate {
         self.facts.common_name.clone()
     }
 
+    /// Valid from this second on.
     pub const fn not_before(&self) -> DateTime<Utc> {
         self.facts.not_before
     }
 
+    /// Valid up to and with this second.
     pub const fn not_after(&self) -> DateTime<Utc> {
         self.facts.not_after
     }
@@ -207,4 +211,100 @@ fn application_uri(parsed: &X509Certificate<'_>) -> Option<String> {
         GeneralName::URI(uri) => Some(name::printable(uri)),
         _ => None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pki::samples;
+
+    #[test]
+    fn only_a_whole_certificate_and_nothing_else_is_taken() {
+        let der = samples::certificate().der();
+        assert_eq!(Certificate::from_der(der).as_ref(), Ok(samples::certificate()));
+        assert_eq!(Certificate::from_any(der).as_ref(), Ok(samples::certificate()));
+
+        assert_eq!(Certificate::from_der(b""), Err(PkiError::Empty));
+        assert_eq!(Certificate::from_any(b""), Err(PkiError::Empty));
+        assert_eq!(Certificate::from_der(&[der, b"\0\0"].concat()), Err(PkiError::TrailingBytes(2)));
+        for end in [1, 4, der.len() / 2, der.len() - 1] {
+            assert_eq!(Certificate::from_der(&der[..end]), Err(PkiError::NotACertificate), "first {end} bytes");
+        }
+        assert_eq!(Certificate::from_any(b"hello, robot"), Err(PkiError::NotACertificate));
+    }
+
+    #[test]
+    fn too_large_is_refused_before_it_is_parsed() {
+        let der = vec![0x30; MAX_CERTIFICATE_BYTES + 1];
+        let too_large = PkiError::TooLarge { bytes: MAX_CERTIFICATE_BYTES + 1, max: MAX_CERTIFICATE_BYTES };
+        assert_eq!(Certificate::from_der(&der), Err(too_large.clone()));
+        assert_eq!(Certificate::from_any(&der), Err(too_large));
+        let text = vec![b' '; MAX_CERTIFICATE_FILE_BYTES + 1];
+        assert!(matches!(Certificate::from_any(&text), Err(PkiError::TooLarge { .. })));
+    }
+
+    #[test]
+    fn a_private_key_in_der_is_named_as_such() {
+        let key = samples::key().to_pkcs8_der().unwrap();
+        assert_eq!(Certificate::from_any(&key), Err(PkiError::PrivateKeyInside));
+    }
+
+    #[test]
+    fn contradictions_are_refused() {
+        // sha256WithRSAEncryption, whose second occurrence lies outside of what is signed
+        let algorithm = b"\x2a\x86\x48\x86\xf7\x0d\x01\x01\x0b";
+        let mut der = samples::certificate().der().to_vec();
+        let last = der.windows(algorithm.len()).rposition(|window| window == algorithm).unwrap();
+        der[last + algorithm.len() - 1] = 0x05;
+        assert_eq!(Certificate::from_der(&der), Err(PkiError::SignatureAlgorithms));
+
+        let mut params = rcgen::CertificateParams::default();
+        let comment = rcgen::CustomExtension::from_oid_content(&[2, 16, 840, 1, 113_730, 1, 13], vec![0x0c, 0]);
+        params.custom_extensions = vec![comment.clone(), comment];
+        let repeated = params.self_signed(samples::key()).unwrap();
+        assert_eq!(Certificate::from_der(repeated.der()), Err(PkiError::RepeatedExtension));
+    }
+
+    #[test]
+    fn the_summary_says_what_the_certificate_says() {
+        let certificate = samples::certificate();
+        let summary = certificate.summary();
+        assert_eq!(summary.issued_to, "EpsonRC.SN0000123.192.168.010.001");
+        assert_eq!(summary.issued_by, summary.issued_to);
+        assert_eq!(summary.serial_number.len(), 32);
+        assert_eq!(summary.thumbprint, hex::encode_upper(Sha1::digest(certificate.der())));
+        assert_eq!((summary.not_before, summary.not_after), (certificate.not_before(), certificate.not_after()));
+        assert_eq!(summary.key_bits, 2048);
+        assert_eq!(summary.application_uri.as_deref(), Some("urn:EpsonRC:SN0000123"));
+        assert_eq!(certificate.sha256(), *Fingerprint::of(certificate.der()).as_bytes());
+    }
+
+    #[test]
+    fn other_keys_than_rsa_can_be_shown() {
+        let identity = crate::pki::tls_identity("robot", samples::now()).unwrap();
+        let certificate = Certificate::from_der(&identity.certificate_der).unwrap();
+        assert_eq!(certificate.key_bits(), 256);
+        assert_eq!(certificate.application_uri(), None);
+        assert!(!samples::key().matches(&certificate));
+    }
+
+    #[test]
+    fn a_certificate_without_a_common_name_is_shown_by_its_whole_name() {
+        let mut params = rcgen::CertificateParams::default();
+        params.distinguished_name = rcgen::DistinguishedName::new();
+        params.distinguished_name.push(rcgen::DnType::OrganizationName, "Example");
+        let made = params.self_signed(samples::key()).unwrap();
+        let certificate = Certificate::from_der(made.der()).unwrap();
+        assert_eq!(certificate.common_name(), None);
+        assert_eq!(certificate.summary().issued_to, "O=Example");
+    }
+
+    #[test]
+    fn numbers_lose_the_zeros_before_them() {
+        assert_eq!(bit_length(&[0, 0x80, 0]), 16);
+        assert_eq!(bit_length(&[0x7f, 0xff]), 15);
+        assert_eq!(bit_length(&[0, 0]), 0);
+        assert_eq!(serial_number(&[0, 0x9a, 1]), "9A01");
+        assert_eq!(serial_number(&[0]), "00");
+    }
 }

@@ -30,6 +30,7 @@ impl Fingerprint {
         Self(Sha256::digest(der).into())
     }
 
+    /// The hash itself.
     pub const fn as_bytes(&self) -> &[u8; 32] {
         &self.0
     }

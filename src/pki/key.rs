@@ -54,6 +54,7 @@ impl PrivateKey {
         let bits = modulus_bits(der)?;
         let length = KeyLength::try_from(bits).map_err(|_| PkiError::KeyLength(bits))?;
         let material = match length {
+            // Checks the primes against the modulus, and computes anew what follows from them.
             KeyLength::Rsa1024 => {
                 let key = RsaPrivateKey::from_pkcs8_der(der).map_err(|_| PkiError::NotAPrivateKey)?;
                 Material::Legacy(Box::new(key))
@@ -76,6 +77,7 @@ impl PrivateKey {
         }
     }
 
+    /// 1024, 2048 or 4096.
     pub const fn bits(&self) -> u16 {
         self.length.bits()
     }
@@ -144,4 +146,68 @@ fn modulus_bits(der: &[u8]) -> Result<u16, PkiError> {
     let key = rsa::pkcs1::RsaPrivateKey::try_from(info.private_key).map_err(|_| PkiError::NotAPrivateKey)?;
     let modulus = rsa::BigUint::from_bytes_be(key.modulus.as_bytes());
     u16::try_from(modulus.bits()).map_err(|_| PkiError::NotAPrivateKey)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pki::samples;
+
+    #[test]
+    fn a_key_survives_being_written_and_read() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let der = key.to_pkcs8_der().unwrap();
+            let read = PrivateKey::from_pkcs8_der(&der).unwrap();
+            assert_eq!(read.bits(), key.bits());
+            assert_eq!(*read.to_pkcs8_der().unwrap(), *der);
+            assert!(read.matches(&samples::certificate_for(key)));
+        }
+    }
+
+    #[test]
+    fn a_key_matches_only_its_own_certificate() {
+        assert!(samples::key().matches(samples::certificate()));
+        assert!(!samples::other_key().matches(samples::certificate()));
+        assert!(!samples::legacy_key().matches(samples::certificate()));
+    }
+
+    #[test]
+    fn only_a_whole_rsa_key_is_taken() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let der = key.to_pkcs8_der().unwrap();
+            for bad in [&b""[..], b"hello", &der[..der.len() - 1], &[&der[..], b"\0"].concat()] {
+                assert_eq!(PrivateKey::from_pkcs8_der(bad).err(), Some(PkiError::NotAPrivateKey));
+            }
+        }
+        let elliptic = crate::pki::tls_identity("robot", samples::now()).unwrap().private_key_pkcs8;
+        assert_eq!(PrivateKey::from_pkcs8_der(&elliptic).err(), Some(PkiError::NotAPrivateKey));
+    }
+
+    #[test]
+    fn a_key_whose_parts_do_not_fit_together_is_refused() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let mut der = key.to_pkcs8_der().unwrap();
+            let inside_d = der.len() / 3;
+            der[inside_d] ^= 0x10;
+            assert_eq!(PrivateKey::from_pkcs8_der(&der).err(), Some(PkiError::NotAPrivateKey), "{key:?}");
+        }
+    }
+
+    #[test]
+    fn other_lengths_are_refused_by_name() {
+        let der = KeyPair::generate(KeySize::Rsa3072).unwrap().as_der().unwrap();
+        assert_eq!(PrivateKey::from_pkcs8_der(der.as_ref()).err(), Some(PkiError::KeyLength(3072)));
+    }
+
+    #[test]
+    fn debug_shows_the_length_only() {
+        assert_eq!(format!("{:?}", samples::key()), "PrivateKey(2048 bits)");
+        assert_eq!(format!("{:#?}", samples::legacy_key()), "PrivateKey(1024 bits)");
+    }
+
+    #[test]
+    fn a_key_can_be_made_on_one_thread_and_used_on_others() {
+        fn shared<T: Send + Sync>() {}
+        shared::<PrivateKey>();
+    }
 }

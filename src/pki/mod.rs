@@ -26,6 +26,8 @@ mod key;
 mod name;
 mod pem;
 mod pkcs12;
+#[cfg(test)]
+mod samples;
 mod self_signed;
 
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};

@@ -66,3 +66,59 @@ fn has_private_key(text: &[u8]) -> bool {
 const BEGIN: &[u8] = b"-----BEGIN ";
 const PRIVATE_KEY: &[u8] = b"PRIVATE KEY";
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pki::Certificate;
+    use crate::pki::samples;
+
+    fn pem() -> String {
+        samples::certificate().to_pem()
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let text = pem();
+        assert!(text.lines().all(|line| line.len() <= 64));
+        assert_eq!(Certificate::from_any(text.as_bytes()).as_ref(), Ok(samples::certificate()));
+    }
+
+    #[test]
+    fn text_around_the_certificate_does_not_matter() {
+        let pem = pem();
+        for text in [
+            format!("Certificate:\n    Data:\n        Version: 3 (0x2)\n{pem}\nthe end"),
+            format!("0 s:CN=robot\n{pem}"),
+            format!("\u{feff}{pem}"),
+            pem.replace('\n', "\r\n"),
+        ] {
+            assert_eq!(Certificate::from_any(text.as_bytes()).as_ref(), Ok(samples::certificate()));
+        }
+    }
+
+    #[test]
+    fn exactly_one_certificate_is_taken() {
+        let two = pem() + &pem();
+        assert_eq!(Certificate::from_any(two.as_bytes()), Err(PkiError::SeveralCertificates(2)));
+        let request = pem().replace("CERTIFICATE", "CERTIFICATE REQUEST");
+        assert_eq!(Certificate::from_any(request.as_bytes()), Err(PkiError::NoCertificate));
+    }
+
+    #[test]
+    fn a_private_key_beside_the_certificate_is_refused() {
+        for kind in ["PRIVATE KEY", "RSA PRIVATE KEY", "ENCRYPTED PRIVATE KEY", "OPENSSH PRIVATE KEY"] {
+            let text = format!("{}-----BEGIN {kind}-----\nAAAA\n-----END {kind}-----\n", pem());
+            assert_eq!(Certificate::from_any(text.as_bytes()), Err(PkiError::PrivateKeyInside), "{kind}");
+        }
+    }
+
+    #[test]
+    fn damaged_text_is_said_to_be_damaged() {
+        let pem = pem();
+        let without_end = pem.split("-----END").next().unwrap();
+        assert_eq!(Certificate::from_any(without_end.as_bytes()), Err(PkiError::BadPem));
+        let not_base64 = pem.replacen("MII", "M*I", 1);
+        assert_eq!(Certificate::from_any(not_base64.as_bytes()), Err(PkiError::BadPem));
+    }
+}

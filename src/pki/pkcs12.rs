@@ -16,7 +16,9 @@ pub const PKCS12_ITERATIONS: u32 = 10_000;
 
 /// Writes a key and its certificates under a password: PBES2 with AES-256 and HMAC-SHA-256, and a MAC with SHA-256.
 ///
-/// The first certificate is the one for the key. `alias` is the key's friendly name. Blocks for some milliseconds.
+/// The first certificate is the one for the key. `alias` is the key's friendly name. The format
+/// writes `alias` and the password in UCS-2, so what lies beyond, such as emoji, is refused; Java's reader takes
+/// ASCII passwords only. Blocks for some milliseconds.
 pub fn pkcs12_write(
     alias: &str,
     key: &PrivateKey,
@@ -51,7 +53,8 @@ pub fn pkcs12_write(
 /// Reads a key and its certificates: first the one for the key, then the others in the order of the file.
 ///
 /// Takes the modern algorithms and the old ones of Windows and OpenSSL 1. Exactly one private key is expected. Blocks;
-/// how long is up to whoever wrote the file.
+/// how long is up to whoever wrote
+/// the file, within a million hashings of the password for each of its parts.
 pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Certificate>), PkiError> {
     check_outside(bytes)?;
     let archive = Pkcs12Archive::from_pkcs12(bytes, password).map_err(reading)?;
@@ -103,3 +106,105 @@ fn reading(error: Error) -> PkiError {
 
 const SEQUENCE: u8 = 0x30;
 const VERSION_3: &[u8] = &[0x02, 0x01, 0x03];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pki::samples;
+
+    const PASSWORD: &str = "Größe 机器人 1";
+
+    fn written() -> Vec<u8> {
+        pkcs12_write("server", samples::key(), &[samples::certificate()], PASSWORD).unwrap()
+    }
+
+    /// Something [`pkcs12_write`] refuses to make.
+    fn odd(entries: &[(&PrivateKey, &[&Certificate])]) -> Vec<u8> {
+        let mut store = KeyStore::new();
+        for (number, (key, certificates)) in entries.iter().enumerate() {
+            let key = p12_keystore::PrivateKey::from_der(&key.to_pkcs8_der().unwrap()).unwrap();
+            let chain: Vec<_> =
+                certificates.iter().map(|c| p12_keystore::Certificate::from_der(c.der()).unwrap()).collect();
+            let chain = PrivateKeyChain::new(vec![number as u8], key, chain);
+            store.add_entry(&number.to_string(), KeyStoreEntry::PrivateKeyChain(chain));
+        }
+        store.writer(PASSWORD).encryption_iterations(1).mac_iterations(1).write().unwrap()
+    }
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let certificate = samples::certificate_for(key);
+            for password in [PASSWORD, "", "x"] {
+                let bytes = pkcs12_write("server", key, &[&certificate], password).unwrap();
+                let (read_key, certificates) = pkcs12_read(&bytes, password).unwrap();
+                assert_eq!(*read_key.to_pkcs8_der().unwrap(), *key.to_pkcs8_der().unwrap());
+                assert_eq!(certificates, std::slice::from_ref(&certificate));
+            }
+        }
+    }
+
+    #[test]
+    fn what_the_format_cannot_write_is_refused() {
+        let write = |alias, password| pkcs12_write(alias, samples::key(), &[samples::certificate()], password);
+        assert_eq!(write("server", "robot 🤖"), Err(PkiError::Pkcs12Encoding));
+        assert_eq!(write("🤖", PASSWORD), Err(PkiError::Pkcs12Encoding));
+    }
+
+    #[test]
+    fn the_key_cannot_be_seen_without_the_password() {
+        let key = samples::key().to_pkcs8_der().unwrap();
+        let bytes = written();
+        for secret in key.chunks(16) {
+            assert!(!bytes.windows(secret.len()).any(|window| secret.len() == 16 && window == secret));
+        }
+    }
+
+    #[test]
+    fn the_certificate_of_the_key_comes_first() {
+        let (a, leaf, b) = (
+            samples::certificate_for(samples::other_key()),
+            samples::certificate(),
+            samples::certificate_for(samples::legacy_key()),
+        );
+        let (_, certificates) = pkcs12_read(&odd(&[(samples::key(), &[&a, leaf, &b])]), PASSWORD).unwrap();
+        assert_eq!(certificates, [leaf.clone(), a, b]);
+    }
+
+    #[test]
+    fn a_wrong_password_or_damage_is_said_to_be_either() {
+        let bytes = written();
+        assert_eq!(pkcs12_read(&bytes, "wrong").err(), Some(PkiError::WrongPasswordOrDamaged));
+        assert_eq!(pkcs12_read(&bytes, "").err(), Some(PkiError::WrongPasswordOrDamaged));
+        assert_eq!(pkcs12_read(&bytes[..bytes.len() - 1], PASSWORD).err(), Some(PkiError::WrongPasswordOrDamaged));
+        let mut damaged = bytes.clone();
+        damaged[bytes.len() / 2] ^= 1;
+        assert_eq!(pkcs12_read(&damaged, PASSWORD).err(), Some(PkiError::WrongPasswordOrDamaged));
+    }
+
+    #[test]
+    fn what_is_no_pkcs12_is_not_blamed_on_the_password() {
+        for bytes in [b"hello, robot".as_slice(), &[0x30], samples::certificate().der()] {
+            assert_eq!(pkcs12_read(bytes, PASSWORD).err(), Some(PkiError::NotPkcs12));
+        }
+        assert_eq!(pkcs12_read(b"", PASSWORD).err(), Some(PkiError::Empty));
+        let large = vec![0x30; MAX_PKCS12_BYTES + 1];
+        assert!(matches!(pkcs12_read(&large, PASSWORD), Err(PkiError::TooLarge { .. })));
+        let ber = [0x30, 0x80, 0x02, 0x01, 0x03];
+        assert!(matches!(pkcs12_read(&ber, PASSWORD), Err(PkiError::UnsupportedPkcs12(_))));
+    }
+
+    #[test]
+    fn one_key_and_its_certificate_are_needed() {
+        let (key, other, certificate) = (samples::key(), samples::other_key(), samples::certificate());
+        let none = pkcs12_write("server", key, &[], PASSWORD);
+        assert_eq!(none, Err(PkiError::NoCertificate));
+        assert_eq!(pkcs12_write("server", other, &[certificate], PASSWORD), Err(PkiError::NotAPair));
+
+        let read = |entries: &[(&PrivateKey, &[&Certificate])]| pkcs12_read(&odd(entries), PASSWORD).err();
+        assert_eq!(read(&[]), Some(PkiError::NoKey));
+        assert_eq!(read(&[(key, &[])]), Some(PkiError::NoCertificate));
+        assert_eq!(read(&[(other, &[certificate])]), Some(PkiError::NotAPair));
+        assert_eq!(read(&[(key, &[certificate]), (other, &[])]), Some(PkiError::SeveralKeys(2)));
+    }
+}

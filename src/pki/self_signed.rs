@@ -15,7 +15,9 @@ use crate::model::{SelfSignedRequest, Subject, SubjectError};
 pub struct ServerNames {
     /// The ApplicationUri of the server's application description; clients compare the two.
     pub application_uri: String,
+    /// IPv4 or IPv6.
     pub ips: Vec<IpAddr>,
+    /// Host names, with or without a domain.
     pub dns: Vec<String>,
 }
 
@@ -50,8 +52,8 @@ pub fn self_signed(
     params.key_identifier_method = KeyIdMethod::Sha256;
     params.use_authority_key_identifier_extension = true;
     params.serial_number = Some(random_serial_number()?.into());
-    params.not_before = date(now - CLOCK_SKEW)?;
-    params.not_after = date(now + request.validity.duration())?;
+    params.not_before = date(now.checked_sub_signed(CLOCK_SKEW))?;
+    params.not_after = date(now.checked_add_signed(request.validity.duration()))?;
     let certificate = params.self_signed(key).map_err(|_| PkiError::Signing)?;
     Certificate::from_der(certificate.der())
 }
@@ -67,8 +69,11 @@ pub(super) fn random_serial_number() -> Result<Vec<u8>, PkiError> {
     Ok(bytes.to_vec())
 }
 
-pub(super) fn date(when: DateTime<Utc>) -> Result<OffsetDateTime, PkiError> {
-    OffsetDateTime::from_unix_timestamp(when.timestamp()).map_err(|_| PkiError::Dates)
+/// Refuses `None`, and what X.509 cannot write: years before 0 or after 9999.
+pub(super) fn date(when: Option<DateTime<Utc>>) -> Result<OffsetDateTime, PkiError> {
+    let seconds = when.ok_or(PkiError::Dates)?.timestamp();
+    let date = OffsetDateTime::from_unix_timestamp(seconds).ok().filter(|date| date.year() >= 0);
+    date.ok_or(PkiError::Dates)
 }
 
 fn distinguished_name(subject: &Subject) -> Result<DistinguishedName, PkiError> {
@@ -131,4 +136,138 @@ fn is_dns_name(text: &str) -> bool {
             (1..=63).contains(&label.len())
                 && label.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'-' || byte == b'_')
         })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use aws_lc_rs::signature::{RSA_PKCS1_1024_8192_SHA256_FOR_LEGACY_USE_ONLY, UnparsedPublicKey};
+    use x509_parser::asn1_rs::Tag;
+    use x509_parser::prelude::{FromDer, GeneralName, ParsedExtension, X509Certificate, X509Version};
+
+    use crate::model::KeyLength;
+    use crate::pki::samples::{self, names, now, request};
+
+    fn made_with(names: &ServerNames) -> Result<Certificate, PkiError> {
+        self_signed(&request(KeyLength::Rsa2048), names, samples::key(), now())
+    }
+
+    #[test]
+    fn it_is_what_opc_ua_asks_for_at_every_key_length() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let certificate = samples::certificate_for(key);
+            assert_eq!(certificate.key_bits(), key.bits());
+            assert!(certificate.is_self_signed());
+            let (_, parsed) = X509Certificate::from_der(certificate.der()).unwrap();
+            assert_eq!(parsed.version(), X509Version::V3);
+            assert_eq!(
+                parsed.subject().to_string(),
+                "C=JP, ST=Nagano, L=Suwa, O=Example & Sons, CN=EpsonRC.SN0000123.192.168.010.001"
+            );
+            let country = parsed.subject().iter_country().next().unwrap();
+            assert_eq!(country.attr_value().tag(), Tag::PrintableString);
+
+            let usage = parsed.key_usage().unwrap().unwrap();
+            assert!(usage.critical);
+            assert_eq!(usage.value.flags, 0b10_1111, "the first four, and keyCertSign");
+            let extended = parsed.extended_key_usage().unwrap().unwrap().value;
+            assert!(extended.server_auth && extended.client_auth && !extended.any);
+            let constraints = parsed.basic_constraints().unwrap().expect("said explicitly");
+            assert!(!constraints.value.ca);
+
+            let alternative = parsed.subject_alternative_name().unwrap().unwrap().value;
+            assert_eq!(
+                alternative.general_names,
+                [
+                    GeneralName::URI("urn:EpsonRC:SN0000123"),
+                    GeneralName::DNSName("robot-7.plant.example"),
+                    GeneralName::IPAddress(&[192, 168, 10, 1]),
+                    GeneralName::IPAddress(&[0xfe, 0x80, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1]),
+                ]
+            );
+            let (mut subject_key, mut authority_key) = (None, None);
+            for extension in parsed.extensions() {
+                match extension.parsed_extension() {
+                    ParsedExtension::SubjectKeyIdentifier(id) => subject_key = Some(id.clone()),
+                    ParsedExtension::AuthorityKeyIdentifier(id) => authority_key = id.key_identifier.clone(),
+                    _ => {}
+                }
+            }
+            assert!(subject_key.is_some());
+            assert_eq!(subject_key, authority_key);
+        }
+    }
+
+    #[test]
+    fn it_is_signed_with_sha_256_at_every_key_length() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let certificate = samples::certificate_for(key);
+            let (_, parsed) = X509Certificate::from_der(certificate.der()).unwrap();
+            let public_key = &parsed.public_key().subject_public_key.data[..];
+            UnparsedPublicKey::new(&RSA_PKCS1_1024_8192_SHA256_FOR_LEGACY_USE_ONLY, public_key)
+                .verify(parsed.tbs_certificate.as_ref(), &parsed.signature_value.data)
+                .unwrap();
+        }
+    }
+
+    #[test]
+    fn it_is_valid_from_a_day_ago_for_the_years_asked_for() {
+        let certificate = samples::certificate();
+        assert_eq!(certificate.not_before(), now() - Duration::days(1));
+        assert_eq!(certificate.not_after(), now() + request(KeyLength::Rsa2048).validity.duration());
+    }
+
+    #[test]
+    fn a_clock_beyond_all_dates_is_an_error_and_no_crash() {
+        for now in [DateTime::<Utc>::MIN_UTC, DateTime::<Utc>::MAX_UTC, now() - Duration::days(365 * 2040)] {
+            let made = self_signed(&request(KeyLength::Rsa2048), &names(), samples::key(), now);
+            assert_eq!(made, Err(PkiError::Dates));
+        }
+    }
+
+    #[test]
+    fn serial_numbers_are_positive_and_never_the_same() {
+        let serial = || made_with(&names()).unwrap().summary().serial_number;
+        let (one, other) = (serial(), serial());
+        assert_ne!(one, other);
+        for serial in [one, other] {
+            assert_eq!(serial.len(), 32);
+            assert!(('4'..='7').contains(&serial.chars().next().unwrap()));
+        }
+    }
+
+    #[test]
+    fn empty_fields_are_left_out() {
+        let mut request = request(KeyLength::Rsa2048);
+        request.subject.country.clear();
+        request.subject.state.clear();
+        request.subject.locality.clear();
+        request.subject.organisation.clear();
+        let certificate = self_signed(&request, &names(), samples::key(), now()).unwrap();
+        let (_, parsed) = X509Certificate::from_der(certificate.der()).unwrap();
+        assert_eq!(parsed.subject().to_string(), "CN=EpsonRC.SN0000123.192.168.010.001");
+    }
+
+    #[test]
+    fn a_wish_that_cannot_be_granted_is_refused_with_its_reason() {
+        let mut nameless = request(KeyLength::Rsa2048);
+        nameless.subject.common_name.clear();
+        assert_eq!(
+            self_signed(&nameless, &names(), samples::key(), now()),
+            Err(PkiError::Subject(SubjectError::Empty("common name")))
+        );
+        assert_eq!(
+            self_signed(&request(KeyLength::Rsa4096), &names(), samples::key(), now()),
+            Err(PkiError::OtherKeyLength { asked: 4096, got: 2048 })
+        );
+        assert_eq!(made_with(&ServerNames { ips: vec![], dns: vec![], ..names() }), Err(PkiError::NoHostName));
+        for uri in ["", "EpsonRC", "urn:", ":x", "urn:a b", "urn:机器人", "1rn:x"] {
+            let bad = ServerNames { application_uri: uri.into(), ..names() };
+            assert_eq!(made_with(&bad), Err(PkiError::ApplicationUri(uri.into())));
+        }
+        for dns in ["", "robot..example", "robot 7", "机器人", "*.example", &"a".repeat(64)] {
+            let bad = ServerNames { dns: vec![dns.into()], ..names() };
+            assert_eq!(made_with(&bad), Err(PkiError::DnsName(dns.into())));
+        }
+    }
 }

@@ -38,7 +38,7 @@ pub trait Connector: Send + Sync {
 /// A logged-in session. Every call is one request, bounded in time; an error leaves the session usable unless it says
 /// that the connection or the session is over.
 #[async_trait]
-pub trait ControllerSession: Send {
+pub trait ControllerSession: Send + Sync {
     async fn info(&mut self) -> Result<ControllerInfo, Problem>;
     async fn start_server(&mut self) -> Result<Changed, Problem>;
     async fn stop_server(&mut self) -> Result<Changed, Problem>;
