@@ -31,4 +31,5 @@ pub mod model;
 pub mod pki;
 pub mod protocol;
 pub mod session;
+pub mod ui;
 pub mod workspace;
