@@ -15,7 +15,7 @@ use super::new_controller::NewController;
 use super::opcua::{DeviceIdentity, OpcUaConfig, OpcUaServer, OpcUaUser, StartError};
 use super::state::{State, Surroundings};
 use super::store::{Store, StoreError};
-use super::{listener as management, tls};
+use super::{listener as management, memory, tls};
 use crate::model::{
     ClientList, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion,
     Problem, SerialNumber, ServerSettings, ServerStatus, StartupMode, UserName,
@@ -326,9 +326,8 @@ impl Controller {
                 this.faults.admit_change()?;
                 let mut plant = this.server.lock().await;
                 plant.admit()?;
-                if let Some(server) = plant.server.take() {
-                    server.stop().await;
-                }
+                plant.stop().await;
+                memory::give_back();
                 *this.standing.lock() = Standing::Stopped;
                 Ok(this.changed())
             })
@@ -481,7 +480,10 @@ impl Controller {
     async fn switch_off(&self) {
         let mut plant = self.server.lock().await;
         plant.off = true;
-        plant.stop().await;
+        if plant.server.is_some() {
+            plant.stop().await;
+            memory::give_back();
+        }
         *self.standing.lock() = Standing::Stopped;
     }
 
