@@ -78,6 +78,8 @@ pub const MIN_COLUMN: f32 = 60.0;
 pub const COLUMN_WIDTHS: [f32; 9] = [170.0, 110.0, 135.0, 115.0, 105.0, 175.0, 115.0, 80.0, 145.0];
 pub const SEARCH_WIDTH: f32 = 320.0;
 pub const BUTTON_HEIGHT: f32 = 28.0;
+/// Of lines that follow closely on each other.
+pub const DENSE_HEIGHT: f32 = 22.0;
 
 pub const DIALOG: f32 = 520.0;
 pub const DIALOG_WIDE: f32 = 680.0;

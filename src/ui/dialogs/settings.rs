@@ -60,6 +60,7 @@ fn fields(ui: &mut Ui, settings: &mut SettingsForm, model: &Model) {
         None
     });
     labelled(ui, text(T::SecurityPolicy), |ui| {
+        ui.spacing_mut().interact_size.y = theme::DENSE_HEIGHT;
         for policy in SecurityPolicy::ALL {
             ui.horizontal(|ui| {
                 toggle(ui, &mut settings.policies, policy, policy.as_str());
@@ -75,6 +76,7 @@ fn fields(ui: &mut Ui, settings: &mut SettingsForm, model: &Model) {
         None
     });
     labelled(ui, text(T::TokenPolicy), |ui| {
+        ui.spacing_mut().interact_size.y = theme::DENSE_HEIGHT;
         for (token, label) in
             [(UserTokenPolicy::Anonymous, T::TokenAnonymous), (UserTokenPolicy::UserName, T::TokenUserName)]
         {
