@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use chrono::{DateTime, FixedOffset, Utc};
+use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::model::Language;
@@ -54,11 +55,19 @@ pub fn settle<B: Backend>(window: &mut Window<B>) {
     window.run_ok();
 }
 
-/// Clicks what has this label; of several, what can be clicked and is on top.
+/// Clicks the button, menu item, tick box or the like with this label; of several, the one on top.
 pub fn click<B: Backend>(window: &mut Window<B>, label: &str) {
-    let found = window.get_all_by_label(label).last();
-    found.unwrap_or_else(|| panic!("nothing is called {label:?}")).click();
+    let found = window.query_all_by_label(label).filter(|node| is_control(node.accesskit_node().role())).last();
+    found.unwrap_or_else(|| panic!("nothing to click is called {label:?}")).click();
     settle(window);
+}
+
+/// Other things may have the same words on them, such as the state "Stop" of a row.
+fn is_control(role: Role) -> bool {
+    matches!(
+        role,
+        Role::Button | Role::CheckBox | Role::RadioButton | Role::ComboBox | Role::MenuItem | Role::ListBoxOption
+    )
 }
 
 /// Opens a menu and clicks an item.
@@ -70,7 +79,6 @@ pub fn choose<B: Backend>(window: &mut Window<B>, path: &[&str]) {
 
 /// Replaces what is in the text field with this label.
 pub fn type_into<B: Backend>(window: &mut Window<B>, label: &str, text: &str) {
-    use egui::accesskit::Role;
     let is_field = |role: Role| matches!(role, Role::TextInput | Role::PasswordInput);
     let field = |window: &Window<B>| {
         let found = window.query_all_by_label(label).filter(|node| is_field(node.accesskit_node().role())).last();
@@ -88,7 +96,7 @@ pub fn shows<B: Backend>(window: &Window<B>, label: &str) -> bool {
 }
 
 pub fn is_enabled<B: Backend>(window: &Window<B>, label: &str) -> bool {
-    window.get_all_by_label(label).last().is_some_and(|node| !node.accesskit_node().is_disabled())
+    window.query_all_by_label(label).filter(|node| is_control(node.accesskit_node().role())).last().is_some_and(|node| !node.accesskit_node().is_disabled())
 }
 
 /// Runs frames until something holds.

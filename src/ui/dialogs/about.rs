@@ -28,6 +28,7 @@ pub fn shortcuts(ui: &Ui, model: &Model) -> Answer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
     dialog(ui, "shortcuts", text(T::Shortcuts), theme::DIALOG, buttons, |ui| {
+        ui.spacing_mut().interact_size.y = theme::DENSE_HEIGHT;
         Grid::new("shortcuts").num_columns(2).spacing(vec2(28.0, 8.0)).show(ui, |ui| {
             let line = |ui: &mut Ui, key: &str, what: &str| {
                 ui.label(RichText::new(key).color(palette(ui).weak));

@@ -49,7 +49,7 @@ fn bar(ui: &mut Ui, job: &Job, model: &Model) {
     // The bar's track is the background otherwise, which cannot be seen on a dialog.
     ui.scope(|ui| {
         ui.visuals_mut().extreme_bg_color = palette.line;
-        let fill = if job.failed > 0 && job.summary.is_some() { palette.error } else { palette.accent };
+        let fill = if job.failed == job.rows.len() { palette.error } else { palette.accent };
         ui.add(ProgressBar::new(done).fill(fill).desired_height(6.0).corner_radius(3));
     });
     let said = match job.summary {

@@ -90,8 +90,16 @@ pub fn tick_row(language: Language, name: &str) -> String {
 
 pub fn sort_by(language: Language, column: T) -> String {
     match language {
-        Language::En => format!("Sort by {}", column.text(language).to_lowercase()),
+        Language::En => format!("Sort by {}", lower_first(column.text(language))),
         Language::Zh => format!("按{}排序", column.text(language)),
+    }
+}
+
+/// For the middle of a sentence; "IP" stays as it is.
+fn lower_first(text: &str) -> String {
+    match text.split_at_checked(1) {
+        Some((first, rest)) if rest.starts_with(char::is_lowercase) => first.to_lowercase() + rest,
+        _ => text.to_owned(),
     }
 }
 

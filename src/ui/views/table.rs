@@ -33,6 +33,8 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
 fn table(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     let palette = palette(ui);
     ui.spacing_mut().item_spacing = vec2(10.0, 0.0);
+    // The text of ticked rows.
+    ui.visuals_mut().selection.stroke.color = palette.text;
     let mut builder = TableBuilder::new(ui)
         .id_salt("controllers")
         .striped(true)
