@@ -26,10 +26,12 @@
 #![warn(missing_debug_implementations, clippy::unwrap_used, clippy::dbg_macro)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
+pub mod cli;
 pub mod jobs;
 pub mod model;
 pub mod pki;
 pub mod protocol;
 pub mod session;
 pub mod ui;
+pub mod virtual_controller;
 pub mod workspace;

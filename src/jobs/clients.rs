@@ -72,9 +72,7 @@ impl Operation for AddClientCertificates {
             return Err(Problem::with_detail(ErrorCode::ListFull, format!("{total} > {limit}")));
         }
         run.begin(Step::Apply)?;
-        run.session
-            .add_clients(self.list, AddClients { revision: current.revision, certificates: new })
-            .await?;
+        run.session.add_clients(self.list, AddClients { revision: current.revision, certificates: new }).await?;
         Ok(Outcome::Done)
     }
 }

@@ -53,7 +53,10 @@ pub enum Outcome {
     Settings(Revisioned<ServerSettings>),
     Users(Revisioned<Vec<UserName>>),
     Clients(Revisioned<Vec<ListedCertificate>>),
-    Certificate { summary: CertificateSummary, saved: Option<SavedCertificate> },
+    Certificate {
+        summary: CertificateSummary,
+        saved: Option<SavedCertificate>,
+    },
 }
 
 /// One controller's turn: the open session, and a way to say where it is.
@@ -84,10 +87,7 @@ impl Run<'_> {
     }
 
     /// Runs work that keeps a core busy for a while, on as many cores as there are and no more.
-    pub async fn on_a_core<R: Send + 'static>(
-        &self,
-        work: impl FnOnce() -> R + Send + 'static,
-    ) -> Result<R, Problem> {
+    pub async fn on_a_core<R: Send + 'static>(&self, work: impl FnOnce() -> R + Send + 'static) -> Result<R, Problem> {
         let internal = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::Internal, e);
         let _core = self.key_makers.acquire().await.map_err(|e| internal(&e))?;
         if self.cancel.is_cancelled() {

@@ -78,6 +78,9 @@ impl Operation for SelfSigned {
         let settings = run.session.settings().await?;
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
+        if let Some(files) = &self.backup {
+            files.check_writable(&info.serial)?;
+        }
         let (installed, key) = match info.generation() {
             FirmwareGeneration::Current => {
                 run.begin(Step::Apply)?;
@@ -116,7 +119,8 @@ async fn make_and_send(
         .on_a_core(move || -> Result<_, pki::PkiError> {
             let key = PrivateKey::generate(request.key_length)?;
             let certificate = pki::self_signed(&request, &names, &key, Utc::now())?;
-            let pkcs12 = pki::pkcs12_write(&alias, &key, &[&certificate], secrecy::ExposeSecret::expose_secret(&password))?;
+            let pkcs12 =
+                pki::pkcs12_write(&alias, &key, &[&certificate], secrecy::ExposeSecret::expose_secret(&password))?;
             Ok((key, pkcs12, password))
         })
         .await??;
@@ -133,7 +137,8 @@ async fn make_and_send(
 /// What clients will compare with the certificate: the ApplicationUri the server announces (OPC 10000-6 §6.2.2), and
 /// the names it is reached by, from both sides.
 fn server_names(info: &ControllerInfo, controller: &JobController) -> ServerNames {
-    let announced = info.endpoint.strip_prefix("opc.tcp://").and_then(|rest| rest.split('/').next()).unwrap_or_default();
+    let announced =
+        info.endpoint.strip_prefix("opc.tcp://").and_then(|rest| rest.split('/').next()).unwrap_or_default();
     let announced = announced.rsplit_once(':').map_or(announced, |(host, _)| host).trim_matches(['[', ']']);
     let mut names =
         ServerNames { application_uri: format!("urn:{}", info.application_name), ips: Vec::new(), dns: Vec::new() };

@@ -3,9 +3,7 @@ use std::collections::BTreeSet;
 use async_trait::async_trait;
 
 use super::{Confirmation, Operation, Outcome, Run, Step};
-use crate::model::{
-    ErrorCode, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
-};
+use crate::model::{ErrorCode, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy};
 use crate::protocol;
 
 /// Reads the basic settings.

@@ -25,6 +25,15 @@ impl ServerStatus {
     }
 }
 
+/// The certificate the OPC UA server shows its clients.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ServerCertificate {
+    #[serde(rename = "type")]
+    pub kind: CertificateType,
+    #[serde(flatten)]
+    pub summary: CertificateSummary,
+}
+
 /// Everything "Get new information" reads from a controller (manual 2.4.4.1).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ControllerInfo {
@@ -38,7 +47,7 @@ pub struct ControllerInfo {
     pub error: Option<ErrorCode>,
     pub activated: bool,
     /// The certificate type in use, with its certificate, if one is installed.
-    pub certificate: Option<(CertificateType, CertificateSummary)>,
+    pub certificate: Option<ServerCertificate>,
     /// ApplicationName of the OPC UA server, and the default common name of its certificate.
     pub application_name: String,
     /// `opc.tcp://host:port` as clients reach it.

@@ -69,12 +69,14 @@ pub enum ErrorCode {
     AddressTaken,
     UnknownController,
     FileUnreadable,
+    NotConfirmed,
     // the PC
     WorkspaceReadOnly,
     WorkspaceFull,
     WorkspaceBusy,
     ConfigurationDamaged,
     KeyringUnavailable,
+    NoDisplay,
     Cancelled,
     Internal,
 }
@@ -616,6 +618,15 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("无法读取文件", "文件不存在，或当前账户没有读取权限。", "请检查文件名和权限。"),
     ),
     (
+        ErrorCode::NotConfirmed,
+        text(
+            "The operation was not confirmed",
+            "It changes the controllers, and there is no terminal to ask on.",
+            "Repeat the command with --yes.",
+        ),
+        text("操作未确认", "该操作会更改控制器，且没有可询问的终端。", "请加上 --yes 重新执行命令。"),
+    ),
+    (
         ErrorCode::WorkspaceReadOnly,
         text(
             "The workspace cannot be written",
@@ -667,6 +678,19 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "Enter the password each time the program starts, or unlock the keyring.",
         ),
         text("本机无法保存密码", "没有操作系统密钥环，或密钥环已锁定。", "请在每次启动时输入密码，或解锁密钥环。"),
+    ),
+    (
+        ErrorCode::NoDisplay,
+        text(
+            "The window cannot be opened",
+            "There is no display, or its graphics driver does not offer OpenGL.",
+            "Use the command line (--help), or start the program on a computer with a display.",
+        ),
+        text(
+            "无法打开窗口",
+            "没有显示器，或图形驱动不支持 OpenGL。",
+            "请使用命令行（--help），或在有显示器的电脑上启动程序。",
+        ),
     ),
     (
         ErrorCode::Cancelled,
@@ -727,19 +751,20 @@ mod tests {
             | NameTaken
             | AddressTaken
             | UnknownController
-            | FileUnreadable => 12,
+            | FileUnreadable
+            | NotConfirmed => 13,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
-            | Cancelled | Internal => 7,
+            | NoDisplay | Cancelled | Internal => 8,
         }
     }
 
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        assert_eq!(codes.len(), 7 + 11 + 15 + 12 + 7);
+        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 8);
         codes.sort();
         codes.dedup();
-        assert_eq!(codes.len(), 52);
+        assert_eq!(codes.len(), 54);
         for code in ErrorCode::all() {
             assert!(counted(code) > 0);
             let (en, zh) = (code.explain(Language::En), code.explain(Language::Zh));

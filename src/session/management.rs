@@ -1,5 +1,7 @@
 //! The driver for the management protocol over HTTPS.
 
+use std::error::Error;
+use std::io;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -150,13 +152,7 @@ impl Link {
         }
         let detail = innermost(error);
         if error.is_connect() {
-            // The TCP connection stands once a certificate was seen; a TLS or protocol error that comes before means
-            // that something else listens there.
-            let code = if is_caused_by::<rustls::Error>(error) || is_invalid_data(error) {
-                ErrorCode::NotAController
-            } else {
-                ErrorCode::Unreachable
-            };
+            let code = if is_handshake_failure(error) { ErrorCode::NotAController } else { ErrorCode::Unreachable };
             return Problem::with_detail(code, detail);
         }
         if error.is_timeout() {
@@ -177,26 +173,32 @@ impl Link {
     }
 }
 
-fn causes<'a>(error: &'a (dyn std::error::Error + 'static)) -> impl Iterator<Item = &'a (dyn std::error::Error + 'static)> {
-    std::iter::successors(Some(error), |e| e.source())
+/// An error and everything under it, also what `std::io::Error` wraps without calling it its source.
+fn causes<'a>(error: &'a (dyn Error + 'static)) -> impl Iterator<Item = &'a (dyn Error + 'static)> {
+    fn under<'a>(error: &'a (dyn Error + 'static)) -> Option<&'a (dyn Error + 'static)> {
+        match error.downcast_ref::<io::Error>().and_then(io::Error::get_ref) {
+            Some(wrapped) => Some(wrapped),
+            None => error.source(),
+        }
+    }
+    std::iter::successors(Some(error), |error| under(*error))
 }
 
 fn innermost(error: &reqwest::Error) -> String {
     causes(error).last().map(ToString::to_string).unwrap_or_default()
 }
 
-fn is_caused_by<E: std::error::Error + 'static>(error: &reqwest::Error) -> bool {
+/// The TCP connection stood, but the TLS handshake failed: the peer talks something else, or hung up on it.
+fn is_handshake_failure(error: &reqwest::Error) -> bool {
     causes(error).any(|e| {
-        e.is::<E>()
-            || e.downcast_ref::<std::io::Error>().and_then(|io| io.get_ref()).is_some_and(|inner| inner.is::<E>())
+        e.is::<rustls::Error>()
+            || e.downcast_ref::<io::Error>().is_some_and(|io| {
+                matches!(
+                    io.kind(),
+                    io::ErrorKind::ConnectionReset | io::ErrorKind::BrokenPipe | io::ErrorKind::UnexpectedEof
+                )
+            })
     })
-}
-
-/// How rustls reports, through `std::io`, that the peer does not speak TLS.
-fn is_invalid_data(error: &reqwest::Error) -> bool {
-    causes(error)
-        .filter_map(|e| e.downcast_ref::<std::io::Error>())
-        .any(|io| matches!(io.kind(), std::io::ErrorKind::InvalidData | std::io::ErrorKind::UnexpectedEof))
 }
 
 fn is_caused_by_http_parse(error: &reqwest::Error) -> bool {

@@ -11,9 +11,7 @@ use secrecy::SecretString;
 
 pub use management::{ManagementConnector, Timeouts};
 
-use crate::model::{
-    Address, ClientList, ControllerInfo, Problem, ServerSettings, UserName,
-};
+use crate::model::{Address, ClientList, ControllerInfo, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
     AddClients, AddUser, Changed, ImportCertificate, Installed, ListedCertificate, MakeSelfSigned, RemoveUsers,

@@ -36,15 +36,7 @@ impl<B: Backend> App<B> {
     pub fn new(ctx: &egui::Context, model: Model, backend: B) -> Self {
         theme::install(ctx);
         fonts::install(ctx);
-        Self {
-            model,
-            backend,
-            clock: Arc::new(Utc::now),
-            save_at: None,
-            theme: None,
-            size: None,
-            dialogs_shown: 0,
-        }
+        Self { model, backend, clock: Arc::new(Utc::now), save_at: None, theme: None, size: None, dialogs_shown: 0 }
     }
 
     /// Another clock than the computer's, for pictures that must not change.

@@ -169,10 +169,8 @@ fn visuals(visuals: &mut egui::Visuals, theme: Theme, palette: &Palette) {
         widget.corner_radius = CornerRadius::same(6);
         widget.expansion = 0.0;
         widget.fg_stroke = Stroke::new(if engaged { 1.5 } else { 1.0 }, palette.text);
-        widget.bg_stroke =
-            Stroke::new(1.0, if engaged { palette.accent.gamma_multiply(0.7) } else { palette.line });
-        widget.weak_bg_fill =
-            if engaged { palette.raised.lerp_to_gamma(palette.accent, 0.12) } else { palette.raised };
+        widget.bg_stroke = Stroke::new(1.0, if engaged { palette.accent.gamma_multiply(0.7) } else { palette.line });
+        widget.weak_bg_fill = if engaged { palette.raised.lerp_to_gamma(palette.accent, 0.12) } else { palette.raised };
         widget.bg_fill = palette.background;
     }
 }

@@ -16,7 +16,9 @@ pub fn about(ui: &Ui, model: &Model) -> Answer {
         ui.add_space(theme::SPACE);
         let weak = palette(ui).weak;
         ui.label(RichText::new(text(T::WorkspaceLabel)).size(theme::SMALL_TEXT).color(weak));
-        ui.add(Label::new(RichText::new(model.workspace.root().display().to_string()).monospace()).wrap().selectable(true));
+        ui.add(
+            Label::new(RichText::new(model.workspace.root().display().to_string()).monospace()).wrap().selectable(true),
+        );
         ui.add_space(theme::SPACE);
         fine_print(ui, text(T::AboutLicence));
     })

@@ -2,9 +2,7 @@ use std::collections::BTreeSet;
 
 use super::{Purpose, RowId, Task};
 use crate::jobs::Confirmation;
-use crate::model::{
-    ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy,
-};
+use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
 use crate::pki::Fingerprint;
 
 /// A dialog with whatever is typed into it.

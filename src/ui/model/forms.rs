@@ -148,8 +148,7 @@ impl SettingsForm {
     }
 
     pub fn warns_no_users(&self) -> bool {
-        self.settings()
-            .is_some_and(|s| s.warnings(self.users).contains(&crate::model::SettingsWarning::NoUsers))
+        self.settings().is_some_and(|s| s.warnings(self.users).contains(&crate::model::SettingsWarning::NoUsers))
     }
 }
 

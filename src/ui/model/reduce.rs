@@ -239,7 +239,8 @@ impl Model {
             }
             Purpose::CountUsers => self.job = None,
             Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies => {
-                let problem = self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));
+                let problem =
+                    self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));
                 if let Some(problem) = problem {
                     // The form has nothing to show.
                     self.dialogs.pop();

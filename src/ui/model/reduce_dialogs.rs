@@ -96,10 +96,8 @@ impl Model {
             }
             Dialog::Confirm { task, rows, .. } => {
                 // The form that asked for it has done its work.
-                if matches!(
-                    self.dialogs.last(),
-                    Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_))
-                ) {
+                if matches!(self.dialogs.last(), Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_)))
+                {
                     self.dialogs.pop();
                 }
                 self.start(task, rows, Purpose::Show, None)
@@ -114,8 +112,7 @@ impl Model {
             }
             Dialog::SelfSigned(form) => {
                 let backup = self.options.backup;
-                let planned =
-                    form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
+                let planned = form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
                 self.ask(Dialog::SelfSigned(form), planned)
             }
             Dialog::Backup { on } => {
@@ -157,7 +154,8 @@ impl Model {
                     self.dialogs.pop();
                     self.job = None;
                 } else if let Some(Dialog::Processing(view)) = self.dialogs.last_mut() {
-                    let failed = self.job.as_ref().and_then(|job| job.rows.iter().position(|r| r.state.problem().is_some()));
+                    let failed =
+                        self.job.as_ref().and_then(|job| job.rows.iter().position(|r| r.state.problem().is_some()));
                     view.selected = view.selected.or(failed);
                 }
                 vec![]

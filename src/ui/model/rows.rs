@@ -104,11 +104,11 @@ impl Row {
     }
 
     pub fn not_after(&self) -> Option<DateTime<Utc>> {
-        self.info().and_then(|info| info.certificate.as_ref()).map(|(_, summary)| summary.not_after)
+        self.info().and_then(|info| info.certificate.as_ref()).map(|certificate| certificate.summary.not_after)
     }
 
     pub fn certificate_type(&self) -> Option<CertificateType> {
-        self.info().and_then(|info| info.certificate.as_ref()).map(|(kind, _)| *kind)
+        self.info().and_then(|info| info.certificate.as_ref()).map(|certificate| certificate.kind)
     }
 
     fn serial(&self) -> Option<&str> {
@@ -146,9 +146,7 @@ impl Row {
             Column::Expiry => self.not_after().cmp(&other.not_after()),
             Column::Certificate => self.certificate_type().cmp(&other.certificate_type()),
             Column::Activation => self.info().map(|i| i.activated).cmp(&other.info().map(|i| i.activated)),
-            Column::Retrieved => {
-                self.entry.last.as_ref().map(|l| l.at).cmp(&other.entry.last.as_ref().map(|l| l.at))
-            }
+            Column::Retrieved => self.entry.last.as_ref().map(|l| l.at).cmp(&other.entry.last.as_ref().map(|l| l.at)),
         };
         order.then_with(by_name)
     }

@@ -113,8 +113,16 @@ pub fn sorted_tip(language: Language) -> &'static str {
 pub fn summary(language: Language, summary: Summary) -> String {
     let Summary { done, failed, not_started } = summary;
     let parts = match language {
-        Language::En => [(done, format!("{done} done")), (failed, format!("{failed} failed")), (not_started, format!("{not_started} not started"))],
-        Language::Zh => [(done, format!("完成 {done} 台")), (failed, format!("失败 {failed} 台")), (not_started, format!("未开始 {not_started} 台"))],
+        Language::En => [
+            (done, format!("{done} done")),
+            (failed, format!("{failed} failed")),
+            (not_started, format!("{not_started} not started")),
+        ],
+        Language::Zh => [
+            (done, format!("完成 {done} 台")),
+            (failed, format!("失败 {failed} 台")),
+            (not_started, format!("未开始 {not_started} 台")),
+        ],
     };
     let said: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, text)| text).collect();
     said.join(if language == Language::En { ", " } else { "，" })

@@ -109,7 +109,8 @@ fn remember_widths(widths: &[f32], model: &Model, messages: &mut Vec<Message>) {
         (before - width).abs() > 0.5
     });
     if changed {
-        let widths: BTreeMap<String, f32> = shown().map(|((c, _), width)| (c.key().to_owned(), width.round())).collect();
+        let widths: BTreeMap<String, f32> =
+            shown().map(|((c, _), width)| (c.key().to_owned(), width.round())).collect();
         messages.push(Message::Widths(widths));
     }
 }

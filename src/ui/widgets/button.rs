@@ -35,11 +35,9 @@ fn answer(ui: &mut Ui, command: UiCommand, button: Button<'_>, model: &Model, me
     let tooltip = command.tooltip().text(model.language);
     let response = match (why, command.shortcut()) {
         (Some(why), _) => response.on_disabled_hover_text(why.text(model.language)),
-        (None, Some(shortcut)) => {
-            response.on_hover_ui(|ui| {
-                ui.label(format!("{tooltip} ({})", ui.ctx().format_shortcut(&shortcut)));
-            })
-        }
+        (None, Some(shortcut)) => response.on_hover_ui(|ui| {
+            ui.label(format!("{tooltip} ({})", ui.ctx().format_shortcut(&shortcut)));
+        }),
         (None, None) => response.on_hover_text(tooltip),
     };
     if response.clicked() {

@@ -37,7 +37,10 @@ pub fn dialog(
         ui.set_width(width);
         ui.add(egui::Label::new(RichText::new(title).heading().strong()).truncate());
         ui.add_space(theme::SPACE);
-        ScrollArea::vertical().max_height(room.height() - theme::DIALOG_MARGIN).auto_shrink([false, true]).show(ui, body);
+        ScrollArea::vertical()
+            .max_height(room.height() - theme::DIALOG_MARGIN)
+            .auto_shrink([false, true])
+            .show(ui, body);
         if buttons.submit.is_none() && buttons.close.is_none() {
             return Answer::None;
         }

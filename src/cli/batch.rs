@@ -1,0 +1,202 @@
+//! Runs one operation on the chosen controllers and prints what came of it.
+
+use std::io::{IsTerminal as _, Write as _};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use parking_lot::Mutex;
+use serde_json::{Value, json};
+use tokio_util::sync::CancellationToken;
+
+use super::passwords::CommandPasswords;
+use super::table::table;
+use super::{Ending, Settled, runtime};
+use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Operation, Outcome, Report};
+use crate::model::{ControllerInfo, ErrorCode, Problem};
+use crate::session::ManagementConnector;
+use crate::workspace::{Configuration, ControllerEntry, Passwords, Retrieved};
+
+/// What is shown of one controller's success.
+pub struct Shown {
+    /// `result` of the JSON line.
+    pub json: Value,
+    /// One row of the table, after the name.
+    pub cells: Vec<String>,
+}
+
+/// How an operation's outcomes are shown.
+pub struct Presentation {
+    /// Column headings after `NAME`.
+    pub header: &'static [&'static str],
+    pub show: fn(&Outcome, &ControllerInfo) -> Shown,
+}
+
+/// The usual: the server's state after the change.
+pub const STATE: Presentation = Presentation {
+    header: &["STATUS", "REVISION"],
+    show: |_, info| Shown {
+        json: json!({ "status": info.status, "revision": info.revision }),
+        cells: vec![info.status.as_str().to_owned(), info.revision.to_string()],
+    },
+};
+
+impl Settled {
+    pub fn configuration(&self) -> Result<Configuration, Problem> {
+        let loaded = self.workspace.load()?;
+        if let Some(notice) = loaded.notice() {
+            self.output.explain(None, &notice);
+        }
+        Ok(loaded.configuration)
+    }
+
+    pub fn passwords(&self) -> Result<Arc<dyn Passwords>, Problem> {
+        Ok(Arc::new(CommandPasswords::new(self.connection_password_file.as_deref())?))
+    }
+
+    pub fn context(&self, parallelism: usize) -> Result<JobContext, Problem> {
+        Ok(JobContext::new(Arc::new(ManagementConnector::default()), self.passwords()?, parallelism))
+    }
+
+    /// Runs an operation on the chosen controllers, after asking where it must be asked.
+    pub fn batch(
+        &self,
+        configuration: &Configuration,
+        chosen: &[ControllerEntry],
+        operation: impl Operation + 'static,
+        presentation: &Presentation,
+    ) -> Result<Ending, Problem> {
+        if let Some(confirmation) = operation.confirmation() {
+            self.confirm(confirmation, chosen)?;
+        }
+        let context = self.context(configuration.options.parallelism)?;
+        let controllers: Vec<JobController> = chosen.iter().map(JobController::from).collect();
+        let reports = self.run_job(controllers, Arc::new(operation), context, presentation)?;
+        self.remember(chosen, &reports);
+        if !self.output.is_json() {
+            self.print(chosen, &reports, presentation);
+        }
+        let all_done = reports.iter().all(|report| report.result.is_ok());
+        Ok(if all_done { Ending::AllDone } else { Ending::SomeFailed })
+    }
+
+    fn run_job(
+        &self,
+        controllers: Vec<JobController>,
+        operation: Arc<dyn Operation>,
+        context: JobContext,
+        presentation: &Presentation,
+    ) -> Result<Vec<Report>, Problem> {
+        let count = controllers.len();
+        let names: Vec<String> = controllers.iter().map(|c| c.name.to_string()).collect();
+        let progress = if self.output.shows_progress() { bar(count) } else { ProgressBar::hidden() };
+        let slots: Arc<Mutex<Vec<Option<Report>>>> = Arc::new(Mutex::new(vec![None; count]));
+        let finished = Arc::new(AtomicUsize::new(0));
+        let on_event = {
+            let (slots, output, show, progress) = (slots.clone(), self.output, presentation.show, progress.clone());
+            move |event| {
+                let JobEvent::Finished { index, report } = event else { return };
+                progress.set_position(finished.fetch_add(1, Ordering::Relaxed) as u64 + 1);
+                if output.is_json() {
+                    match (&report.result, &report.info) {
+                        (Ok(outcome), Some(info)) => output.done(&names[index], &show(outcome, info).json),
+                        (Ok(_), None) => output.failed(&names[index], &ErrorCode::ConnectionLost.into()),
+                        (Err(problem), _) => output.failed(&names[index], problem),
+                    }
+                }
+                slots.lock()[index] = Some(*report);
+            }
+        };
+        runtime()?.block_on(async {
+            let cancel = CancellationToken::new();
+            let on_interrupt = {
+                let cancel = cancel.clone();
+                tokio::spawn(async move {
+                    if tokio::signal::ctrl_c().await.is_ok() {
+                        eprintln!("Stopping after the step in hand…");
+                        cancel.cancel();
+                    }
+                })
+            };
+            jobs::run(controllers, operation, context, cancel, on_event).await;
+            on_interrupt.abort();
+        });
+        progress.finish_and_clear();
+        let mut slots = slots.lock();
+        Ok(slots.drain(..).flatten().collect())
+    }
+
+    /// Keeps what was read for the window. A window that is open keeps its own.
+    fn remember(&self, chosen: &[ControllerEntry], reports: &[Report]) {
+        let now = chrono::Utc::now();
+        let keep = || -> Result<(), Problem> {
+            let lock = self.workspace.lock()?;
+            let mut configuration = self.workspace.load()?.configuration;
+            for (entry, report) in chosen.iter().zip(reports) {
+                let found = configuration.controllers.iter_mut().find(|c| c.name == entry.name);
+                if let (Some(entry), Some(info)) = (found, &report.info) {
+                    entry.last = Some(Retrieved { at: now, info: info.clone() });
+                }
+            }
+            Ok(self.workspace.save(&configuration, &lock)?)
+        };
+        if let Err(problem) = keep() {
+            tracing::info!(%problem, "what was read is not kept");
+        }
+    }
+
+    fn print(&self, chosen: &[ControllerEntry], reports: &[Report], presentation: &Presentation) {
+        let mut rows = Vec::new();
+        for (entry, report) in chosen.iter().zip(reports) {
+            if let (Ok(outcome), Some(info)) = (&report.result, &report.info) {
+                let mut row = vec![entry.name.to_string()];
+                row.extend((presentation.show)(outcome, info).cells);
+                rows.push(row);
+            }
+        }
+        if !rows.is_empty() {
+            let header: Vec<&str> = std::iter::once("NAME").chain(presentation.header.iter().copied()).collect();
+            self.output.text(&table(&header, &rows));
+        }
+        for (entry, report) in chosen.iter().zip(reports) {
+            if let Err(problem) = &report.result {
+                self.output.explain(Some(entry.name.as_str()), problem);
+            }
+        }
+    }
+
+    /// Asks on a terminal; without one, `--yes` must have been given.
+    fn confirm(&self, confirmation: Confirmation, chosen: &[ControllerEntry]) -> Result<(), Problem> {
+        if self.yes || confirmation == Confirmation::default() {
+            return Ok(());
+        }
+        if !std::io::stdin().is_terminal() {
+            return Err(ErrorCode::NotConfirmed.into());
+        }
+        let names: Vec<&str> = chosen.iter().map(|c| c.name.as_str()).collect();
+        eprintln!("This changes {}:", names.join(", "));
+        for (applies, says) in [
+            (confirmation.stops_server, "the OPC UA server is stopped, and started again if it was running"),
+            (confirmation.replaces_certificate, "the server certificate of the same type is replaced"),
+            (confirmation.overwrites_backup, "backup files of the same name are replaced"),
+            (confirmation.deletes_log, "the server log is deleted"),
+        ] {
+            if applies {
+                eprintln!("  - {says}");
+            }
+        }
+        eprint!("Go on? [y/N] ");
+        let mut answer = String::new();
+        let read = std::io::stderr().flush().and_then(|()| std::io::stdin().read_line(&mut answer));
+        match (read, answer.trim()) {
+            (Ok(_), "y" | "Y" | "yes") => Ok(()),
+            _ => Err(ErrorCode::Cancelled.into()),
+        }
+    }
+}
+
+fn bar(count: usize) -> ProgressBar {
+    let style = ProgressStyle::with_template("{wide_bar} {pos}/{len} {elapsed}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::new(count as u64).with_style(style)
+}

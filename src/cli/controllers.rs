@@ -1,0 +1,157 @@
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+use secrecy::SecretString;
+use serde_json::json;
+
+use super::passwords::read_secret;
+use super::table::table;
+use super::{Ending, Settled, runtime};
+use crate::jobs;
+use crate::model::{Address, ControllerName, ControllerSeries, ErrorCode, Problem};
+use crate::pki::Fingerprint;
+use crate::workspace::{ControllerEntry, Retrieved};
+
+#[derive(Debug, Subcommand)]
+pub enum ControllersCommand {
+    /// List the registered controllers
+    List,
+    /// Register a controller
+    Add(AddArgs),
+    /// Remove controllers from the list; nothing changes in the controllers
+    Remove {
+        #[arg(required = true, value_name = "NAME")]
+        names: Vec<String>,
+    },
+}
+
+#[derive(Debug, Args)]
+pub struct AddArgs {
+    /// 1 to 32 characters
+    name: String,
+    /// IP address or host name, with the port of the management protocol where it is not the usual one
+    #[arg(value_name = "HOST[:PORT]")]
+    address: String,
+    /// RC90, RC700, T/VT or RC800
+    #[arg(long)]
+    series: String,
+    /// SHA-256 of the controller's management identity, as the controller shows it
+    #[arg(long, value_name = "HEX", required_unless_present = "trust_on_first_use")]
+    fingerprint: Option<String>,
+    /// Accept whatever fingerprint the controller presents now: safe only on a network where nobody can pretend to be it
+    #[arg(long, conflicts_with = "fingerprint")]
+    trust_on_first_use: bool,
+    /// File with the connection password, "-" for standard input; kept in the operating system's keyring
+    #[arg(long, value_name = "FILE")]
+    password_file: Option<PathBuf>,
+}
+
+pub fn run(settled: &Settled, command: ControllersCommand) -> Result<Ending, Problem> {
+    match command {
+        ControllersCommand::List => list(settled),
+        ControllersCommand::Add(args) => add(settled, &args),
+        ControllersCommand::Remove { names } => remove(settled, &names),
+    }
+}
+
+fn list(settled: &Settled) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    if settled.output.is_json() {
+        for entry in &configuration.controllers {
+            settled.output.done(
+                entry.name.as_str(),
+                &json!({ "address": entry.address, "series": entry.series, "fingerprint": entry.fingerprint }),
+            );
+        }
+    } else {
+        let rows: Vec<Vec<String>> = configuration
+            .controllers
+            .iter()
+            .map(|c| {
+                let seen = c.last.as_ref().map_or("-".into(), |l| l.at.format("%Y-%m-%d %H:%M UTC").to_string());
+                vec![c.name.to_string(), c.series.to_string(), c.address.to_string(), seen]
+            })
+            .collect();
+        settled.output.text(&table(&["NAME", "TYPE", "ADDRESS", "RETRIEVED"], &rows));
+    }
+    Ok(Ending::AllDone)
+}
+
+fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
+    let bad = |code: ErrorCode, e: &dyn std::fmt::Display| Problem::with_detail(code, e);
+    let name: ControllerName = args.name.parse().map_err(|e| bad(ErrorCode::BadName, &e))?;
+    let address: Address = args.address.parse().map_err(|e| bad(ErrorCode::BadAddress, &e))?;
+    let series: ControllerSeries = args.series.parse().map_err(|e| bad(ErrorCode::BadName, &e))?;
+    let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
+    let password_file = args.password_file.as_ref().or(settled.connection_password_file.as_ref());
+    let password = password_file.map(|f| read_secret(f)).transpose()?.unwrap_or_else(|| SecretString::from(""));
+    // Held from the check to the save, so that two commands cannot add the same name.
+    let lock = settled.workspace.lock()?;
+    let mut configuration = settled.configuration()?;
+    configuration.check_new(&name, &address)?;
+    let context = settled.context(1)?;
+    let enrolled = runtime()?.block_on(async {
+        let fingerprint = match given {
+            Some(fingerprint) => fingerprint,
+            None => jobs::probe(&address, &context).await?,
+        };
+        jobs::enroll(&address, fingerprint, password, &context).await
+    });
+    let enrolled = match enrolled {
+        Ok(enrolled) => enrolled,
+        Err(problem) => {
+            if settled.output.is_json() {
+                settled.output.failed(name.as_str(), &problem);
+            } else {
+                settled.output.explain(Some(name.as_str()), &problem);
+            }
+            return Ok(Ending::SomeFailed);
+        }
+    };
+    if let Some(problem) = &enrolled.password_not_kept {
+        tracing::warn!(%problem, "the password has to be given with --connection-password-file each time");
+    }
+    if enrolled.info.series != series {
+        eprintln!("{name}: the controller says that it is {} {}", enrolled.info.series, enrolled.info.serial);
+    }
+    let shown = json!({ "fingerprint": enrolled.fingerprint, "info": enrolled.info });
+    let text = format!("Added {name}: {} {} {}", enrolled.info.series, enrolled.info.serial, enrolled.fingerprint);
+    configuration.controllers.push(ControllerEntry {
+        name: name.clone(),
+        address,
+        series: enrolled.info.series,
+        fingerprint: Some(enrolled.fingerprint),
+        last: Some(Retrieved { at: chrono::Utc::now(), info: enrolled.info }),
+    });
+    settled.workspace.save(&configuration, &lock)?;
+    if settled.output.is_json() {
+        settled.output.done(name.as_str(), &shown);
+    } else {
+        settled.output.text(&text);
+    }
+    Ok(Ending::AllDone)
+}
+
+fn remove(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
+    let lock = settled.workspace.lock()?;
+    let mut configuration = settled.configuration()?;
+    if let Some(unknown) = names.iter().find(|n| configuration.find(n).is_none()) {
+        return Err(Problem::with_detail(ErrorCode::UnknownController, unknown));
+    }
+    let passwords = settled.passwords()?;
+    let (removed, kept): (Vec<_>, Vec<_>) =
+        configuration.controllers.into_iter().partition(|c| names.iter().any(|n| n == c.name.as_str()));
+    configuration.controllers = kept;
+    settled.workspace.save(&configuration, &lock)?;
+    for entry in &removed {
+        if let Some(fingerprint) = entry.fingerprint {
+            passwords.forget(fingerprint);
+        }
+        if settled.output.is_json() {
+            settled.output.done(entry.name.as_str(), &json!({}));
+        } else {
+            settled.output.text(&format!("Removed {}", entry.name));
+        }
+    }
+    Ok(Ending::AllDone)
+}

@@ -1,0 +1,203 @@
+//! The command line: the same jobs as the window, for scripts and for people without a display.
+//!
+//! One file a subcommand. Results go to standard output, logs and progress to standard error. Exit code 0: all done;
+//! 1: some or all controllers failed; 2: the request itself was wrong and nothing was sent.
+
+mod backup;
+mod batch;
+mod cert;
+mod clients;
+mod controllers;
+mod demo;
+mod output;
+mod passwords;
+mod select;
+mod server;
+mod settings;
+mod table;
+mod users;
+mod virtual_fleet;
+mod virtual_plant;
+mod window;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{CommandFactory as _, Parser, Subcommand};
+
+use crate::model::{Language, Problem};
+use crate::workspace::Workspace;
+use output::Output;
+
+/// Configures the OPC UA servers inside robot controllers.
+#[derive(Debug, Parser)]
+#[command(version, about, max_term_width = 100, arg_required_else_help = false)]
+pub struct Cli {
+    /// Folder with the list of controllers and everything made for them [default: EpsonRC80/OPCUA in the home folder,
+    /// C:\EpsonRC80\OPCUA on Windows]
+    #[arg(long, value_name = "DIR", global = true)]
+    workspace: Option<PathBuf>,
+
+    /// Language of messages: en or zh [default: the system's]
+    #[arg(long, value_name = "LANG", global = true, value_parser = parse_language)]
+    lang: Option<Language>,
+
+    /// One line of JSON per controller on standard output
+    #[arg(long, global = true)]
+    json: bool,
+
+    /// Do not ask before the OPC UA server is stopped; required where there is no terminal
+    #[arg(long, global = true)]
+    yes: bool,
+
+    /// File with the connection password of the chosen controllers, "-" for standard input; without it the password is
+    /// taken from the operating system's keyring
+    #[arg(
+        long,
+        value_name = "FILE",
+        global = true,
+        env = "OPCUA_CONFIGURATOR_CONNECTION_PASSWORD_FILE",
+        hide_env_values = true
+    )]
+    connection_password_file: Option<PathBuf>,
+
+    /// More messages on standard error; twice for still more
+    #[arg(short, long, action = clap::ArgAction::Count, global = true)]
+    verbose: u8,
+
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Open the window over virtual controllers in this process, in a temporary workspace
+    Demo(demo::DemoArgs),
+    /// Run virtual controllers without a window until Ctrl-C; one line of JSON each when it is ready
+    Virtual(virtual_fleet::VirtualArgs),
+    /// List, add and remove controllers
+    #[command(subcommand)]
+    Controllers(controllers::ControllersCommand),
+    /// Read and show the information of controllers
+    Info(select::Select),
+    /// Start OPC UA servers
+    Start(select::Select),
+    /// Stop OPC UA servers
+    Stop(select::Select),
+    /// Show or change the basic settings of OPC UA servers
+    #[command(subcommand)]
+    Settings(settings::SettingsCommand),
+    /// List, add and remove the users of OPC UA servers
+    #[command(subcommand)]
+    Users(users::UsersCommand),
+    /// Make server certificates
+    #[command(subcommand)]
+    Cert(cert::CertCommand),
+    /// List and add trusted client certificates
+    #[command(subcommand)]
+    Clients(clients::ClientsCommand),
+    /// Switch the backup of what is made on or off
+    #[command(subcommand)]
+    Backup(backup::BackupCommand),
+    /// Print a completion script for a shell
+    Completions { shell: clap_complete::Shell },
+}
+
+fn parse_language(text: &str) -> Result<Language, String> {
+    match text.to_ascii_lowercase().as_str() {
+        "en" => Ok(Language::En),
+        "zh" => Ok(Language::Zh),
+        other => Err(format!("\"{other}\" is not a language; known are en and zh")),
+    }
+}
+
+/// What every subcommand needs to know.
+struct Settled {
+    workspace: Workspace,
+    output: Output,
+    yes: bool,
+    connection_password_file: Option<PathBuf>,
+}
+
+/// How a command ended; a [`Problem`] instead means that the request was wrong and nothing was sent.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Ending {
+    AllDone,
+    SomeFailed,
+}
+
+/// Runs the program: the window without a subcommand, else the subcommand.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    init_log(cli.verbose);
+    let language = cli.lang.unwrap_or_else(system_language);
+    let output = Output::new(cli.json, language);
+    let root = cli.workspace.clone();
+    let settled = Settled {
+        workspace: Workspace::new(root.unwrap_or_else(Workspace::default_root)),
+        output,
+        yes: cli.yes,
+        connection_password_file: cli.connection_password_file,
+    };
+    let ending = match cli.command {
+        None => window::run(&settled, cli.lang),
+        Some(Command::Demo(args)) => demo::run(&settled, &args, cli.lang),
+        Some(Command::Virtual(args)) => virtual_fleet::run(&args),
+        Some(Command::Controllers(command)) => controllers::run(&settled, command),
+        Some(Command::Info(select)) => server::info(&settled, &select),
+        Some(Command::Start(select)) => server::start(&settled, &select),
+        Some(Command::Stop(select)) => server::stop(&settled, &select),
+        Some(Command::Settings(command)) => settings::run(&settled, command),
+        Some(Command::Users(command)) => users::run(&settled, command),
+        Some(Command::Cert(command)) => cert::run(&settled, command),
+        Some(Command::Clients(command)) => clients::run(&settled, command),
+        Some(Command::Backup(command)) => backup::run(&settled, command),
+        Some(Command::Completions { shell }) => {
+            clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut std::io::stdout());
+            Ok(Ending::AllDone)
+        }
+    };
+    match ending {
+        Ok(Ending::AllDone) => ExitCode::SUCCESS,
+        Ok(Ending::SomeFailed) => ExitCode::from(1),
+        Err(problem) => {
+            settled.output.request_wrong(&problem);
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn system_language() -> Language {
+    sys_locale::get_locale().map_or(Language::En, |locale| Language::from_locale(&locale))
+}
+
+/// `RUST_LOG` wins over `-v`. Logs never hold secrets: the types that carry them do not show them.
+fn init_log(verbose: u8) {
+    use tracing_subscriber::EnvFilter;
+    let default = match verbose {
+        0 => "error",
+        1 => "warn,opcua_configurator=info",
+        2 => "info,opcua_configurator=debug",
+        _ => "debug",
+    };
+    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(default));
+    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+}
+
+/// The runtime commands run their jobs on.
+fn runtime() -> Result<tokio::runtime::Runtime, Problem> {
+    tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()
+        .map_err(|e| Problem::with_detail(crate::model::ErrorCode::Internal, e))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        Cli::command().debug_assert();
+    }
+}

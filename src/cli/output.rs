@@ -1,0 +1,77 @@
+use std::io::{IsTerminal as _, Write as _};
+
+use serde_json::{Value, json};
+
+use crate::model::{Language, Problem};
+
+/// Standard output and error, in the form that was asked for.
+#[derive(Debug, Clone, Copy)]
+pub struct Output {
+    json: bool,
+    language: Language,
+}
+
+impl Output {
+    pub fn new(json: bool, language: Language) -> Self {
+        Self { json, language }
+    }
+
+    pub fn is_json(self) -> bool {
+        self.json
+    }
+
+    /// Progress is for people at a terminal only.
+    pub fn shows_progress(self) -> bool {
+        !self.json && std::io::stderr().is_terminal()
+    }
+
+    /// `{"controller","ok":true,"result"}`.
+    pub fn done(self, controller: &str, result: &Value) {
+        line(&json!({ "controller": controller, "ok": true, "result": result }).to_string());
+    }
+
+    /// `{"controller","ok":false,"error":{"code","message","cause","remedy"}}`.
+    pub fn failed(self, controller: &str, problem: &Problem) {
+        line(&json!({ "controller": controller, "ok": false, "error": self.error(problem) }).to_string());
+    }
+
+    fn error(self, problem: &Problem) -> Value {
+        let explained = problem.code.explain(self.language);
+        let mut error = json!({
+            "code": problem.code.as_str(),
+            "message": explained.message,
+            "cause": explained.cause,
+            "remedy": explained.remedy,
+        });
+        if let Some(detail) = &problem.detail {
+            error["detail"] = json!(detail);
+        }
+        error
+    }
+
+    pub fn text(self, text: &str) {
+        line(text.trim_end());
+    }
+
+    /// Message, detail, cause and remedy on standard error.
+    pub fn explain(self, who: Option<&str>, problem: &Problem) {
+        let explained = problem.code.explain(self.language);
+        let who = who.map(|w| format!("{w}: ")).unwrap_or_default();
+        let detail = problem.detail.as_ref().map(|d| format!(" ({d})")).unwrap_or_default();
+        eprintln!("{who}{}{detail}\n    {}\n    {}", explained.message, explained.cause, explained.remedy);
+    }
+
+    /// The request itself was wrong.
+    pub fn request_wrong(self, problem: &Problem) {
+        if self.json {
+            line(&json!({ "ok": false, "error": self.error(problem) }).to_string());
+        }
+        self.explain(None, problem);
+    }
+}
+
+/// A reader that went away (`| head`) is no reason to fail.
+pub fn line(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _gone = writeln!(out, "{text}").and_then(|()| out.flush());
+}

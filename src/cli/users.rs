@@ -1,0 +1,65 @@
+use std::path::PathBuf;
+
+use clap::Subcommand;
+use secrecy::ExposeSecret as _;
+use serde_json::json;
+
+use super::batch::{Presentation, STATE, Shown};
+use super::passwords::read_secret;
+use super::select::{Select, ThingsThenSelect};
+use super::{Ending, Settled};
+use crate::jobs::{AddUser, ListUsers, Outcome, RemoveUsers};
+use crate::model::{Credential, CredentialError, ErrorCode, Problem, UserName, UserPassword};
+
+#[derive(Debug, Subcommand)]
+pub enum UsersCommand {
+    /// List users; passwords never come back from a controller
+    List(Select),
+    /// Add a user: 8 to 32 letters and digits each for name and password
+    Add {
+        user: String,
+        /// File with the user's password, "-" for standard input
+        #[arg(long, value_name = "FILE")]
+        password_file: PathBuf,
+        #[command(flatten)]
+        select: Select,
+    },
+    /// Remove users: USER… CONTROLLER…
+    Remove(ThingsThenSelect),
+}
+
+const USERS: Presentation = Presentation {
+    header: &["USERS"],
+    show: |outcome, _| {
+        let Outcome::Users(users) = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        let names: Vec<&str> = users.value.iter().map(UserName::as_str).collect();
+        Shown { json: json!({ "users": names }), cells: vec![names.join(",")] }
+    },
+};
+
+fn bad(error: CredentialError) -> Problem {
+    Problem::with_detail(ErrorCode::BadCredential, error)
+}
+
+pub fn run(settled: &Settled, command: UsersCommand) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    match command {
+        UsersCommand::List(select) => {
+            settled.batch(&configuration, &select.resolve(&configuration)?, ListUsers, &USERS)
+        }
+        UsersCommand::Add { user, password_file, select } => {
+            let chosen = select.resolve(&configuration)?;
+            let name = user.parse::<UserName>().map_err(bad)?;
+            let password = UserPassword::new(read_secret(&password_file)?.expose_secret()).map_err(bad)?;
+            let operation = AddUser { credential: Credential { name, password }, based_on: None };
+            settled.batch(&configuration, &chosen, operation, &STATE)
+        }
+        UsersCommand::Remove(arguments) => {
+            let (users, chosen) = arguments.resolve(&configuration)?;
+            let names = users.iter().map(|u| u.parse()).collect::<Result<Vec<UserName>, _>>().map_err(bad)?;
+            settled.batch(&configuration, &chosen, RemoveUsers { names, based_on: None }, &STATE)
+        }
+    }
+}

@@ -1,0 +1,110 @@
+use std::net::{IpAddr, Ipv4Addr};
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use secrecy::SecretString;
+
+use super::passwords::read_secret;
+use super::{Ending, runtime};
+use crate::model::{ErrorCode, Problem};
+use crate::virtual_controller::{Fleet, FleetConfig, FleetFirmware};
+
+#[derive(Debug, Args)]
+pub struct VirtualArgs {
+    /// How many controllers
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    count: usize,
+    /// Address to listen on; anything but a loopback address lets the whole network in
+    #[arg(long, value_name = "ADDR", default_value_t = IpAddr::V4(Ipv4Addr::LOCALHOST))]
+    bind: IpAddr,
+    /// First port of the management protocol, each next controller takes the next one; 0 picks free ones
+    #[arg(long, value_name = "P", default_value_t = 0)]
+    management_port: u16,
+    /// First port of the OPC UA servers, each next controller takes the next one; 0 picks free ones
+    #[arg(long, value_name = "P", default_value_t = 0)]
+    opcua_port: u16,
+    #[arg(long, value_enum, default_value_t = Firmware::Mixed)]
+    firmware: Firmware,
+    /// File with the connection password of all of them, "-" for standard input; empty without it
+    #[arg(long, value_name = "FILE")]
+    password_file: Option<PathBuf>,
+    /// Folder for what the controllers keep; a temporary one without it
+    #[arg(long, value_name = "DIR")]
+    data: Option<PathBuf>,
+    /// The same seed makes the same controllers
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Firmware {
+    /// Below 8.0.0
+    Legacy,
+    /// 8.0.0 and later
+    Current,
+    /// Some of each
+    Mixed,
+}
+
+impl From<Firmware> for FleetFirmware {
+    fn from(firmware: Firmware) -> Self {
+        match firmware {
+            Firmware::Legacy => Self::Legacy,
+            Firmware::Current => Self::Current,
+            Firmware::Mixed => Self::Mixed,
+        }
+    }
+}
+
+pub fn run(args: &VirtualArgs) -> Result<Ending, Problem> {
+    let password = args.password_file.as_ref().map(|f| read_secret(f)).transpose()?;
+    // Removed when this function ends.
+    let temporary = match args.data {
+        Some(_) => None,
+        None => Some(tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?),
+    };
+    let data = match (&args.data, &temporary) {
+        (Some(data), _) => data.clone(),
+        (None, Some(folder)) => folder.path().to_owned(),
+        (None, None) => PathBuf::new(),
+    };
+    let config = FleetConfig {
+        count: args.count,
+        bind: args.bind,
+        management_port: args.management_port,
+        opcua_port: args.opcua_port,
+        firmware: args.firmware.into(),
+        password: password.unwrap_or_else(|| SecretString::from("")),
+        data,
+        seed: args.seed,
+    };
+    runtime()?.block_on(async {
+        let fleet = Fleet::start(config).await.map_err(Problem::from)?;
+        for controller in fleet.controllers() {
+            let line = serde_json::to_string(&controller.ready_line())
+                .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
+            super::output::line(&line);
+        }
+        stop_signal().await;
+        fleet.shutdown().await;
+        Ok(Ending::AllDone)
+    })
+}
+
+/// Ctrl-C, or what a service manager sends.
+async fn stop_signal() {
+    #[cfg(unix)]
+    {
+        use tokio::signal::unix::{SignalKind, signal};
+        if let Ok(mut terminate) = signal(SignalKind::terminate()) {
+            tokio::select! {
+                _ = terminate.recv() => {}
+                _ = tokio::signal::ctrl_c() => {}
+            }
+            return;
+        }
+    }
+    if tokio::signal::ctrl_c().await.is_err() {
+        std::future::pending::<()>().await;
+    }
+}

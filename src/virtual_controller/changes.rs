@@ -1,0 +1,175 @@
+//! Every change a controller accepts, as a function on a copy of its state.
+//!
+//! Each function checks all rules and limits itself (what a configurator checks beforehand is a courtesy) and may be
+//! slow: keys are made and passwords hashed here, so they run on a blocking thread.
+
+use chrono::{DateTime, Utc};
+
+use super::opcua::hash_password;
+use super::secret_bytes::SecretBytes;
+use super::state::{KeyPair, Listed, State, Surroundings, User};
+use crate::model::{
+    CertificateType, ClientList, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings,
+    UserName, UserPassword,
+};
+use crate::pki::{Certificate, PkiError, PrivateKey, pkcs12_read, self_signed};
+use crate::protocol::Base64Bytes;
+
+/// The longest file name a client list keeps.
+const MAX_FILE_NAME_BYTES: usize = 255;
+
+/// Manual 2.6.1. `log_password` is looked at only when the server log goes from off to on.
+pub fn set_settings(
+    state: &mut State,
+    around: &Surroundings,
+    settings: ServerSettings,
+    log_password: Option<&str>,
+) -> Result<(), Problem> {
+    settings.check().map_err(|error| Problem::with_detail(ErrorCode::BadSettings, error))?;
+    state.check_port(settings.port.get(), around)?;
+    let log_goes_on = settings.server_log && !state.settings.server_log;
+    if log_goes_on && log_password != Some(ServerSettings::LOG_PASSWORD) {
+        return Err(ErrorCode::LogPassword.into());
+    }
+    state.settings = settings;
+    Ok(())
+}
+
+/// Manual 2.6.2.2.
+pub fn add_user(state: &mut State, name: UserName, password: &str) -> Result<(), Problem> {
+    let password =
+        UserPassword::new(password).map_err(|error| Problem::with_detail(ErrorCode::BadCredential, error))?;
+    if state.users.iter().any(|user| user.name == name) {
+        return Err(Problem::with_detail(ErrorCode::UserExists, name));
+    }
+    if state.users.len() >= MAX_USERS {
+        return Err(ErrorCode::TooManyUsers.into());
+    }
+    let password_hash =
+        hash_password(password.expose()).map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?;
+    state.users.push(User { name, password_hash });
+    Ok(())
+}
+
+/// Manual 2.6.2.3: all of them, or none if one does not exist.
+pub fn remove_users(state: &mut State, names: &[UserName]) -> Result<(), Problem> {
+    for name in names {
+        if !state.users.iter().any(|user| user.name == *name) {
+            return Err(Problem::with_detail(ErrorCode::UserNotFound, name));
+        }
+    }
+    state.users.retain(|user| !names.contains(&user.name));
+    Ok(())
+}
+
+/// Manual 2.7.1.2 on current firmware: key and certificate are made here, and the key stays here.
+/// Gives the certificate's DER.
+pub fn make_self_signed(
+    state: &mut State,
+    around: &Surroundings,
+    request: &SelfSignedRequest,
+) -> Result<Vec<u8>, Problem> {
+    if state.generation() == FirmwareGeneration::Legacy {
+        return Err(ErrorCode::FirmwareTooOld.into());
+    }
+    install_self_signed(state, around, request, around.now)
+}
+
+/// Makes a self-signed certificate dated `made`, installs and selects it, whatever the firmware.
+pub fn install_self_signed(
+    state: &mut State,
+    around: &Surroundings,
+    request: &SelfSignedRequest,
+    made: DateTime<Utc>,
+) -> Result<Vec<u8>, Problem> {
+    request
+        .check(&state.settings.security_policies)
+        .map_err(|error| Problem::with_detail(ErrorCode::BadCertificateRequest, error))?;
+    let key = PrivateKey::generate(request.key_length)?;
+    let certificate = self_signed(request, &state.server_names(around), &key, made)?;
+    install(state, CertificateType::SelfSigned, &certificate, &key)
+}
+
+/// Manual 2.7.1 on legacy firmware: key and certificate come from the PC. Gives the certificate's DER.
+pub fn import_certificate(
+    state: &mut State,
+    around: &Surroundings,
+    kind: CertificateType,
+    pkcs12: &[u8],
+    password: &str,
+) -> Result<Vec<u8>, Problem> {
+    if state.generation() == FirmwareGeneration::Current {
+        return Err(ErrorCode::FirmwareTooNew.into());
+    }
+    let bad = |detail: &str| Problem::with_detail(ErrorCode::BadCertificate, detail);
+    let (key, chain) = pkcs12_read(pkcs12, password)?;
+    let certificate = chain.iter().find(|c| key.matches(c)).ok_or(PkiError::NotAPair)?;
+    if certificate.not_after() <= around.now {
+        return Err(bad("the certificate has expired"));
+    }
+    if kind == CertificateType::SelfSigned && !certificate.is_self_signed() {
+        return Err(bad("the certificate is not self-signed"));
+    }
+    if !state.key_length_fits(certificate.key_bits()) {
+        let detail = format!("the security policies do not allow {}-bit keys", certificate.key_bits());
+        return Err(Problem::with_detail(ErrorCode::BadCertificateRequest, detail));
+    }
+    install(state, kind, certificate, &key)
+}
+
+/// Manual 2.7.3.2: all of them, or none. A list never holds the same certificate twice.
+pub fn add_clients(
+    state: &mut State,
+    around: &Surroundings,
+    list: ClientList,
+    certificates: Vec<(String, Base64Bytes)>,
+) -> Result<(), Problem> {
+    let limit = match list {
+        ClientList::Trusted => state.limits().trusted,
+        ClientList::Issuers if state.generation() == FirmwareGeneration::Legacy => {
+            return Err(ErrorCode::FirmwareTooOld.into());
+        }
+        ClientList::Issuers => state.limits().issuers,
+        ClientList::Rejected => return Err(Problem::with_detail(ErrorCode::Refused, "the controller fills this list")),
+    };
+    if certificates.is_empty() {
+        return Err(Problem::with_detail(ErrorCode::BadCertificate, "no certificate was sent"));
+    }
+    if state.list(list).len() + certificates.len() > limit {
+        return Err(Problem::with_detail(ErrorCode::ListFull, format!("at most {limit}")));
+    }
+    for (file_name, certificate) in certificates {
+        check_file_name(&file_name)?;
+        Certificate::from_der(&certificate.0)
+            .map_err(|error| Problem::with_detail(ErrorCode::BadCertificate, format!("{file_name}: {error}")))?;
+        if state.list(list).iter().any(|listed| listed.certificate == certificate) {
+            return Err(Problem::with_detail(ErrorCode::DuplicateCertificate, file_name));
+        }
+        let listed = Listed { file_name, certificate, added: around.now };
+        match list {
+            ClientList::Issuers => state.issuers.push(listed),
+            ClientList::Trusted | ClientList::Rejected => state.trusted.push(listed),
+        }
+    }
+    Ok(())
+}
+
+fn install(
+    state: &mut State,
+    kind: CertificateType,
+    certificate: &Certificate,
+    key: &PrivateKey,
+) -> Result<Vec<u8>, Problem> {
+    let der = certificate.der().to_vec();
+    let private_key = SecretBytes(key.to_pkcs8_der()?);
+    state.certificates.insert(kind, KeyPair { certificate: Base64Bytes(der.clone()), private_key });
+    state.selected = kind;
+    Ok(der)
+}
+
+/// The name is only for people to recognise a file by, so any script goes.
+fn check_file_name(name: &str) -> Result<(), Problem> {
+    let fits = (1..=MAX_FILE_NAME_BYTES).contains(&name.len())
+        && !name.chars().any(|c| c.is_control() || c == '/' || c == '\\');
+    if fits { Ok(()) } else { Err(Problem::with_detail(ErrorCode::BadName, "file name")) }
+}

@@ -1,0 +1,298 @@
+use std::fs::{File, TryLockError};
+use std::io;
+use std::net::IpAddr;
+use std::path::{Path, PathBuf};
+
+use secrecy::SecretString;
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+use tokio::task::{JoinSet, spawn_blocking};
+
+use super::controller::{ControllerSpec, SwitchOnError, VirtualController};
+use super::file_limit::raise_file_limit;
+use super::new_controller::NewController;
+use super::password::hash_connection_password;
+use super::ports::free_port;
+use super::state::Identity;
+use crate::model::{
+    ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort,
+};
+
+/// Many virtual controllers in one process.
+#[derive(Debug, Clone)]
+pub struct FleetConfig {
+    /// At most [`MAX_FLEET`].
+    pub count: usize,
+    pub bind: IpAddr,
+    /// The management port of the first controller, the next one's is one higher; 0 takes free ones.
+    pub management_port: u16,
+    /// The OPC UA port of the first controller, the next one's is one higher; 0 picks free ones. A controller that
+    /// exists already keeps its own.
+    pub opcua_port: u16,
+    pub firmware: FleetFirmware,
+    /// The connection password of controllers that do not exist yet. All of them share its hash.
+    pub password: SecretString,
+    /// Each controller lives in a folder here, named by its serial number. One process at a time.
+    pub data: PathBuf,
+    /// Names, serial numbers and series follow from it alone.
+    pub seed: u64,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FleetFirmware {
+    Legacy,
+    Current,
+    Mixed,
+}
+
+pub const MAX_FLEET: usize = 9_999;
+
+#[derive(Debug, Error)]
+pub enum FleetError {
+    #[error("{count} controllers are too many; at most {MAX_FLEET} fit into one process")]
+    TooMany { count: usize },
+    #[error("the ports from {first} on do not suffice for {count} controllers")]
+    Ports { first: u16, count: usize },
+    #[error("{path} is in use by another process")]
+    Busy { path: PathBuf },
+    #[error("{path}: {source}")]
+    Data { path: PathBuf, source: io::Error },
+    #[error("no free port: {0}")]
+    NoFreePort(io::Error),
+    #[error("controller {serial}: {source}")]
+    Controller { serial: SerialNumber, source: SwitchOnError },
+    #[error("{0}")]
+    Problem(#[from] Problem),
+    #[error(transparent)]
+    Name(#[from] NameError),
+    #[error("a worker thread died")]
+    Worker,
+}
+
+impl From<FleetError> for Problem {
+    fn from(error: FleetError) -> Self {
+        let code = match &error {
+            FleetError::Problem(problem) => return problem.clone(),
+            FleetError::TooMany { .. } | FleetError::Ports { .. } => ErrorCode::BadSettings,
+            FleetError::Busy { .. } => ErrorCode::WorkspaceBusy,
+            FleetError::Data { .. } => ErrorCode::WorkspaceReadOnly,
+            FleetError::NoFreePort(_) => ErrorCode::PortConflict,
+            FleetError::Controller { source: SwitchOnError::Listen { .. }, .. } => ErrorCode::PortConflict,
+            FleetError::Controller { .. } | FleetError::Name(_) | FleetError::Worker => ErrorCode::Internal,
+        };
+        Self::with_detail(code, error)
+    }
+}
+
+/// Running controllers. Dropped without [`Fleet::shutdown`], they stop too, but nobody waits for them.
+#[derive(Debug)]
+pub struct Fleet {
+    controllers: Vec<VirtualController>,
+    _lock: FolderLock,
+}
+
+/// What a process that started a controller says about it, on one line.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReadyLine {
+    pub name: String,
+    pub serial: SerialNumber,
+    pub series: ControllerSeries,
+    pub firmware: FirmwareVersion,
+    /// `host:port` of the management protocol.
+    pub management: String,
+    pub fingerprint: crate::pki::Fingerprint,
+    /// `opc.tcp://host:port`.
+    pub opcua: String,
+}
+
+impl Fleet {
+    /// Switches all controllers on, or none: if one fails, the others are switched off again.
+    pub async fn start(config: FleetConfig) -> Result<Self, FleetError> {
+        config.check_ports()?;
+        raise_file_limit();
+        let lock = FolderLock::take(&config.data)?;
+        let password = config.password.clone();
+        let hash =
+            spawn_blocking(move || hash_connection_password(&password)).await.map_err(|_| FleetError::Worker)??;
+        let specs = (0..config.count).map(|index| config.spec(index, &hash)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { controllers: start_all(specs).await?, _lock: lock })
+    }
+
+    pub fn controllers(&self) -> &[VirtualController] {
+        &self.controllers
+    }
+
+    pub async fn shutdown(self) {
+        shutdown_all(self.controllers).await;
+    }
+}
+
+impl FleetConfig {
+    fn check_ports(&self) -> Result<(), FleetError> {
+        if self.count > MAX_FLEET {
+            return Err(FleetError::TooMany { count: self.count });
+        }
+        for first in [self.management_port, self.opcua_port] {
+            if first != 0 && usize::from(u16::MAX - first) + 1 < self.count {
+                return Err(FleetError::Ports { first, count: self.count });
+            }
+        }
+        Ok(())
+    }
+
+    fn spec(&self, index: usize, hash: &str) -> Result<ControllerSpec, FleetError> {
+        let identity = plausible_identity(self.seed, index, self.firmware)?;
+        let nth = |first: u16| first.checked_add(u16::try_from(index).ok()?);
+        let ports = |first: u16| nth(first).ok_or(FleetError::Ports { first, count: self.count });
+        let folder = self.data.join(identity.serial.as_str());
+        let mut initial = NewController::new(identity, hash.to_owned());
+        let opcua = match self.opcua_port {
+            0 => free_port(self.bind).map_err(FleetError::NoFreePort)?,
+            first => ports(first)?,
+        };
+        initial.settings.port =
+            ServerPort::try_from(opcua).map_err(|_| FleetError::Ports { first: self.opcua_port, count: self.count })?;
+        initial.used_ports.retain(|port| *port != opcua);
+        let management_port = match self.management_port {
+            0 => 0,
+            first => ports(first)?,
+        };
+        Ok(ControllerSpec { folder, bind: self.bind, management_port, initial })
+    }
+}
+
+impl VirtualController {
+    pub fn ready_line(&self) -> ReadyLine {
+        ReadyLine {
+            name: self.name().to_string(),
+            serial: self.serial(),
+            series: self.series(),
+            firmware: self.firmware(),
+            management: self.reachable_address().to_string(),
+            fingerprint: self.fingerprint(),
+            opcua: self.endpoint(),
+        }
+    }
+}
+
+/// Side by side; in the order of `specs`.
+pub(super) async fn start_all(specs: Vec<ControllerSpec>) -> Result<Vec<VirtualController>, FleetError> {
+    let mut starting = JoinSet::new();
+    let count = specs.len();
+    for (index, spec) in specs.into_iter().enumerate() {
+        starting.spawn(async move {
+            let serial = spec.initial.identity.serial.clone();
+            let started = VirtualController::start(spec).await;
+            (index, started.map_err(|source| FleetError::Controller { serial, source }))
+        });
+    }
+    let mut started = Vec::with_capacity(count);
+    let mut failure = None;
+    while let Some(joined) = starting.join_next().await {
+        match joined {
+            Ok((index, Ok(controller))) => started.push((index, controller)),
+            Ok((_, Err(error))) => failure = Some(error),
+            Err(_) => failure = Some(FleetError::Worker),
+        }
+    }
+    started.sort_by_key(|(index, _)| *index);
+    let controllers: Vec<_> = started.into_iter().map(|(_, controller)| controller).collect();
+    match failure {
+        None => Ok(controllers),
+        Some(error) => {
+            shutdown_all(controllers).await;
+            Err(error)
+        }
+    }
+}
+
+pub(super) async fn shutdown_all(controllers: Vec<VirtualController>) {
+    let mut stopping = JoinSet::new();
+    for controller in controllers {
+        stopping.spawn(async move { controller.shutdown().await });
+    }
+    while stopping.join_next().await.is_some() {}
+}
+
+/// Keeps a second process away from the folder for as long as it lives. Gone with the process, however that ends.
+#[derive(Debug)]
+pub(super) struct FolderLock {
+    _file: File,
+}
+
+impl FolderLock {
+    /// Makes the folder if it is missing.
+    pub(super) fn take(folder: &Path) -> Result<Self, FleetError> {
+        let data = |source| FleetError::Data { path: folder.to_owned(), source };
+        std::fs::create_dir_all(folder).map_err(data)?;
+        let file = File::create(folder.join(".lock")).map_err(data)?;
+        match file.try_lock() {
+            Ok(()) => Ok(Self { _file: file }),
+            Err(TryLockError::WouldBlock) => Err(FleetError::Busy { path: folder.to_owned() }),
+            Err(TryLockError::Error(source)) => Err(data(source)),
+        }
+    }
+}
+
+/// What stands where robots stand.
+const PLACES: [&str; 12] = [
+    "Welding cell",
+    "焊接单元",
+    "Assembly line",
+    "装配线",
+    "Palletiser",
+    "码垛",
+    "Press",
+    "冲压",
+    "Inspection",
+    "检测工位",
+    "Packing",
+    "包装",
+];
+
+/// Series, firmware, serial number and name of the `index`th controller of a fleet.
+pub(super) fn plausible_identity(seed: u64, index: usize, firmware: FleetFirmware) -> Result<Identity, NameError> {
+    let draw = scatter(seed, index);
+    let current = match firmware {
+        FleetFirmware::Legacy => false,
+        FleetFirmware::Current => true,
+        FleetFirmware::Mixed => index % 2 == 1,
+    };
+    let pick = |choices: &[(ControllerSeries, FirmwareVersion)]| choices[draw as usize % choices.len()];
+    let (series, firmware) = if current {
+        pick(&[
+            (ControllerSeries::Rc800, FirmwareVersion::new(8, 0, 0)),
+            (ControllerSeries::Rc800, FirmwareVersion::new(8, 1, 0)),
+            (ControllerSeries::Rc800, FirmwareVersion::new(8, 1, 2)),
+        ])
+    } else {
+        pick(&[
+            (ControllerSeries::Rc90, FirmwareVersion::new(7, 5, 4)),
+            (ControllerSeries::Rc700, FirmwareVersion::new(7, 5, 4)),
+            (ControllerSeries::Rc700, FirmwareVersion::new(7, 5, 58)),
+            (ControllerSeries::TVt, FirmwareVersion::new(7, 5, 54)),
+        ])
+    };
+    let place = PLACES[(draw >> 8) as usize % PLACES.len()];
+    let name: ControllerName = format!("{place} {:03}", index + 1).parse()?;
+    Ok(Identity { serial: serial_number(series, seed, index)?, series, firmware, name })
+}
+
+/// `R7A0000001`: three characters of the series, three digits of the seed, four of the index.
+pub(super) fn serial_number(series: ControllerSeries, seed: u64, index: usize) -> Result<SerialNumber, NameError> {
+    let prefix = match series {
+        ControllerSeries::Rc90 => "R9B",
+        ControllerSeries::Rc700 => "R7A",
+        ControllerSeries::TVt => "TVT",
+        ControllerSeries::Rc800 => "RC8",
+    };
+    format!("{prefix}{:03}{:04}", seed % 1000, index + 1).parse()
+}
+
+/// SplitMix64: the same on every machine.
+fn scatter(seed: u64, index: usize) -> u64 {
+    let mut z = seed.wrapping_add((index as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}

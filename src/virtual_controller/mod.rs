@@ -1,0 +1,70 @@
+//! The bundled virtual controller: a whole controller in software, for tests, demonstrations and training.
+//!
+//! Not a stub: it keeps its state on disk and survives a killed process, checks every rule and limit itself, runs a
+//! real OPC UA server on a real port, and has switches for what goes wrong in the field.
+//!
+//! | file | its one idea |
+//! |---|---|
+//! | `state` | [`State`]: everything a controller remembers, and what follows from it |
+//! | `changes` | every change a controller accepts, as a function on a copy of its state |
+//! | `store` | [`Store`]: the state on disk, replaced whole |
+//! | `secret_bytes` | [`SecretBytes`]: key material that shows nowhere |
+//! | `new_controller` | [`NewController`]: what a controller is when it is first switched on |
+//! | `faults` | [`Faults`]: the switches for what goes wrong |
+//! | `controller` | [`VirtualController`]: state, store and OPC UA server together; changes whole or not at all |
+//! | `password` | the connection password: Argon2id once, then a memory of this process |
+//! | `login` | wrong passwords by address, sessions by token |
+//! | `api` | the paths of [`crate::protocol`], and bodies within bounds |
+//! | `listener` | connections: accepted, bounded in number and time, encrypted |
+//! | `tls` | the management identity as a TLS server |
+//! | `opcua` | the OPC UA server |
+//! | `memory` | what stopped servers leave free, given back |
+//! | `ports` | TCP ports nobody uses |
+//! | `file_limit` | room for a listener of each controller of a fleet |
+//! | `fleet` | [`Fleet`]: hundreds of controllers in one process |
+//! | `demo` | [`demo_fleet`]: controllers worth looking at |
+//!
+//! # The walk of a change
+//! `listener` accepts and decrypts; `api` finds the session, reads the body, and hands a closure over `changes` to the
+//! controller; there it takes its turn, runs on a copy of the state, and the copy is checked and written beside the
+//! file in force. The OPC UA server, if it runs, is stopped and started with the copy. One rename makes the copy the
+//! state; if anything fails before it, the server is put back as it was and the copy is thrown away. A process killed
+//! at any moment comes back with the old state or the new one.
+//!
+//! # Decisions
+//! - A running task or a connected teach pendant refuses changes, start and stop, while questions are answered.
+//! - Certificates added to a list do not restart the server.
+//! - A change on a server in error leaves it in error; the next start or stop that succeeds ends that.
+//! - A running server refuses settings and certificates it could not run with (7932, 7933); a stopped one takes any
+//!   settings that are complete, and says so when it is started.
+
+mod api;
+mod changes;
+mod controller;
+mod demo;
+mod faults;
+mod file_limit;
+mod fleet;
+mod listener;
+mod login;
+mod memory;
+mod new_controller;
+pub mod opcua;
+mod password;
+mod ports;
+mod secret_bytes;
+mod state;
+mod store;
+#[cfg(test)]
+mod tests;
+mod tls;
+
+pub use controller::{ControllerSpec, SwitchOnError, VirtualController};
+pub use demo::{DEMO_COUNT, DEMO_PASSWORD, DemoEntry, DemoFleet, demo_fleet};
+pub use faults::{DropPoint, Faults, Switches};
+pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyLine};
+pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
+pub use password::hash_connection_password;
+pub use secret_bytes::SecretBytes;
+pub use state::{Identity, KeyPair, Listed, State, Surroundings, User};
+pub use store::{Staged, Store, StoreError};

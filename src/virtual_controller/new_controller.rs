@@ -1,0 +1,88 @@
+use chrono::{DateTime, Utc};
+
+use super::changes::install_self_signed;
+use super::secret_bytes::SecretBytes;
+use super::state::{Identity, KeyPair, State, Surroundings};
+use crate::model::{
+    CertificateType, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, ServerSettings, Subject, Validity,
+};
+use crate::pki::tls_identity;
+use crate::protocol::Base64Bytes;
+
+/// What a controller is when it is first switched on.
+#[derive(Debug, Clone)]
+pub struct NewController {
+    pub identity: Identity,
+    /// As [`super::hash_connection_password`] makes it.
+    pub connection_password_hash: String,
+    pub settings: ServerSettings,
+    /// Looked at on legacy firmware only; current firmware is always activated.
+    pub activated: bool,
+    pub used_ports: Vec<u16>,
+    /// A self-signed server certificate to begin with.
+    pub certificate: Option<NewCertificate>,
+}
+
+/// A self-signed certificate with the default subject.
+#[derive(Debug, Clone, Copy)]
+pub struct NewCertificate {
+    pub key_length: KeyLength,
+    /// When it begins to be valid; may lie in the past.
+    pub made: DateTime<Utc>,
+    pub validity: Validity,
+}
+
+/// Ports that other functions of a controller usually take: FTP data, remote control, user programs, FINS.
+pub const USUAL_PORTS: [u16; 4] = [2001, 5000, 5001, 9600];
+
+impl NewController {
+    /// An activated controller as it comes from the factory: default settings, no users, no certificate.
+    pub fn new(identity: Identity, connection_password_hash: String) -> Self {
+        Self {
+            identity,
+            connection_password_hash,
+            settings: ServerSettings::default(),
+            activated: true,
+            used_ports: USUAL_PORTS.to_vec(),
+            certificate: None,
+        }
+    }
+
+    /// Makes its keys. Slow when a server certificate is wanted.
+    pub(super) fn make(self, around: &Surroundings) -> Result<State, Problem> {
+        let tls = tls_identity(self.identity.serial.as_str(), around.now)?;
+        let management =
+            KeyPair { certificate: Base64Bytes(tls.certificate_der), private_key: SecretBytes(tls.private_key_pkcs8) };
+        let current = self.identity.firmware.generation() == FirmwareGeneration::Current;
+        let mut state = State {
+            identity: self.identity,
+            management,
+            connection_password_hash: self.connection_password_hash,
+            settings: self.settings,
+            users: Vec::new(),
+            activated: self.activated || current,
+            certificates: Default::default(),
+            selected: CertificateType::SelfSigned,
+            trusted: Vec::new(),
+            issuers: Vec::new(),
+            used_ports: self.used_ports,
+            revision: 1,
+        };
+        if let Some(wanted) = self.certificate {
+            let request = SelfSignedRequest {
+                subject: Subject {
+                    common_name: state.application_name(around),
+                    country: "JP".to_owned(),
+                    state: "Nagano".to_owned(),
+                    locality: "Suwa".to_owned(),
+                    organisation: "Virtual controllers".to_owned(),
+                },
+                key_length: wanted.key_length,
+                validity: wanted.validity,
+            };
+            install_self_signed(&mut state, around, &request, wanted.made)?;
+        }
+        state.check()?;
+        Ok(state)
+    }
+}

@@ -1,0 +1,116 @@
+use std::collections::BTreeSet;
+use std::fmt;
+use std::net::IpAddr;
+use std::path::PathBuf;
+
+use argon2::password_hash::PasswordHash;
+use rsa::RsaPrivateKey;
+use rsa::pkcs8::{DecodePrivateKey, EncodePublicKey};
+use x509_parser::prelude::{FromDer, X509Certificate};
+use zeroize::Zeroizing;
+
+use super::StartError;
+use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, SerialNumber, UserTokenPolicy};
+
+/// Everything one server is made of.
+#[derive(Clone)]
+pub struct OpcUaConfig {
+    /// The ApplicationName, which is also the certificate's common name (manual 2.7.1.2).
+    pub application_name: String,
+    /// `urn:<application_name>`: the certificate's SubjectAltName carries it, and it names namespace 1.
+    pub application_uri: String,
+    /// The address to listen on and to put in the endpoints' URLs.
+    pub bind: IpAddr,
+    /// 0 takes any free port; see [`super::OpcUaServer::port`].
+    pub port: u16,
+    /// At least one. `None` is offered without security, every other as Sign and as SignAndEncrypt.
+    pub policies: BTreeSet<SecurityPolicy>,
+    /// At least one.
+    pub user_tokens: BTreeSet<UserTokenPolicy>,
+    pub users: Vec<OpcUaUser>,
+    pub certificate_der: Vec<u8>,
+    /// The RSA key of the certificate, PKCS#8 DER.
+    pub private_key_pkcs8: Zeroizing<Vec<u8>>,
+    /// The client certificates that are let in, DER; exactly these.
+    pub trusted_clients: Vec<Vec<u8>>,
+    pub identity: DeviceIdentity,
+    /// A folder of this server alone. Starting creates it, or removes from it what an earlier run left.
+    pub pki_folder: PathBuf,
+}
+
+/// A user who may log in with a password.
+#[derive(Clone, PartialEq, Eq)]
+pub struct OpcUaUser {
+    pub name: String,
+    /// As [`super::hash_password`] makes it: argon2id in the PHC string format.
+    pub password_hash: String,
+}
+
+/// What the controller says it is in the address space.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct DeviceIdentity {
+    /// The name the controller itself carries.
+    pub name: String,
+    pub series: ControllerSeries,
+    pub serial: SerialNumber,
+    pub firmware: FirmwareVersion,
+}
+
+impl OpcUaConfig {
+    /// The server's key, after every parameter was found usable.
+    pub(super) fn check(&self) -> Result<RsaPrivateKey, StartError> {
+        let invalid = |reason: &str| StartError::InvalidParameter(reason.to_owned());
+        if self.application_name.is_empty() || self.application_uri.is_empty() {
+            return Err(invalid("the application name or URI is empty"));
+        }
+        if self.policies.is_empty() {
+            return Err(invalid("no security policy"));
+        }
+        if self.user_tokens.is_empty() {
+            return Err(invalid("no user token policy"));
+        }
+        for user in &self.users {
+            if !PasswordHash::new(&user.password_hash).is_ok_and(|hash| hash.algorithm == argon2::ARGON2ID_IDENT) {
+                return Err(StartError::InvalidParameter(format!(
+                    "the password of {} is not an argon2id hash",
+                    user.name
+                )));
+            }
+        }
+        let (rest, certificate) = X509Certificate::from_der(&self.certificate_der)
+            .map_err(|_| invalid("the server certificate is not an X.509 certificate"))?;
+        if !rest.is_empty() {
+            return Err(invalid("the server certificate is followed by other data"));
+        }
+        let key = RsaPrivateKey::from_pkcs8_der(&self.private_key_pkcs8)
+            .map_err(|_| invalid("the server's key is not an RSA key in PKCS#8"))?;
+        let public_key = key.to_public_key().to_public_key_der().map_err(|e| StartError::Failed(e.to_string()))?;
+        if certificate.public_key().raw != public_key.as_bytes() {
+            return Err(invalid("the server certificate belongs to another key"));
+        }
+        Ok(key)
+    }
+}
+
+impl fmt::Debug for OpcUaConfig {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("OpcUaConfig")
+            .field("application_name", &self.application_name)
+            .field("application_uri", &self.application_uri)
+            .field("bind", &self.bind)
+            .field("port", &self.port)
+            .field("policies", &self.policies)
+            .field("user_tokens", &self.user_tokens)
+            .field("users", &self.users)
+            .field("trusted_clients", &self.trusted_clients.len())
+            .field("identity", &self.identity)
+            .field("pki_folder", &self.pki_folder)
+            .finish_non_exhaustive()
+    }
+}
+
+impl fmt::Debug for OpcUaUser {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("OpcUaUser").field("name", &self.name).finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,253 @@
+use std::fmt;
+use std::io;
+use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+use std::time::Duration;
+
+use opcua::server::address_space::AddressSpace;
+use opcua::server::node_manager::ServerContext;
+use opcua::server::node_manager::memory::{CoreNodeManagerBuilder, InMemoryNodeManagerBuilder};
+use opcua::server::{Server, ServerBuilder, ServerHandle};
+use opcua::types::BuildInfo;
+use rsa::pkcs8::{EncodePrivateKey, LineEnding};
+use rsa::traits::PublicKeyParts;
+use tokio::net::TcpListener;
+use tokio::task::JoinHandle;
+
+use super::address_space::Controller;
+use super::certificate_store::{OWN_CERTIFICATE, OWN_KEY, PkiFolder};
+use super::config::OpcUaConfig;
+use super::endpoints::{self, UserTokens};
+use super::nodesets::NodeSet;
+use super::relay::relay;
+use super::users::Users;
+
+/// Why a server could not be started.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum StartError {
+    #[error("port {0} is in use")]
+    PortInUse(u16),
+    #[error("the server cannot run with these settings: {0}")]
+    InvalidParameter(String),
+    #[error("the server could not be started: {0}")]
+    Failed(String),
+}
+
+/// A running OPC UA server. Dropping it stops it too, without waiting.
+pub struct OpcUaServer {
+    address: SocketAddr,
+    handle: ServerHandle,
+    pki: PkiFolder,
+    server: JoinHandle<Result<(), String>>,
+    relay: JoinHandle<()>,
+}
+
+impl OpcUaServer {
+    /// Returns once the server accepts connections. When it fails, the port is free again.
+    pub async fn start(config: OpcUaConfig) -> Result<Self, StartError> {
+        // The port comes first: it is what fails most, and a port of 0 must be known before the endpoints' URLs are.
+        let clients = listen(config.bind, config.port).await?;
+        let address = clients.local_addr().map_err(failed)?;
+        let inner = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await.map_err(failed)?;
+        let inner_address = inner.local_addr().map_err(failed)?;
+        // Reads and writes files, checks the key, and builds some ten thousand nodes.
+        let (server, handle, pki) =
+            tokio::task::spawn_blocking(move || build(&config, address)).await.map_err(failed)??;
+        let stop_unless_ready = handle.token().clone().drop_guard();
+        let mut server = tokio::spawn(server.run_with(inner));
+        tokio::time::timeout(START_TIMEOUT, ready(&mut server, &handle, inner_address.port()))
+            .await
+            .map_err(|_| StartError::Failed("it is not ready in time".to_owned()))??;
+        stop_unless_ready.disarm();
+        // Endpoint URLs are made with this port: it must be the one clients know before the first of them asks.
+        handle.info().port.store(address.port(), Ordering::Relaxed);
+        let relay = tokio::spawn(relay(clients, inner_address));
+        let running = Self { address, handle, pki, server, relay };
+        tracing::info!(endpoint = running.endpoint(), "OPC UA server started");
+        Ok(running)
+    }
+
+    /// The TCP port it listens on.
+    pub fn port(&self) -> u16 {
+        self.address.port()
+    }
+
+    /// `opc.tcp://host:port`, as clients reach it.
+    pub fn endpoint(&self) -> String {
+        endpoint(self.address)
+    }
+
+    /// Lets in exactly these client certificates (DER) from the next session on. Sessions that are already open stay.
+    pub fn set_trusted_clients(&self, ders: &[Vec<u8>]) -> io::Result<()> {
+        self.pki.set_trusted(ders)
+    }
+
+    /// False once the server has ended by itself.
+    pub fn is_running(&self) -> bool {
+        !self.server.is_finished() && !self.relay.is_finished()
+    }
+
+    /// Closes every connection and the port. Takes at most a few seconds, whatever the clients do.
+    pub async fn stop(mut self) {
+        self.handle.cancel();
+        // Clients that listen are told why they are disconnected; the others are cut off.
+        let told = ended(&mut self.server, FAREWELL).await;
+        self.relay.abort();
+        ended(&mut self.relay, STOP_TIMEOUT).await;
+        if !told && !ended(&mut self.server, STOP_TIMEOUT).await {
+            tracing::warn!(endpoint = self.endpoint(), "OPC UA server did not stop in time");
+            self.server.abort();
+        }
+        tracing::info!(endpoint = self.endpoint(), "OPC UA server stopped");
+    }
+}
+
+impl Drop for OpcUaServer {
+    fn drop(&mut self) {
+        self.handle.cancel();
+        self.relay.abort();
+    }
+}
+
+impl fmt::Debug for OpcUaServer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("OpcUaServer").field("endpoint", &self.endpoint()).finish_non_exhaustive()
+    }
+}
+
+/// The crate stores its port when it begins to accept, and tells nobody.
+async fn ready(
+    server: &mut JoinHandle<Result<(), String>>,
+    handle: &ServerHandle,
+    port: u16,
+) -> Result<(), StartError> {
+    while handle.info().port.load(Ordering::Relaxed) != port {
+        if server.is_finished() {
+            return Err(match server.await {
+                Ok(Err(reason)) => StartError::Failed(reason),
+                Ok(Ok(())) => StartError::Failed("it ended at once".to_owned()),
+                Err(e) => failed(e),
+            });
+        }
+        tokio::time::sleep(POLL).await;
+    }
+    Ok(())
+}
+
+/// Whether a task has ended, or ends within the time given.
+async fn ended<T>(task: &mut JoinHandle<T>, within: Duration) -> bool {
+    // A task that has ended may have been awaited already and must not be again.
+    task.is_finished() || tokio::time::timeout(within, task).await.is_ok()
+}
+
+/// On Unix tokio sets `SO_REUSEADDR`, so connections of an earlier run that still linger do not hold the port, while
+/// another listener does.
+async fn listen(address: IpAddr, port: u16) -> Result<TcpListener, StartError> {
+    TcpListener::bind((address, port)).await.map_err(|e| match e.kind() {
+        io::ErrorKind::AddrInUse => StartError::PortInUse(port),
+        io::ErrorKind::AddrNotAvailable | io::ErrorKind::PermissionDenied => {
+            StartError::InvalidParameter(format!("cannot listen on {}: {e}", SocketAddr::new(address, port)))
+        }
+        _ => failed(e),
+    })
+}
+
+fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHandle, PkiFolder), StartError> {
+    let key = config.check()?;
+    let devices = NodeSet::devices().map_err(StartError::Failed)?;
+    let pki = PkiFolder::create(config.pki_folder.clone()).map_err(failed)?;
+    pki.set_trusted(&config.trusted_clients).map_err(failed)?;
+    let pem = key.to_pkcs8_pem(LineEnding::LF).map_err(failed)?;
+    pki.write_own(&config.certificate_der, &pem).map_err(failed)?;
+    let (server, handle) =
+        builder(config, address, key.size() * 8, devices, &pki).build().map_err(StartError::Failed)?;
+    pki.close_rejected().map_err(failed)?;
+    if handle.info().server_pkey.is_none() || handle.info().server_certificate.is_none() {
+        return Err(StartError::InvalidParameter("the server certificate or its key cannot be used".to_owned()));
+    }
+    Ok((server, handle, pki))
+}
+
+fn builder(
+    config: &OpcUaConfig,
+    address: SocketAddr,
+    key_bits: usize,
+    devices: Arc<NodeSet>,
+    pki: &PkiFolder,
+) -> ServerBuilder {
+    let identity = config.identity.clone();
+    let controller = InMemoryNodeManagerBuilder::new(move |context: ServerContext, space: &mut AddressSpace| {
+        Controller::build(&context, space, &devices, &identity)
+    });
+    let tokens = UserTokens::new(config.user_tokens.clone());
+    let mut builder = ServerBuilder::new()
+        // The controller's nodes before the standard ones: that gives them namespace 1. The crate's diagnostics want
+        // the same namespace and are left out.
+        .without_node_managers()
+        .with_node_manager(controller)
+        .with_node_manager(InMemoryNodeManagerBuilder::new(CoreNodeManagerBuilder))
+        .with_authenticator(Arc::new(Users::new(tokens, &config.users)))
+        .application_name(&config.application_name)
+        .application_uri(&config.application_uri)
+        .product_uri(PRODUCT_URI)
+        .build_info(BuildInfo {
+            product_uri: PRODUCT_URI.into(),
+            manufacturer_name: env!("CARGO_PKG_NAME").into(),
+            product_name: "Virtual controller".into(),
+            software_version: config.identity.firmware.to_string().into(),
+            build_number: env!("CARGO_PKG_VERSION").into(),
+            ..Default::default()
+        })
+        .host(host(address.ip()))
+        .port(address.port())
+        .discovery_urls(vec![format!("{}/", endpoint(address))])
+        .pki_dir(pki.root())
+        .certificate_path(OWN_CERTIFICATE)
+        .private_key_path(OWN_KEY)
+        .create_sample_keypair(false)
+        .trust_client_certs(false)
+        .check_cert_time(true)
+        .limits(endpoints::limits())
+        .hello_timeout(endpoints::HELLO_TIMEOUT_SECS)
+        .subscription_poll_interval_ms(endpoints::SUBSCRIPTION_TICK_MS)
+        .max_session_timeout_ms(endpoints::SESSION_TIMEOUT_MS)
+        .max_secure_channel_token_lifetime_ms(endpoints::TOKEN_LIFETIME_MS);
+    for (id, endpoint) in endpoints::endpoints(&config.policies, key_bits) {
+        builder = builder.add_endpoint(id, endpoint);
+    }
+    builder
+}
+
+fn endpoint(address: SocketAddr) -> String {
+    format!("opc.tcp://{}:{}", host(address.ip()), address.port())
+}
+
+/// As it stands in a URL.
+fn host(address: IpAddr) -> String {
+    match address {
+        IpAddr::V4(v4) => v4.to_string(),
+        IpAddr::V6(v6) => format!("[{v6}]"),
+    }
+}
+
+fn failed(error: impl fmt::Display) -> StartError {
+    StartError::Failed(error.to_string())
+}
+
+const PRODUCT_URI: &str = "urn:opcua-configurator:virtual-controller";
+const START_TIMEOUT: Duration = Duration::from_secs(10);
+const FAREWELL: Duration = Duration::from_secs(1);
+const STOP_TIMEOUT: Duration = Duration::from_secs(3);
+const POLL: Duration = Duration::from_millis(2);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ipv6_address_stands_in_brackets() {
+        assert_eq!(endpoint("[::1]:4840".parse().unwrap()), "opc.tcp://[::1]:4840");
+        assert_eq!(endpoint("192.168.0.1:4840".parse().unwrap()), "opc.tcp://192.168.0.1:4840");
+    }
+}

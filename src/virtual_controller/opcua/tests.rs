@@ -1,0 +1,367 @@
+//! A real server and the crate's own client, over loopback.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::net::{IpAddr, Ipv4Addr};
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
+use std::time::{Duration, Instant};
+
+use opcua::client::{ClientBuilder, IdentityToken, Session};
+use opcua::types::{
+    BrowseDescription, BrowseDirection, MessageSecurityMode, NodeClass, NodeClassMask, NodeId, ObjectId, ReadValueId,
+    ReferenceTypeId, StatusCode, TimestampsToReturn, VariableId, Variant, WriteValue,
+};
+use rcgen::{CertificateParams, DnType, KeyPair, PKCS_RSA_SHA256, RsaKeySize, SanType};
+use tempfile::TempDir;
+use tokio::task::JoinHandle;
+use tokio::time::timeout;
+use zeroize::Zeroizing;
+
+use super::*;
+use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, UserTokenPolicy};
+
+const URI: &str = "urn:EpsonRC.SN0000123.127.000.000.001";
+const PATIENCE: Duration = Duration::from_secs(30);
+
+struct Identity {
+    der: Vec<u8>,
+    key: KeyPair,
+}
+
+impl Identity {
+    fn new(name: &str) -> Self {
+        let key = KeyPair::generate_rsa_for(&PKCS_RSA_SHA256, RsaKeySize::_2048).unwrap();
+        let mut params = CertificateParams::default();
+        params.distinguished_name.push(DnType::CommonName, name);
+        params.subject_alt_names = vec![
+            SanType::URI(format!("urn:{name}").try_into().unwrap()),
+            SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST)),
+        ];
+        Self { der: params.self_signed(&key).unwrap().der().to_vec(), key }
+    }
+}
+
+static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("EpsonRC.SN0000123.127.000.000.001"));
+static CLIENT: LazyLock<Identity> = LazyLock::new(|| Identity::new("client"));
+
+fn config(folder: &TempDir) -> OpcUaConfig {
+    OpcUaConfig {
+        application_name: "EpsonRC.SN0000123.127.000.000.001".to_owned(),
+        application_uri: URI.to_owned(),
+        bind: Ipv4Addr::LOCALHOST.into(),
+        port: 0,
+        policies: SecurityPolicy::ALL.into(),
+        user_tokens: UserTokenPolicy::ALL.into(),
+        users: vec![],
+        certificate_der: SERVER.der.clone(),
+        private_key_pkcs8: Zeroizing::new(SERVER.key.serialize_der()),
+        trusted_clients: vec![],
+        identity: DeviceIdentity {
+            name: "Weld 1".to_owned(),
+            series: ControllerSeries::Rc800,
+            serial: "SN0000123".parse().unwrap(),
+            firmware: FirmwareVersion::new(8, 0, 1),
+        },
+        pki_folder: folder.path().join("pki"),
+    }
+}
+
+struct Client {
+    session: Arc<Session>,
+    events: JoinHandle<StatusCode>,
+    _folder: TempDir,
+}
+
+impl Client {
+    async fn connect(server: &OpcUaServer, policy: SecurityPolicy, user: IdentityToken) -> Result<Self, StatusCode> {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir_all(folder.path().join("own")).unwrap();
+        fs::create_dir_all(folder.path().join("private")).unwrap();
+        fs::write(folder.path().join("own/cert.der"), &CLIENT.der).unwrap();
+        fs::write(folder.path().join("private/private.pem"), CLIENT.key.serialize_pem()).unwrap();
+        let mut client = ClientBuilder::new()
+            .application_name("client")
+            .application_uri("urn:client")
+            .product_uri("urn:client")
+            .pki_dir(folder.path())
+            .certificate_path("own/cert.der")
+            .private_key_path("private/private.pem")
+            .trust_server_certs(true)
+            .verify_server_certs(false)
+            .session_retry_limit(0)
+            .client()
+            .unwrap();
+        let mode = match policy {
+            SecurityPolicy::None => MessageSecurityMode::None,
+            _ => MessageSecurityMode::SignAndEncrypt,
+        };
+        let token = match user {
+            IdentityToken::Anonymous => opcua::types::UserTokenType::Anonymous,
+            _ => opcua::types::UserTokenType::UserName,
+        };
+        let token = opcua::types::UserTokenPolicy { token_type: token, ..Default::default() };
+        let endpoint = server.endpoint();
+        let endpoint = (endpoint.as_str(), endpoints::wire(policy).to_str(), mode, token);
+        let (session, events) = timeout(PATIENCE, client.connect_to_matching_endpoint(endpoint, user))
+            .await
+            .unwrap()
+            .map_err(|e| e.status())?;
+        // A refused connection shows only on the event loop.
+        let mut events = events.spawn();
+        tokio::select! {
+            _ = session.wait_for_connection() => Ok(Self { session, events, _folder: folder }),
+            status = &mut events => Err(status.unwrap()),
+            () = tokio::time::sleep(PATIENCE) => panic!("neither connected nor refused"),
+        }
+    }
+
+    async fn anonymous(server: &OpcUaServer) -> Result<Self, StatusCode> {
+        Self::connect(server, SecurityPolicy::None, IdentityToken::Anonymous).await
+    }
+
+    async fn encrypted(server: &OpcUaServer) -> Result<Self, StatusCode> {
+        Self::connect(server, SecurityPolicy::Basic256Sha256, IdentityToken::Anonymous).await
+    }
+
+    async fn log_in(server: &OpcUaServer, name: &str, password: &str) -> Result<(), StatusCode> {
+        let user = IdentityToken::new_user_name(name, password);
+        Self::connect(server, SecurityPolicy::None, user).await?.close().await;
+        Ok(())
+    }
+
+    async fn read(&self, node: impl Into<NodeId>) -> Variant {
+        let node = ReadValueId::from(node.into());
+        let values =
+            timeout(PATIENCE, self.session.read(&[node], TimestampsToReturn::Both, 0.0)).await.unwrap().unwrap();
+        values.into_iter().next().unwrap().value.unwrap_or_default()
+    }
+
+    /// Names and ids of the nodes below one node.
+    async fn browse(&self, node: impl Into<NodeId>) -> Vec<(String, NodeId)> {
+        let browse = BrowseDescription {
+            node_id: node.into(),
+            browse_direction: BrowseDirection::Forward,
+            reference_type_id: ReferenceTypeId::HierarchicalReferences.into(),
+            include_subtypes: true,
+            node_class_mask: (NodeClassMask::OBJECT | NodeClassMask::VARIABLE).bits(),
+            result_mask: 63,
+        };
+        let results = timeout(PATIENCE, self.session.browse(&[browse], 100, None)).await.unwrap().unwrap();
+        let references = results.into_iter().next().unwrap().references.unwrap_or_default();
+        references
+            .into_iter()
+            .filter(|r| matches!(r.node_class, NodeClass::Object | NodeClass::Variable))
+            .map(|r| (r.browse_name.name.to_string(), r.node_id.node_id))
+            .collect()
+    }
+
+    async fn close(self) {
+        let _ = timeout(PATIENCE, self.session.disconnect()).await;
+        let _ = timeout(PATIENCE, self.events).await;
+    }
+}
+
+async fn start(config: OpcUaConfig) -> OpcUaServer {
+    timeout(PATIENCE, OpcUaServer::start(config)).await.unwrap().unwrap()
+}
+
+fn string(value: Variant) -> String {
+    match value {
+        Variant::String(text) => text.to_string(),
+        Variant::LocalizedText(text) => text.text.to_string(),
+        other => panic!("{other:?} is not text"),
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn it_starts_again_on_the_same_port_after_a_stop_with_clients_connected() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = start(config(&folder)).await;
+    let port = server.port();
+    assert_eq!(server.endpoint(), format!("opc.tcp://127.0.0.1:{port}"));
+    for _ in 0..2 {
+        let server = start(OpcUaConfig { port: 0, ..config(&tempfile::tempdir().unwrap()) }).await;
+        assert_ne!(server.port(), port);
+        server.stop().await;
+    }
+    let client = Client::anonymous(&server).await.unwrap();
+    let silent = tokio::net::TcpStream::connect(("127.0.0.1", port)).await.unwrap();
+    assert!(server.is_running());
+    let stopping = Instant::now();
+    server.stop().await;
+    assert!(stopping.elapsed() < Duration::from_secs(3), "took {:?}", stopping.elapsed());
+    drop((client, silent));
+    assert!(tokio::net::TcpStream::connect(("127.0.0.1", port)).await.is_err());
+
+    let server = start(OpcUaConfig { port, ..config(&folder) }).await;
+    assert_eq!(server.port(), port);
+    Client::anonymous(&server).await.unwrap().close().await;
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_port_in_use_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = taken.local_addr().unwrap().port();
+    let error = OpcUaServer::start(OpcUaConfig { port, ..config(&folder) }).await.unwrap_err();
+    assert_eq!(error, StartError::PortInUse(port));
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn what_cannot_work_is_refused_and_frees_the_port() {
+    let folder = tempfile::tempdir().unwrap();
+    let good = config(&folder);
+    let port = {
+        let server = start(good.clone()).await;
+        let port = server.port();
+        server.stop().await;
+        port
+    };
+    let other_key = Zeroizing::new(CLIENT.key.serialize_der());
+    let user = OpcUaUser { name: "operator1".to_owned(), password_hash: "$argon2i$nonsense".to_owned() };
+    for bad in [
+        OpcUaConfig { policies: BTreeSet::new(), ..good.clone() },
+        OpcUaConfig { user_tokens: BTreeSet::new(), ..good.clone() },
+        OpcUaConfig { certificate_der: b"no certificate".to_vec(), ..good.clone() },
+        OpcUaConfig { private_key_pkcs8: Zeroizing::new(b"no key".to_vec()), ..good.clone() },
+        OpcUaConfig { private_key_pkcs8: other_key, ..good.clone() },
+        OpcUaConfig { users: vec![user], ..good.clone() },
+        OpcUaConfig { bind: Ipv4Addr::new(192, 0, 2, 1).into(), ..good.clone() },
+    ] {
+        let error = OpcUaServer::start(OpcUaConfig { port, ..bad }).await.unwrap_err();
+        assert!(matches!(error, StartError::InvalidParameter(_)), "{error}");
+    }
+    start(OpcUaConfig { port, ..good }).await.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn namespace_1_is_the_servers_own_and_the_controller_lies_in_the_device_set() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = start(config(&folder)).await;
+    let client = Client::anonymous(&server).await.unwrap();
+
+    let Variant::Array(namespaces) = client.read(VariableId::Server_NamespaceArray).await else { panic!("no array") };
+    let namespaces: Vec<String> = namespaces.values.into_iter().map(string).collect();
+    assert_eq!(namespaces, ["http://opcfoundation.org/UA/", URI, "http://opcfoundation.org/UA/DI/"]);
+
+    let objects = client.browse(ObjectId::ObjectsFolder).await;
+    let device_set = NodeId::new(2, 5001u32);
+    assert!(objects.contains(&("DeviceSet".to_owned(), device_set.clone())), "{objects:?}");
+    let devices = client.browse(device_set).await;
+    let system = NodeId::new(1, "MotionDeviceSystem_0");
+    assert!(devices.contains(&("MotionDeviceSystem_0".to_owned(), system.clone())), "{devices:?}");
+
+    let children = client.browse(system).await;
+    let names: Vec<&str> = children.iter().map(|(name, _)| name.as_str()).collect();
+    for (name, value) in [
+        ("Manufacturer", "Seiko Epson Corporation"),
+        ("Model", "RC800"),
+        ("SerialNumber", "SN0000123"),
+        ("SoftwareRevision", "8.0.1"),
+        ("DeviceManual", ""),
+    ] {
+        let (_, id) = children.iter().find(|(n, _)| n == name).unwrap_or_else(|| panic!("{name} of {names:?}"));
+        assert_eq!(string(client.read(id.clone()).await), value, "{name}");
+    }
+    for (path, value) in [("ControllerName", "Weld 1"), ("ServerStatus", "Run")] {
+        let id = NodeId::new(1, format!("MotionDeviceSystem_0.ControllerStatus.{path}"));
+        assert_eq!(string(client.read(id).await), value);
+    }
+
+    let write = WriteValue::value_attr(NodeId::new(1, "MotionDeviceSystem_0.SerialNumber"), "SN2".into());
+    let results = timeout(PATIENCE, client.session.write(&[write])).await.unwrap().unwrap();
+    assert_eq!(results, [StatusCode::BadNotWritable]);
+
+    client.close().await;
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_user_is_let_in_with_the_right_password_only() {
+    let folder = tempfile::tempdir().unwrap();
+    let user = |name: &str| OpcUaUser { name: name.to_owned(), password_hash: hash_password("Passw0rd").unwrap() };
+    let server = start(OpcUaConfig {
+        user_tokens: BTreeSet::from([UserTokenPolicy::UserName]),
+        users: vec![user("operator1"), user("operator2")],
+        ..config(&folder)
+    })
+    .await;
+
+    assert_eq!(Client::log_in(&server, "operator1", "Passw0rd").await, Ok(()));
+    assert_eq!(Client::log_in(&server, "nobody00", "Passw0rd").await, Err(StatusCode::BadUserAccessDenied));
+    assert!(Client::anonymous(&server).await.is_err());
+    for _ in 0..5 {
+        assert_eq!(Client::log_in(&server, "operator1", "passw0rd").await, Err(StatusCode::BadUserAccessDenied));
+    }
+    assert_eq!(Client::log_in(&server, "operator1", "Passw0rd").await, Err(StatusCode::BadUserAccessDenied));
+    assert_eq!(Client::log_in(&server, "operator2", "Passw0rd").await, Ok(()));
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_password_is_encrypted_where_the_channel_is_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = start(OpcUaConfig { policies: BTreeSet::from([SecurityPolicy::None]), ..config(&folder) }).await;
+    let client = ClientBuilder::new().application_name("c").application_uri("urn:c").product_uri("urn:c");
+    let client = client.pki_dir(folder.path().join("client")).client().unwrap();
+    let endpoints = timeout(PATIENCE, client.get_server_endpoints_from_url(server.endpoint())).await.unwrap().unwrap();
+    assert_eq!(endpoints.len(), 1);
+    assert_eq!(endpoints[0].endpoint_url.as_ref(), format!("{}/", server.endpoint()));
+    let tokens = endpoints[0].user_identity_tokens.clone().unwrap();
+    let password = tokens.iter().find(|t| t.token_type == opcua::types::UserTokenType::UserName).unwrap();
+    assert_eq!(password.security_policy_uri.as_ref(), "http://opcfoundation.org/UA/SecurityPolicy#Basic256Sha256");
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn trust_in_a_client_changes_while_the_server_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = start(config(&folder)).await;
+    assert_eq!(Client::encrypted(&server).await.err(), Some(StatusCode::BadCertificateUntrusted));
+
+    server.set_trusted_clients(&[CLIENT.der.clone(), b"no certificate".to_vec()]).unwrap();
+    Client::encrypted(&server).await.unwrap().close().await;
+
+    server.set_trusted_clients(std::slice::from_ref(&SERVER.der)).unwrap();
+    assert_eq!(Client::encrypted(&server).await.err(), Some(StatusCode::BadCertificateUntrusted));
+    server.stop().await;
+
+    let server = start(OpcUaConfig { trusted_clients: vec![CLIENT.der.clone()], ..config(&folder) }).await;
+    for policy in SecurityPolicy::ALL {
+        let client = Client::connect(&server, policy, IdentityToken::Anonymous).await;
+        client.unwrap_or_else(|e| panic!("{policy}: {e}")).close().await;
+    }
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn the_key_lies_on_disk_while_the_server_runs_and_what_strangers_send_never_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = start(config(&folder)).await;
+    assert!(Client::encrypted(&server).await.is_err());
+    let files = |path: &Path| -> BTreeSet<String> {
+        fs::read_dir(path).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect()
+    };
+    let pki = folder.path().join("pki");
+    assert_eq!(files(&pki), ["own.der", "own.pem", "rejected", "trusted"].map(str::to_owned).into());
+    assert_eq!(files(&pki.join("trusted")), BTreeSet::new());
+    assert!(pki.join("rejected").is_file());
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        assert_eq!(fs::metadata(&pki).unwrap().permissions().mode() & 0o777, 0o700);
+        assert_eq!(fs::metadata(pki.join("own.pem")).unwrap().permissions().mode() & 0o777, 0o600);
+    }
+    server.stop().await;
+    assert!(!pki.join("own.pem").exists());
+}
+
+#[test]
+fn debug_output_holds_no_secret() {
+    let folder = tempfile::tempdir().unwrap();
+    let user = OpcUaUser { name: "operator1".to_owned(), password_hash: "$argon2id$secret".to_owned() };
+    let text = format!("{:?}", OpcUaConfig { users: vec![user], ..config(&folder) });
+    assert!(text.contains("operator1") && !text.contains("argon2id") && !text.contains("private_key"), "{text}");
+}

@@ -1,0 +1,218 @@
+use std::collections::BTreeMap;
+use std::net::{IpAddr, Ipv4Addr};
+
+use chrono::{DateTime, Utc};
+use serde::{Deserialize, Serialize};
+
+use super::secret_bytes::SecretBytes;
+use crate::model::{
+    CertificateType, ClientList, ControllerName, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion,
+    ListLimits, MAX_USERS, Problem, SerialNumber, ServerCertificate, ServerSettings, UserName, default_common_name,
+    offered_key_lengths,
+};
+use crate::pki::{Certificate, PkiError, ServerNames};
+use crate::protocol::{Base64Bytes, ListedCertificate};
+
+/// Who a controller is. Never changes during its life.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Identity {
+    pub serial: SerialNumber,
+    pub series: ControllerSeries,
+    pub firmware: FirmwareVersion,
+    /// The name the controller itself carries.
+    pub name: ControllerName,
+}
+
+/// A certificate with its private key.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeyPair {
+    /// DER.
+    pub certificate: Base64Bytes,
+    /// PKCS#8, DER.
+    pub private_key: SecretBytes,
+}
+
+impl KeyPair {
+    pub fn parse(&self) -> Result<Certificate, PkiError> {
+        Certificate::from_der(&self.certificate.0)
+    }
+}
+
+/// A user of the OPC UA server.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct User {
+    pub name: UserName,
+    /// Argon2id, as a PHC string.
+    pub password_hash: String,
+}
+
+/// A certificate in the trusted or issuers list.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Listed {
+    pub file_name: String,
+    /// DER.
+    pub certificate: Base64Bytes,
+    pub added: DateTime<Utc>,
+}
+
+/// Everything a controller remembers when it is switched off.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct State {
+    pub identity: Identity,
+    /// The TLS identity of the management protocol; its certificate's SHA-256 is the controller's fingerprint.
+    pub management: KeyPair,
+    /// Argon2id of the connection password, as a PHC string.
+    pub connection_password_hash: String,
+    pub settings: ServerSettings,
+    pub users: Vec<User>,
+    /// Always true on current firmware, where activation is a controller option.
+    pub activated: bool,
+    /// The server certificates held, at most one of each type.
+    pub certificates: BTreeMap<CertificateType, KeyPair>,
+    /// The type the server uses, whether one is held or not.
+    pub selected: CertificateType,
+    pub trusted: Vec<Listed>,
+    pub issuers: Vec<Listed>,
+    /// TCP ports taken by other functions of the controller.
+    pub used_ports: Vec<u16>,
+    /// Counts every change of the configuration.
+    pub revision: u64,
+}
+
+/// What a controller knows about itself only while it is switched on.
+#[derive(Debug, Clone, Copy)]
+pub struct Surroundings {
+    /// The controller's clock.
+    pub now: DateTime<Utc>,
+    /// The address its servers listen on.
+    pub bind: IpAddr,
+    /// The port of its management protocol, which the OPC UA server must not take.
+    pub management_port: u16,
+}
+
+impl Surroundings {
+    /// The address the controller names itself by: the one it listens on, or the loopback when that is every one.
+    pub fn address(&self) -> IpAddr {
+        if self.bind.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { self.bind }
+    }
+}
+
+impl State {
+    pub fn generation(&self) -> FirmwareGeneration {
+        self.identity.firmware.generation()
+    }
+
+    pub fn limits(&self) -> ListLimits {
+        ListLimits::of(self.generation())
+    }
+
+    pub fn list(&self, list: ClientList) -> &[Listed] {
+        match list {
+            ClientList::Trusted => &self.trusted,
+            ClientList::Issuers => &self.issuers,
+            ClientList::Rejected => &[],
+        }
+    }
+
+    /// ApplicationName of the OPC UA server (manual 2.7.1.2).
+    pub fn application_name(&self, around: &Surroundings) -> String {
+        let ip = match around.address() {
+            IpAddr::V4(ip) => ip,
+            IpAddr::V6(ip) => ip.to_ipv4().unwrap_or(Ipv4Addr::LOCALHOST),
+        };
+        default_common_name(&self.identity.serial, ip)
+    }
+
+    /// The names a server certificate made in this controller carries.
+    pub fn server_names(&self, around: &Surroundings) -> ServerNames {
+        ServerNames {
+            application_uri: format!("urn:{}", self.application_name(around)),
+            ips: vec![around.address()],
+            dns: Vec::new(),
+        }
+    }
+
+    /// The server certificate in use, if one of the selected type is held.
+    pub fn selected_certificate(&self) -> Option<&KeyPair> {
+        self.certificates.get(&self.selected)
+    }
+
+    pub fn server_certificate(&self) -> Option<ServerCertificate> {
+        let certificate = self.selected_certificate()?.parse().ok()?;
+        Some(ServerCertificate { kind: self.selected, summary: certificate.summary() })
+    }
+
+    /// Ports taken by other functions, the management protocol among them; sorted.
+    pub fn taken_ports(&self, around: &Surroundings) -> Vec<u16> {
+        let mut ports = self.used_ports.clone();
+        ports.push(around.management_port);
+        ports.sort_unstable();
+        ports.dedup();
+        ports
+    }
+
+    /// 7933 when `port` belongs to another function of the controller.
+    pub fn check_port(&self, port: u16, around: &Surroundings) -> Result<(), Problem> {
+        if self.taken_ports(around).contains(&port) {
+            return Err(Problem::with_detail(ErrorCode::PortConflict, port));
+        }
+        Ok(())
+    }
+
+    /// What the manual asks of a key: a length every ticked policy allows (2.7.1.2).
+    pub fn key_length_fits(&self, bits: u16) -> bool {
+        offered_key_lengths(&self.settings.security_policies).iter().any(|length| length.bits() == bits)
+    }
+
+    /// Why the OPC UA server cannot start: 7930, 7931, 7932 or 7933, in this order (manual 6.1).
+    pub fn check_start(&self, around: &Surroundings) -> Result<&KeyPair, Problem> {
+        if !self.activated {
+            return Err(ErrorCode::NotActivated.into());
+        }
+        let pair = self.selected_certificate().ok_or(ErrorCode::NoCertificate)?;
+        let invalid = |detail: String| Problem::with_detail(ErrorCode::InvalidParameter, detail);
+        self.settings.check().map_err(|error| invalid(error.to_string()))?;
+        let bits = pair.parse().map_err(|error| invalid(error.to_string()))?.key_bits();
+        if !self.key_length_fits(bits) {
+            return Err(invalid(format!("the security policies do not allow the certificate's {bits}-bit key")));
+        }
+        self.check_port(self.settings.port.get(), around)?;
+        Ok(pair)
+    }
+
+    /// What holds in every state a controller may be in. A change that breaks it is a mistake of this program, and is
+    /// refused; so is a file that does.
+    pub fn check(&self) -> Result<(), Problem> {
+        let limits = self.limits();
+        let broken = |what: &str| Err(Problem::with_detail(ErrorCode::Internal, what));
+        self.identity.series.check_firmware(self.identity.firmware)?;
+        if self.settings.check().is_err() {
+            return broken("incomplete settings");
+        }
+        if self.users.len() > MAX_USERS {
+            return broken("too many users");
+        }
+        if self.trusted.len() > limits.trusted || self.issuers.len() > limits.issuers {
+            return broken("a list over its limit");
+        }
+        if self.generation() == FirmwareGeneration::Current
+            && (!self.activated || self.certificates.contains_key(&CertificateType::UserSpecified))
+        {
+            return broken("something current firmware does not have");
+        }
+        Ok(())
+    }
+}
+
+impl Listed {
+    /// `None` for what is no certificate, which the lists never hold.
+    pub fn to_message(&self) -> Option<ListedCertificate> {
+        let summary = Certificate::from_der(&self.certificate.0).ok()?.summary();
+        Some(ListedCertificate {
+            file_name: self.file_name.clone(),
+            certificate: self.certificate.clone(),
+            summary,
+            added: self.added,
+        })
+    }
+}

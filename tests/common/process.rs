@@ -1,0 +1,89 @@
+//! Other programs in a test: every wait has a deadline, and none outlives the test that started it.
+
+use std::io::{self, BufRead, BufReader, Read};
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread::{self, JoinHandle};
+use std::time::{Duration, Instant};
+
+/// A program that runs until it ends by itself or this value is dropped.
+pub struct Running {
+    program: String,
+    child: Child,
+    lines: Receiver<String>,
+    stderr: Option<JoinHandle<String>>,
+}
+
+/// What a program that ended left behind.
+pub struct Finished {
+    /// `None` if a signal ended it.
+    pub code: Option<i32>,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Running {
+    /// Fails only if the program cannot be started at all, as when it is not installed.
+    pub fn start(command: &mut Command) -> io::Result<Self> {
+        let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
+        let stdout = child.stdout.take().expect("stdout is piped");
+        let mut stderr = child.stderr.take().expect("stderr is piped");
+        let (sender, lines) = channel();
+        thread::spawn(move || {
+            for line in BufReader::new(stdout).lines().map_while(Result::ok) {
+                if sender.send(line).is_err() {
+                    break;
+                }
+            }
+        });
+        let stderr = thread::spawn(move || {
+            let mut bytes = Vec::new();
+            let _ = stderr.read_to_end(&mut bytes);
+            String::from_utf8_lossy(&bytes).into_owned()
+        });
+        Ok(Self { program: format!("{command:?}"), child, lines, stderr: Some(stderr) })
+    }
+
+    /// The next line on standard output. Panics, with what the program wrote to standard error, if none comes.
+    pub fn next_line(&mut self, deadline: Duration) -> String {
+        match self.lines.recv_timeout(deadline) {
+            Ok(line) => line,
+            Err(why) => {
+                let program = self.program.clone();
+                panic!("no line from {program}: {why}\n{}", self.end())
+            }
+        }
+    }
+
+    /// Waits until the program has ended by itself. Panics if it has not by the deadline.
+    pub fn finish(mut self, deadline: Duration) -> Finished {
+        let until = Instant::now() + deadline;
+        let mut stdout = String::new();
+        let code = loop {
+            match self.lines.recv_timeout(until.saturating_duration_since(Instant::now())) {
+                Ok(line) => stdout = stdout + &line + "\n",
+                Err(RecvTimeoutError::Disconnected) => {
+                    break self.child.wait().expect("a child can be waited for").code();
+                }
+                Err(RecvTimeoutError::Timeout) => {
+                    let program = self.program.clone();
+                    panic!("{program} did not end within {deadline:?}\n{stdout}{}", self.end())
+                }
+            }
+        };
+        Finished { code, stdout, stderr: self.end() }
+    }
+
+    /// Ends the program if it still runs, and gives what it wrote to standard error.
+    fn end(&mut self) -> String {
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+        self.stderr.take().and_then(|reader| reader.join().ok()).unwrap_or_default()
+    }
+}
+
+impl Drop for Running {
+    fn drop(&mut self) {
+        self.end();
+    }
+}

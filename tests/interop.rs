@@ -1,0 +1,219 @@
+//! The real program against peers nobody of this project wrote: asyncua, node-opcua and OpenSSL.
+//!
+//! Each story starts a virtual controller and configures it from the command line, as a user would; then a peer looks
+//! at the result from outside. A peer that is not installed skips its story and says so. With
+//! `OPCUA_INTEROP_REQUIRED=1` a missing peer is a failure.
+//!
+//! `OPCUA_INTEROP_PYTHON` names a Python with asyncua (default `python3`), `OPCUA_INTEROP_NODE_MODULES` the
+//! `node_modules` folder with node-opcua-client.
+
+#[path = "interop/cell.rs"]
+mod cell;
+#[path = "interop/peers.rs"]
+mod peers;
+#[path = "common/process.rs"]
+mod process;
+
+use std::collections::BTreeSet;
+use std::fs;
+
+use cell::Cell;
+use peers::{ClientCertificate, Node, OpenSsl, Python};
+use serde_json::Value;
+
+const PASSWORD: &str = "Secret123";
+
+#[test]
+fn asyncua_gets_in_with_a_trusted_certificate_and_a_created_user_and_nobody_else_does() {
+    let Some(python) = Python::find() else { return };
+    let cell = Cell::start("current");
+    let own = python.make_certificate(cell.folder(), "own");
+    let stranger = python.make_certificate(cell.folder(), "stranger");
+    cell.make_certificate("2048", 5);
+    cell.set("None,Basic256Sha256", "anonymous,username");
+    cell.add_user("operator1", PASSWORD);
+    cell.trust(&own);
+    cell.run(&["start"]);
+    assert_eq!(cell.info()["status"], "Run");
+
+    let secure = |certificate: &ClientCertificate, password: &str| {
+        python.session(cell.opcua(), Some(certificate), Some(("operator1", password)))
+    };
+
+    let seen = secure(&own, PASSWORD);
+    assert_eq!(seen["ok"], true, "{seen}");
+    assert_eq!(seen["state"], "Running", "{seen}");
+    let server = python.endpoints(cell.opcua(), None);
+    assert_eq!(seen["namespaces"][1], server["application_uri"], "{seen}");
+    assert_eq!(seen["servers"][0], server["application_uri"], "{seen}");
+    assert_eq!(server["application_name"], cell.info()["application_name"], "{server}");
+    for object in ["Server", "DeviceSet"] {
+        assert!(texts(&seen["objects"]).contains(&object), "no {object} in Objects: {seen}");
+    }
+    assert!(!texts(&seen["devices"]).is_empty(), "DeviceSet is empty: {seen}");
+
+    let anonymous = python.session(cell.opcua(), None, None);
+    assert_eq!(anonymous["ok"], true, "{anonymous}");
+
+    let wrong = secure(&own, "Secret124");
+    assert_eq!(wrong["ok"], false, "{wrong}");
+    assert!(["BadUserAccessDenied", "BadIdentityTokenRejected"].contains(&text(&wrong["error"])), "{wrong}");
+
+    let unknown = secure(&stranger, PASSWORD);
+    assert_eq!(unknown["ok"], false, "{unknown}");
+    assert!(["BadSecurityChecksFailed", "BadCertificateUntrusted"].contains(&text(&unknown["error"])), "{unknown}");
+
+    cell.run(&["stop"]);
+    assert_eq!(cell.info()["status"], "Stop");
+    let stopped = secure(&own, PASSWORD);
+    assert_eq!(stopped["error"], "ConnectionRefused", "{stopped}");
+}
+
+#[test]
+fn asyncua_is_refused_what_a_running_server_is_told_to_forbid() {
+    let Some(python) = Python::find() else { return };
+    let cell = Cell::start("current");
+    let own = python.make_certificate(cell.folder(), "own");
+    cell.make_certificate("2048", 1);
+    cell.set("None,Basic256Sha256", "anonymous,username");
+    cell.add_user("operator1", PASSWORD);
+    cell.trust(&own);
+    cell.run(&["start"]);
+    let user = Some(("operator1", PASSWORD));
+    for (certificate, user) in [(None, None), (None, user), (Some(&own), None), (Some(&own), user)] {
+        let seen = python.session(cell.opcua(), certificate, user);
+        assert_eq!(seen["ok"], true, "{seen}");
+    }
+
+    cell.set("Basic256Sha256", "username");
+
+    assert_eq!(cell.info()["status"], "Run", "a server that ran is started again after a change");
+    for (certificate, user) in [(None, None), (None, user), (Some(&own), None)] {
+        let seen = python.session(cell.opcua(), certificate, user);
+        assert_eq!(seen["ok"], false, "{seen}");
+        assert_ne!(seen["error"], "ConnectionRefused", "{seen}");
+    }
+    let seen = python.session(cell.opcua(), Some(&own), user);
+    assert_eq!(seen["ok"], true, "{seen}");
+}
+
+#[test]
+fn node_opcua_lists_the_endpoints_that_were_set() {
+    let Some(node) = Node::find() else { return };
+    let cell = Cell::start("current");
+    cell.make_certificate("2048", 1);
+    let all = "None,Basic128Rsa15,Basic256,Basic256Sha256,Aes128Sha256RsaOaep,Aes256Sha256RsaPss";
+    cell.set(all, "anonymous,username");
+    cell.run(&["start"]);
+
+    for (policies, tokens, count) in [
+        (all, "anonymous,username", 11),
+        ("None", "anonymous", 1),
+        ("None,Basic256Sha256", "anonymous", 3),
+        ("Aes128Sha256RsaOaep,Aes256Sha256RsaPss", "username", 4),
+    ] {
+        cell.set(policies, tokens);
+        let seen = node.endpoints(cell.opcua());
+        assert_eq!(seen["ok"], true, "{policies}: {seen}");
+        let endpoints = seen["endpoints"].as_array().expect("a list of endpoints");
+        assert_eq!(endpoints.len(), count, "{policies}: {seen}");
+
+        let offered: BTreeSet<_> = endpoints.iter().map(|e| (text(&e["policy"]), text(&e["mode"]))).collect();
+        let wanted: BTreeSet<_> = policies
+            .split(',')
+            .flat_map(|policy| match policy {
+                "None" => vec![(policy, "None")],
+                _ => vec![(policy, "Sign"), (policy, "SignAndEncrypt")],
+            })
+            .collect();
+        assert_eq!(offered, wanted);
+
+        for endpoint in endpoints {
+            let offered: BTreeSet<_> = texts(&endpoint["tokens"]).into_iter().map(str::to_lowercase).collect();
+            assert_eq!(offered, tokens.split(',').map(str::to_owned).collect(), "{policies}: {endpoint}");
+        }
+    }
+}
+
+#[test]
+fn openssl_agrees_with_certificates_made_on_the_pc_for_legacy_firmware() {
+    let (Some(python), Some(openssl)) = (Python::find(), OpenSsl::find()) else { return };
+    for (bits, policies, years) in CERTIFICATES {
+        let cell = Cell::start("legacy");
+        cell.run_on_workspace(&["backup", "on"]);
+        let certificate = check_certificate(&cell, &python, &openssl, bits, policies, years);
+
+        let folder = cell.workspace().join(cell.serial()).join("Cert/SelfSigned");
+        let kept = fs::read(folder.join("1_cert.der")).expect("the backup of the certificate");
+        assert!(kept == certificate, "the server shows another certificate than the backup holds");
+        assert!(folder.join("1_key.pfx").is_file(), "the backup of the key");
+    }
+}
+
+#[test]
+fn openssl_agrees_with_certificates_made_in_the_controller_by_current_firmware() {
+    let (Some(python), Some(openssl)) = (Python::find(), OpenSsl::find()) else { return };
+    for (bits, policies, years) in CERTIFICATES {
+        let cell = Cell::start("current");
+        cell.run_on_workspace(&["backup", "on"]);
+        check_certificate(&cell, &python, &openssl, bits, policies, years);
+
+        let key = cell.workspace().join(cell.serial()).join("Cert/SelfSigned/1_key.pfx");
+        assert!(!key.exists(), "the key left the controller");
+    }
+}
+
+/// Key length, the policies that go with it, and years of validity.
+const CERTIFICATES: [(&str, &str, u8); 3] =
+    [("1024", "Basic128Rsa15,Basic256", 1), ("2048", "None,Basic256Sha256", 5), ("4096", "Basic256Sha256", 10)];
+
+/// Makes a certificate, has OpenSSL read and verify what the running server shows, and gives that certificate's DER.
+fn check_certificate(
+    cell: &Cell,
+    python: &Python,
+    openssl: &OpenSsl,
+    bits: &str,
+    policies: &str,
+    years: u8,
+) -> Vec<u8> {
+    cell.set(policies, "anonymous");
+    cell.make_certificate(bits, years);
+    cell.run(&["start"]);
+    let file = cell.folder().join("server.der");
+    let server = python.endpoints(cell.opcua(), Some(&file));
+    assert_eq!(server["ok"], true, "{server}");
+
+    let seen = openssl.read(&file);
+    let common_name = format!("CN=EpsonRC.{}.127.000.000.001", cell.serial());
+    let subject = ["C=JP", "ST=Nagano", "L=Suwa", "O=Example", common_name.as_str()];
+    assert_eq!(seen.subject.iter().map(String::as_str).collect::<BTreeSet<_>>(), BTreeSet::from(subject));
+    assert_eq!(seen.issuer, seen.subject);
+    assert_eq!(seen.version, 3);
+    assert_eq!(seen.bits.to_string(), bits);
+    assert_eq!(seen.extension("Basic Constraints"), ["CA:FALSE"]);
+    assert_eq!(
+        seen.extension("Key Usage"),
+        ["Digital Signature", "Non Repudiation", "Key Encipherment", "Data Encipherment", "Certificate Sign"]
+    );
+    assert!(seen.extension("Extended Key Usage").contains(&"TLS Web Server Authentication"));
+    let names = seen.extension("Subject Alternative Name");
+    assert!(names.contains(&format!("URI:{}", text(&server["application_uri"])).as_str()), "{names:?}");
+    assert!(names.iter().any(|name| name.starts_with("DNS:") || name.starts_with("IP Address:")), "{names:?}");
+    let authority = seen.extension("Authority Key Identifier");
+    let own = seen.extension("Subject Key Identifier");
+    assert_eq!(authority[0].trim_start_matches("keyid:"), own[0]);
+
+    let days = (seen.not_after - seen.not_before).num_days();
+    let wanted = i64::from(years) * 1461 / 4;
+    assert!((wanted - 2..=wanted + 2).contains(&days), "{years} years are about {wanted} days, not {days}");
+    openssl.verify(&file);
+    fs::read(&file).expect("the certificate just saved")
+}
+
+fn text(value: &Value) -> &str {
+    value.as_str().unwrap_or_default()
+}
+
+fn texts(value: &Value) -> Vec<&str> {
+    value.as_array().map(|list| list.iter().map(text).collect()).unwrap_or_default()
+}

@@ -1,0 +1,214 @@
+//! The peers: found or plainly skipped, asked, and their answers as values.
+
+use std::collections::BTreeMap;
+use std::env;
+use std::ffi::OsString;
+use std::io::{Write, stderr};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::Duration;
+
+use chrono::NaiveDateTime;
+use serde_json::Value;
+
+use crate::process::{Finished, Running};
+
+const ANSWER: Duration = Duration::from_secs(90);
+
+/// A key and a certificate that a client made for itself.
+pub struct ClientCertificate {
+    pub certificate: PathBuf,
+    pub key: PathBuf,
+}
+
+/// asyncua.
+pub struct Python(OsString);
+
+impl Python {
+    pub fn find() -> Option<Self> {
+        let python = Self(env::var_os("OPCUA_INTEROP_PYTHON").unwrap_or_else(|| "python3".into()));
+        found(
+            python.peer().arg("--help"),
+            "asyncua",
+            "`pip install asyncua cryptography`, in a Python that OPCUA_INTEROP_PYTHON names",
+        )
+        .then_some(python)
+    }
+
+    /// The client's application URI is `urn:interop:<name>`.
+    pub fn make_certificate(&self, folder: &Path, name: &str) -> ClientCertificate {
+        let [certificate, key] = ["der", "pem"].map(|extension| folder.join(format!("{name}.{extension}")));
+        let mut peer = self.peer();
+        peer.args(["certificate", "--name", name, "--uri", &format!("urn:interop:{name}"), "--certificate"]);
+        let made = answer(peer.arg(&certificate).arg("--key").arg(&key));
+        assert_eq!(made["ok"], true, "{made}");
+        ClientCertificate { certificate, key }
+    }
+
+    /// What the server offers; its certificate goes into `save`.
+    pub fn endpoints(&self, url: &str, save: Option<&Path>) -> Value {
+        let mut peer = self.peer();
+        peer.args(["endpoints", "--url", url]);
+        if let Some(file) = save {
+            peer.arg("--save-certificate").arg(file);
+        }
+        answer(&mut peer)
+    }
+
+    /// A session over Basic256Sha256 SignAndEncrypt with a certificate, over None without; as a user, or anonymous.
+    pub fn session(&self, url: &str, certificate: Option<&ClientCertificate>, user: Option<(&str, &str)>) -> Value {
+        let mut peer = self.peer();
+        peer.args(["session", "--url", url]);
+        if let Some(ClientCertificate { certificate, key }) = certificate {
+            peer.args(["--policy", "Basic256Sha256", "--certificate"]).arg(certificate).arg("--key").arg(key);
+        }
+        // Kept until the peer has read it.
+        let mut password_file = tempfile::NamedTempFile::new().expect("a temporary file");
+        if let Some((user, password)) = user {
+            password_file.write_all(password.as_bytes()).expect("the password's file");
+            peer.args(["--user", user, "--password-file"]).arg(password_file.path());
+        }
+        answer(&mut peer)
+    }
+
+    fn peer(&self) -> Command {
+        let mut command = Command::new(&self.0);
+        command.arg(source("peer.py"));
+        command
+    }
+}
+
+/// node-opcua.
+pub struct Node(());
+
+impl Node {
+    pub fn find() -> Option<Self> {
+        found(
+            &mut Self(()).peer(),
+            "node-opcua",
+            "`npm install node-opcua-client`; OPCUA_INTEROP_NODE_MODULES names its node_modules folder",
+        )
+        .then_some(Self(()))
+    }
+
+    pub fn endpoints(&self, url: &str) -> Value {
+        answer(self.peer().arg(url))
+    }
+
+    fn peer(&self) -> Command {
+        let mut command = Command::new("node");
+        command.arg(source("endpoints.mjs"));
+        command
+    }
+}
+
+/// The command line of OpenSSL.
+pub struct OpenSsl(());
+
+/// A certificate as OpenSSL reads it.
+pub struct Reading {
+    pub version: u8,
+    pub bits: u16,
+    /// One `TYPE=value` each.
+    pub subject: Vec<String>,
+    pub issuer: Vec<String>,
+    pub not_before: NaiveDateTime,
+    pub not_after: NaiveDateTime,
+    extensions: BTreeMap<String, Vec<String>>,
+}
+
+impl Reading {
+    /// The parts of an extension, such as the single uses of `Key Usage`.
+    pub fn extension(&self, name: &str) -> Vec<&str> {
+        let parts = self.extensions.get(name).unwrap_or_else(|| panic!("no {name} in {:?}", self.extensions));
+        parts.iter().map(String::as_str).collect()
+    }
+}
+
+impl OpenSsl {
+    pub fn find() -> Option<Self> {
+        found(Command::new("openssl").arg("version"), "openssl", "`apt-get install openssl`").then_some(Self(()))
+    }
+
+    pub fn read(&self, der: &Path) -> Reading {
+        let text = self.run(
+            Command::new("openssl")
+                .args(["x509", "-inform", "DER", "-noout", "-text", "-subject", "-issuer", "-nameopt", "RFC2253"])
+                .args(["-dates", "-dateopt", "iso_8601", "-in"])
+                .arg(der),
+        );
+        let mut extensions = BTreeMap::new();
+        let mut lines = text.lines().map(str::trim);
+        while let Some(line) = lines.next() {
+            if line == "X509v3 extensions:" {
+                continue;
+            }
+            if let Some((name, _)) = line.strip_prefix("X509v3 ").and_then(|rest| rest.split_once(':')) {
+                let parts = lines.next().unwrap_or_default().split(", ").map(str::to_owned).collect();
+                extensions.insert(name.to_owned(), parts);
+            }
+        }
+        let after = |start: &str| {
+            let line = text.lines().map(str::trim).filter_map(|line| line.strip_prefix(start)).next_back();
+            line.unwrap_or_else(|| panic!("no {start} in\n{text}"))
+        };
+        let number = |start: &str| after(start).trim_start_matches('(').split(' ').next().unwrap_or_default();
+        let name = |start: &str| after(start).split(',').map(str::to_owned).collect();
+        let time = |start: &str| {
+            NaiveDateTime::parse_from_str(after(start), "%Y-%m-%d %H:%M:%SZ").expect("a time of openssl x509 -dates")
+        };
+        Reading {
+            version: number("Version: ").parse().expect("a version"),
+            bits: number("Public-Key: ").parse().expect("a key length"),
+            subject: name("subject="),
+            issuer: name("issuer="),
+            not_before: time("notBefore="),
+            not_after: time("notAfter="),
+            extensions,
+        }
+    }
+
+    /// A self-signed certificate is its own authority: signature, dates, strict form and use as a server must hold.
+    pub fn verify(&self, der: &Path) {
+        let pem = der.with_extension("pem");
+        self.run(Command::new("openssl").args(["x509", "-inform", "DER", "-in"]).arg(der).arg("-out").arg(&pem));
+        let verified = self.run(
+            Command::new("openssl")
+                .args(["verify", "-x509_strict", "-check_ss_sig", "-purpose", "sslserver", "-CAfile"])
+                .arg(&pem)
+                .arg(&pem),
+        );
+        assert!(verified.trim_end().ends_with(": OK"), "{verified}");
+    }
+
+    fn run(&self, command: &mut Command) -> String {
+        let Finished { code, stdout, stderr } = Running::start(command).expect("openssl was found").finish(ANSWER);
+        assert_eq!(code, Some(0), "{command:?}\n{stdout}\n{stderr}");
+        stdout
+    }
+}
+
+/// Whether a peer answers its probe. If not, says so where the test harness does not swallow it.
+fn found(probe: &mut Command, peer: &str, install: &str) -> bool {
+    if Running::start(probe).is_ok_and(|running| running.finish(ANSWER).code == Some(0)) {
+        return true;
+    }
+    let missing = format!("{peer} not found; install with {install}");
+    assert!(env::var_os("OPCUA_INTEROP_REQUIRED").is_none(), "{missing}");
+    let _ = writeln!(stderr(), "SKIPPED: {missing}");
+    false
+}
+
+/// The one line of JSON a peer prints.
+fn answer(command: &mut Command) -> Value {
+    let Finished { code, stdout, stderr } = Running::start(command).expect("the peer was found").finish(ANSWER);
+    let last = stdout.lines().last().unwrap_or_default();
+    match serde_json::from_str(last) {
+        Ok(answer) if code == Some(0) => answer,
+        _ => panic!("{command:?} ended with {code:?}\n{stdout}\n{stderr}"),
+    }
+}
+
+fn source(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/interop").join(name)
+}

@@ -1,0 +1,180 @@
+//! What an engineer is told when the address of a controller leads somewhere else.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use opcua_configurator::model::{Address, ErrorCode};
+use opcua_configurator::pki::{Fingerprint, TlsIdentity, tls_identity};
+use opcua_configurator::session::{Connector as _, ManagementConnector, Timeouts};
+use rustls::pki_types::{CertificateDer, PrivateKeyDer, PrivatePkcs8KeyDer};
+use secrecy::SecretString;
+use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
+use tokio::net::{TcpListener, TcpStream};
+
+fn connector() -> ManagementConnector {
+    ManagementConnector {
+        timeouts: Timeouts {
+            connect: Duration::from_secs(2),
+            read: Duration::from_millis(400),
+            change: Duration::from_secs(1),
+        },
+    }
+}
+
+async fn listener() -> (TcpListener, Address) {
+    let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    let address = listener.local_addr().unwrap().to_string().parse().unwrap();
+    (listener, address)
+}
+
+async fn probe(address: &Address) -> ErrorCode {
+    let connector = connector();
+    tokio::time::timeout(Duration::from_secs(10), connector.probe(address))
+        .await
+        .expect("bounded")
+        .expect_err("not a controller")
+        .code
+}
+
+/// An HTTPS server that answers every request with the same bytes.
+async fn https(answer: Vec<u8>) -> (Address, TlsIdentity) {
+    let identity = tls_identity("not a controller", chrono::Utc::now()).unwrap();
+    let key = PrivateKeyDer::Pkcs8(PrivatePkcs8KeyDer::from(identity.private_key_pkcs8.to_vec()));
+    let provider = Arc::new(rustls::crypto::aws_lc_rs::default_provider());
+    let config = rustls::ServerConfig::builder_with_provider(provider)
+        .with_safe_default_protocol_versions()
+        .unwrap()
+        .with_no_client_auth()
+        .with_single_cert(vec![CertificateDer::from(identity.certificate_der.clone())], key)
+        .unwrap();
+    let acceptor = tokio_rustls::TlsAcceptor::from(Arc::new(config));
+    let (listener, address) = listener().await;
+    tokio::spawn(async move {
+        while let Ok((stream, _)) = listener.accept().await {
+            let (acceptor, answer) = (acceptor.clone(), answer.clone());
+            tokio::spawn(async move {
+                let mut stream = acceptor.accept(stream).await?;
+                let mut request = [0; 4096];
+                if stream.read(&mut request).await? == 0 {
+                    return Ok(());
+                }
+                stream.write_all(&answer).await?;
+                stream.shutdown().await
+            });
+        }
+    });
+    (address, identity)
+}
+
+fn http(body: &str) -> Vec<u8> {
+    format!("HTTP/1.1 200 OK\r\ncontent-type: application/json\r\ncontent-length: {}\r\n\r\n{body}", body.len()).into()
+}
+
+#[tokio::test]
+async fn nobody_listens() {
+    let (listener, address) = listener().await;
+    drop(listener);
+    assert_eq!(probe(&address).await, ErrorCode::Unreachable);
+}
+
+#[tokio::test]
+async fn a_name_that_does_not_exist() {
+    assert_eq!(probe(&"robot.invalid".parse().unwrap()).await, ErrorCode::Unreachable);
+}
+
+#[tokio::test]
+async fn a_host_that_accepts_and_says_nothing() {
+    let (listener, address) = listener().await;
+    let held: tokio::task::JoinHandle<Vec<TcpStream>> = tokio::spawn(async move {
+        let mut held = Vec::new();
+        while let Ok((stream, _)) = listener.accept().await {
+            held.push(stream);
+        }
+        held
+    });
+    assert_eq!(probe(&address).await, ErrorCode::Timeout);
+    held.abort();
+}
+
+#[tokio::test]
+async fn a_host_that_answers_garbage_instead_of_tls() {
+    let (listener, address) = listener().await;
+    tokio::spawn(async move {
+        while let Ok((mut stream, _)) = listener.accept().await {
+            let _gone = stream.write_all(b"220 printer ready\r\n").await;
+        }
+    });
+    assert_eq!(probe(&address).await, ErrorCode::NotAController);
+}
+
+#[tokio::test]
+async fn an_opc_ua_server_port_instead_of_the_management_port() {
+    let (listener, address) = listener().await;
+    tokio::spawn(async move {
+        while let Ok((mut stream, _)) = listener.accept().await {
+            let mut hello = [0; 64];
+            let _read = stream.read(&mut hello).await;
+            // It closes on anything that is not OPC UA.
+            drop(stream);
+        }
+    });
+    assert_eq!(probe(&address).await, ErrorCode::NotAController);
+}
+
+#[tokio::test]
+async fn another_https_server() {
+    for body in ["<html>welcome</html>", "{}", r#"{"product":"something-else","versions":[1]}"#, "[[[[[[[["] {
+        let (address, _) = https(http(body)).await;
+        assert_eq!(probe(&address).await, ErrorCode::NotAController, "{body}");
+    }
+    let (address, _) = https(b"SSH-2.0-OpenSSH\r\n".to_vec()).await;
+    assert_eq!(probe(&address).await, ErrorCode::NotAController);
+}
+
+#[tokio::test]
+async fn a_controller_of_a_future_protocol() {
+    let (address, _) = https(http(r#"{"product":"opcua-controller-management","versions":[2,3]}"#)).await;
+    assert_eq!(probe(&address).await, ErrorCode::ProtocolVersion);
+}
+
+#[tokio::test]
+async fn an_answer_without_end_does_not_fill_the_memory() {
+    let mut endless = b"HTTP/1.1 200 OK\r\ncontent-type: application/json\r\n\r\n".to_vec();
+    endless.resize(16 * 1024 * 1024, b'[');
+    let (address, _) = https(endless).await;
+    let connector = ManagementConnector::default();
+    let problem = connector.probe(&address).await.expect_err("too large");
+    assert_eq!(problem.code, ErrorCode::NotAController);
+}
+
+/// The password must not be sent: the server would have read it.
+#[tokio::test]
+async fn a_changed_fingerprint_is_refused_before_the_password_is_sent() {
+    let identity = tls_identity("impostor", chrono::Utc::now()).unwrap();
+    let key = PrivateKeyDer::Pkcs8(PrivatePkcs8KeyDer::from(identity.private_key_pkcs8.to_vec()));
+    let provider = Arc::new(rustls::crypto::aws_lc_rs::default_provider());
+    let config = rustls::ServerConfig::builder_with_provider(provider)
+        .with_safe_default_protocol_versions()
+        .unwrap()
+        .with_no_client_auth()
+        .with_single_cert(vec![CertificateDer::from(identity.certificate_der.clone())], key)
+        .unwrap();
+    let acceptor = tokio_rustls::TlsAcceptor::from(Arc::new(config));
+    let (listener, address) = listener().await;
+    let heard = tokio::spawn(async move {
+        let (stream, _) = listener.accept().await.unwrap();
+        let mut heard = Vec::new();
+        if let Ok(mut stream) = acceptor.accept(stream).await {
+            let _read = stream.read_to_end(&mut heard).await;
+        }
+        heard
+    });
+    let expected = Fingerprint::of(b"the one that was confirmed");
+    let password = SecretString::from("secret-of-the-plant");
+    let refused = connector().connect(&address, expected, &password).await;
+    let problem = refused.err().expect("refused");
+    assert_eq!(problem.code, ErrorCode::FingerprintChanged);
+    let detail = problem.detail.expect("both fingerprints");
+    assert!(detail.contains(&expected.grouped()) && detail.contains(&identity.fingerprint().grouped()), "{detail}");
+    assert!(heard.await.unwrap().is_empty(), "nothing may be sent to an impostor");
+}
