@@ -9,8 +9,18 @@ use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved};
 
 const NAMES: [&str; 12] = [
-    "Weld 1", "Weld 2", "Weld 10", "Paint booth", "Palletiser north", "Palletiser south", "Assembly A", "Assembly B",
-    "焊接单元 3", "Test bench in hall 4 with a long na", "Press feeder", "Packing",
+    "Weld 1",
+    "Weld 2",
+    "Weld 10",
+    "Paint booth",
+    "Palletiser north",
+    "Palletiser south",
+    "Assembly A",
+    "Assembly B",
+    "焊接单元 3",
+    "Test bench in hall 4 with a long na",
+    "Press feeder",
+    "Packing",
 ];
 
 /// `count` controllers of every kind, as of `now`.
@@ -32,7 +42,8 @@ pub fn entry(n: usize, now: DateTime<Utc>) -> ControllerEntry {
         address: address.parse().unwrap(),
         series,
         fingerprint: Some(Fingerprint::of(&n.to_be_bytes())),
-        last: (n % 12 != 6).then(|| Retrieved { at: now - Duration::minutes(n as i64 * 7), info: info(n, now, series) }),
+        last: (n % 12 != 6)
+            .then(|| Retrieved { at: now - Duration::minutes(n as i64 * 7), info: info(n, now, series) }),
     }
 }
 
@@ -41,7 +52,8 @@ pub fn info(n: usize, now: DateTime<Utc>, series: ControllerSeries) -> Controlle
         ControllerSeries::Rc800 => FirmwareVersion::new(8, 0, 1),
         _ => FirmwareVersion::new(7, 5, 54),
     };
-    let status = [ServerStatus::Run, ServerStatus::Run, ServerStatus::Stop, ServerStatus::Run, ServerStatus::Error][n % 5];
+    let status =
+        [ServerStatus::Run, ServerStatus::Run, ServerStatus::Stop, ServerStatus::Run, ServerStatus::Error][n % 5];
     let days = [400, 1200, 12, 90, -3, 700, 1500][n % 7];
     let kind = [CertificateType::SelfSigned, CertificateType::SelfSigned, CertificateType::CaSigned][n % 3];
     let serial = format!("SN{:07}", 123 + n * 1_337);

@@ -96,7 +96,11 @@ pub fn shows<B: Backend>(window: &Window<B>, label: &str) -> bool {
 }
 
 pub fn is_enabled<B: Backend>(window: &Window<B>, label: &str) -> bool {
-    window.query_all_by_label(label).filter(|node| is_control(node.accesskit_node().role())).last().is_some_and(|node| !node.accesskit_node().is_disabled())
+    window
+        .query_all_by_label(label)
+        .filter(|node| is_control(node.accesskit_node().role()))
+        .last()
+        .is_some_and(|node| !node.accesskit_node().is_disabled())
 }
 
 /// Runs frames until something holds.

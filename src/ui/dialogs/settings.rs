@@ -4,7 +4,9 @@ use crate::model::{SecurityPolicy, StartupMode, UserTokenPolicy};
 use crate::ui::model::{Model, SettingsForm};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, note, text_field, word};
+use crate::ui::widgets::{
+    Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, note, text_field, word,
+};
 
 /// The basic settings of one controller, or the same for many (manual 2.6.1).
 pub fn show(ui: &Ui, settings: &mut SettingsForm, model: &Model) -> Answer {

@@ -26,11 +26,8 @@ fn entry(name: &str, address: &str) -> ControllerEntry {
 
 fn model() -> Model {
     let mut configuration = Configuration::default();
-    configuration.controllers = vec![
-        entry("Weld 10", "10.0.0.9"),
-        entry("Weld 2", "10.0.0.10"),
-        entry("Paint", "10.0.0.1"),
-    ];
+    configuration.controllers =
+        vec![entry("Weld 10", "10.0.0.9"), entry("Weld 2", "10.0.0.10"), entry("Paint", "10.0.0.1")];
     Model::new(configuration, Workspace::new("/nowhere"), Language::En, now())
 }
 
@@ -196,7 +193,9 @@ fn a_change_is_confirmed_and_cancel_leads_back_to_the_form() {
     assert!(matches!(model.dialogs[..], [Dialog::Settings(_)]));
     reduce(&mut model, Message::Submit);
     let commands = reduce(&mut model, Message::Submit);
-    assert!(matches!(&commands[..], [Command::Run { task: Task::SetSettings(_), controllers, .. }] if controllers.len() == 2));
+    assert!(
+        matches!(&commands[..], [Command::Run { task: Task::SetSettings(_), controllers, .. }] if controllers.len() == 2)
+    );
     assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
 }
 
