@@ -3,7 +3,7 @@
 use chrono::{DateTime, Duration, Utc};
 use opcua_configurator::model::{
     CertificateSummary, CertificateType, ControllerInfo, ControllerSeries, ErrorCode, FirmwareVersion, ListLimits,
-    ServerStatus,
+    ServerCertificate, ServerStatus,
 };
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved};
@@ -77,7 +77,7 @@ pub fn info(n: usize, now: DateTime<Utc>, series: ControllerSeries) -> Controlle
         status,
         error: (status == ServerStatus::Error).then_some(ErrorCode::PortConflict),
         activated: n % 6 != 5,
-        certificate: has_certificate.then_some((kind, summary)),
+        certificate: has_certificate.then_some(ServerCertificate { kind, summary }),
         endpoint: format!("opc.tcp://192.168.10.{}:4840", 1 + n % 250),
         used_ports: vec![2000, 5000],
         limits: ListLimits::of(firmware.generation()),

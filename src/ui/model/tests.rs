@@ -294,7 +294,10 @@ fn expiry_is_counted_as_time_goes_by() {
         "issued_to": "x", "issued_by": "x", "serial_number": "01", "not_before": "2026-01-01T00:00:00Z",
         "not_after": "2026-07-15T00:00:00Z", "thumbprint": "00", "key_bits": 2048, "application_uri": null
     });
-    info.certificate = Some((crate::model::CertificateType::SelfSigned, serde_json::from_value(summary).unwrap()));
+    info.certificate = Some(crate::model::ServerCertificate {
+        kind: crate::model::CertificateType::SelfSigned,
+        summary: serde_json::from_value(summary).unwrap(),
+    });
     model.rows.set_info(id, info, now());
     model.rows.rebuild();
     let counts = |model: &Model| (model.rows.expiring_count(), model.rows.expired_count());
