@@ -107,7 +107,8 @@ pub fn is_enabled<B: Backend>(window: &Window<B>, label: &str) -> bool {
 pub fn wait_until<B: Backend>(window: &mut Window<B>, timeout: Duration, holds: impl Fn(&Window<B>) -> bool) {
     let end = Instant::now() + timeout;
     while !holds(window) {
-        assert!(Instant::now() < end, "waited in vain; dialogs: {:?}", window.state().model.dialogs);
+        let model = &window.state().model;
+        assert!(Instant::now() < end, "waited in vain; dialogs: {:?}, job: {:?}", model.dialogs, model.job);
         std::thread::sleep(Duration::from_millis(5));
         window.step();
     }
