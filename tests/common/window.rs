@@ -1,4 +1,5 @@
 //! The real window without a display, driven by labels as a person reads them.
+#![allow(dead_code, reason = "a story uses a part of it")]
 
 use std::time::{Duration, Instant};
 
@@ -57,7 +58,7 @@ pub fn settle<B: Backend>(window: &mut Window<B>) {
 
 /// Clicks the button, menu item, tick box or the like with this label; of several, the one on top.
 pub fn click<B: Backend>(window: &mut Window<B>, label: &str) {
-    let found = window.query_all_by_label(label).filter(|node| is_control(node.accesskit_node().role())).last();
+    let found = window.query_all_by_label(label).rfind(|node| is_control(node.accesskit_node().role()));
     found.unwrap_or_else(|| panic!("nothing to click is called {label:?}")).click();
     settle(window);
 }
@@ -81,7 +82,7 @@ pub fn choose<B: Backend>(window: &mut Window<B>, path: &[&str]) {
 pub fn type_into<B: Backend>(window: &mut Window<B>, label: &str, text: &str) {
     let is_field = |role: Role| matches!(role, Role::TextInput | Role::PasswordInput);
     let field = |window: &Window<B>| {
-        let found = window.query_all_by_label(label).filter(|node| is_field(node.accesskit_node().role())).last();
+        let found = window.query_all_by_label(label).rfind(|node| is_field(node.accesskit_node().role()));
         found.unwrap_or_else(|| panic!("no text field is called {label:?}")).focus();
     };
     field(window);
@@ -98,8 +99,7 @@ pub fn shows<B: Backend>(window: &Window<B>, label: &str) -> bool {
 pub fn is_enabled<B: Backend>(window: &Window<B>, label: &str) -> bool {
     window
         .query_all_by_label(label)
-        .filter(|node| is_control(node.accesskit_node().role()))
-        .last()
+        .rfind(|node| is_control(node.accesskit_node().role()))
         .is_some_and(|node| !node.accesskit_node().is_disabled())
 }
 

@@ -24,6 +24,13 @@ pub enum Dialog {
     Shortcuts,
 }
 
+impl Dialog {
+    /// A form that may wait for what is in a controller. At most one is open.
+    pub(super) fn is_form(&self) -> bool {
+        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_))
+    }
+}
+
 /// A new controller (manual 2.5.1).
 #[derive(Debug)]
 pub struct AddController {

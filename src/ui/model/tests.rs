@@ -314,3 +314,24 @@ fn a_dialogs_debug_output_holds_no_secret() {
     form.password.0 = "hunter22".into();
     assert!(!format!("{:?}", Dialog::AddController(form)).contains("hunter22"));
 }
+
+#[test]
+fn a_form_is_filled_also_under_a_notice() {
+    let mut model = model();
+    tick(&mut model, &["Paint"]);
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
+    reduce(&mut model, Message::Event(Event::PasswordNotKept(ErrorCode::KeyringUnavailable.into())));
+    let settings = Outcome::Settings(Revisioned { revision: 9, value: ServerSettings::default() });
+    event(&mut model, id, finished(0, Ok(settings)));
+    assert!(matches!(&model.dialogs[..], [Dialog::Settings(form), Dialog::Error(_)] if !form.reading));
+}
+
+#[test]
+fn a_form_that_cannot_be_filled_gives_way_to_the_reason() {
+    let mut model = model();
+    tick(&mut model, &["Paint"]);
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Users)));
+    event(&mut model, id, finished(0, Err(ErrorCode::TaskRunning.into())));
+    ended(&mut model, id, 0, 1);
+    assert!(matches!(&model.dialogs[..], [Dialog::Error(problem)] if problem.code == ErrorCode::TaskRunning));
+}

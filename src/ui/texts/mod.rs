@@ -171,7 +171,7 @@ texts! {
     FingerprintMatches: "It matches, add", "一致，添加";
 
     // delete
-    DeleteTitle: "Delete controllers", "删除控制器";
+    DeleteTitle: "Delete from the list", "从列表中删除";
     DeleteText: "They are removed from the list with their connection passwords. Nothing is changed in the controllers, and saved files stay.", "将从列表中删除以下控制器及其连接密码。控制器本身不受影响，已保存的文件保留。";
 
     // password
