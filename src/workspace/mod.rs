@@ -182,7 +182,12 @@ impl Workspace {
 
     /// Replaces the configuration. The lock proves that nobody else is doing the same.
     pub fn save(&self, configuration: &Configuration, _lock: &WorkspaceLock) -> Result<(), WorkspaceError> {
-        write_atomic(&self.root.join(CONFIGURATION), &configuration.to_json())
+        let path = self.root.join(CONFIGURATION);
+        let json = configuration.to_json().map_err(|e| WorkspaceError::writing(&path, e))?;
+        if json.len() as u64 > MAX_CONFIGURATION_BYTES {
+            return Err(WorkspaceError::writing(&path, io::ErrorKind::FileTooLarge.into()));
+        }
+        write_atomic(&path, &json)
     }
 }
 
