@@ -102,6 +102,34 @@ impl ErrorCode {
         }
     }
 
+    /// Whether a controller may give this code. The others are the PC's own findings.
+    pub const fn is_a_controllers(self) -> bool {
+        use ErrorCode::*;
+        !matches!(
+            self,
+            Unreachable
+                | Timeout
+                | ConnectionLost
+                | NotAController
+                | ProtocolVersion
+                | FingerprintChanged
+                | FingerprintUnknown
+                | PasswordMissing
+                | BadFingerprint
+                | NameTaken
+                | AddressTaken
+                | UnknownController
+                | FileUnreadable
+                | NotConfirmed
+                | WorkspaceReadOnly
+                | WorkspaceFull
+                | WorkspaceBusy
+                | ConfigurationDamaged
+                | KeyringUnavailable
+                | Cancelled
+        )
+    }
+
     pub fn explain(self, language: Language) -> Explanation {
         let entry = REGISTRY.iter().find(|entry| entry.0 == self).expect("the registry test covers every code");
         match language {
