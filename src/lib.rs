@@ -33,4 +33,5 @@ pub mod pki;
 pub mod protocol;
 pub mod session;
 pub mod virtual_controller;
+pub mod ui;
 pub mod workspace;

@@ -63,7 +63,9 @@ async fn https_in_turn(answers: Vec<Vec<u8>>) -> (Address, TlsIdentity) {
             tokio::spawn(async move {
                 let mut stream = acceptor.accept(stream).await?;
                 let mut request = [0; 4096];
-                stream.read(&mut request).await?;
+                if stream.read(&mut request).await? == 0 {
+                    return Ok(());
+                }
                 stream.write_all(&answer).await?;
                 stream.shutdown().await
             });

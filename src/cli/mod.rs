@@ -8,7 +8,7 @@ mod batch;
 mod cert;
 mod clients;
 mod controllers;
-// mod demo;
+mod demo;
 mod output;
 mod passwords;
 mod select;
@@ -17,7 +17,8 @@ mod settings;
 mod table;
 mod users;
 mod virtual_fleet;
-// mod window;
+mod virtual_plant;
+mod window;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -70,6 +71,8 @@ pub struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Command {
+    /// Open the window over virtual controllers in this process, in a temporary workspace
+    Demo(demo::DemoArgs),
     /// Run virtual controllers without a window until Ctrl-C; one line of JSON each when it is ready
     Virtual(virtual_fleet::VirtualArgs),
     /// List, add and remove controllers
@@ -137,7 +140,8 @@ pub fn main() -> ExitCode {
         connection_password_file: cli.connection_password_file,
     };
     let ending = match cli.command {
-        None => Ok(Ending::AllDone),
+        None => window::run(&settled, cli.lang),
+        Some(Command::Demo(args)) => demo::run(&settled, &args, cli.lang),
         Some(Command::Virtual(args)) => virtual_fleet::run(&args),
         Some(Command::Controllers(command)) => controllers::run(&settled, command),
         Some(Command::Info(select)) => server::info(&settled, &select),

@@ -4,13 +4,15 @@ use super::batch::{Presentation, STATE, Shown};
 use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{GetInfo, StartServer, StopServer};
-use crate::model::Problem;
+use crate::model::{Problem, ServerCertificate};
 
 const INFO: Presentation = Presentation {
     header: &["TYPE", "SERIAL", "FIRMWARE", "STATUS", "CERTIFICATE", "EXPIRY", "ACTIVATED", "ENDPOINT"],
     show: |_, info| {
         let (kind, expiry) = match &info.certificate {
-            Some((kind, certificate)) => (format!("{kind:?}"), certificate.not_after.format("%Y-%m-%d").to_string()),
+            Some(ServerCertificate { kind, summary }) => {
+                (format!("{kind:?}"), summary.not_after.format("%Y-%m-%d").to_string())
+            }
             None => ("-".to_owned(), "-".to_owned()),
         };
         Shown {

@@ -78,6 +78,9 @@ impl Operation for SelfSigned {
         let settings = run.session.settings().await?;
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
+        if let Some(files) = &self.backup {
+            files.check_writable(&info.serial)?;
+        }
         let (installed, key) = match info.generation() {
             FirmwareGeneration::Current => {
                 run.begin(Step::Apply)?;

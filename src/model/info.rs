@@ -25,6 +25,15 @@ impl ServerStatus {
     }
 }
 
+/// The certificate the OPC UA server shows its clients.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ServerCertificate {
+    #[serde(rename = "type")]
+    pub kind: CertificateType,
+    #[serde(flatten)]
+    pub summary: CertificateSummary,
+}
+
 /// Everything "Get new information" reads from a controller (manual 2.4.4.1).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ControllerInfo {
@@ -38,7 +47,7 @@ pub struct ControllerInfo {
     pub error: Option<ErrorCode>,
     pub activated: bool,
     /// The certificate type in use, with its certificate, if one is installed.
-    pub certificate: Option<(CertificateType, CertificateSummary)>,
+    pub certificate: Option<ServerCertificate>,
     /// ApplicationName of the OPC UA server, and the default common name of its certificate.
     pub application_name: String,
     /// `opc.tcp://host:port` as clients reach it.
@@ -64,7 +73,7 @@ impl ControllerInfo {
 
     /// Whether this is small enough to be kept for every controller of a plant.
     pub fn is_small(&self) -> bool {
-        let certificate = self.certificate.as_ref().map(|(_, certificate)| certificate);
+        let certificate = self.certificate.as_ref().map(|certificate| &certificate.summary);
         let own = [&self.name, &self.application_name, &self.endpoint];
         let certificates = certificate.into_iter().flat_map(|c| {
             [&c.issued_to, &c.issued_by, &c.serial_number, &c.thumbprint].into_iter().chain(&c.application_uri)

@@ -24,7 +24,7 @@ pub use controller::{
     ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber, VersionError,
 };
 pub use country::{COUNTRIES, Country};
-pub use info::{ControllerInfo, ServerStatus};
+pub use info::{ControllerInfo, ServerCertificate, ServerStatus};
 pub use language::Language;
 pub use problem::{ErrorCode, Explanation, Problem};
 pub use settings::{

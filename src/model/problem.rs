@@ -76,6 +76,7 @@ pub enum ErrorCode {
     WorkspaceBusy,
     ConfigurationDamaged,
     KeyringUnavailable,
+    NoDisplay,
     Cancelled,
     Internal,
 }
@@ -720,6 +721,15 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("本机无法保存密码", "没有操作系统密钥环，或密钥环已锁定。", "请在每次启动时输入密码，或解锁密钥环。"),
     ),
     (
+        ErrorCode::NoDisplay,
+        text(
+            "The window cannot be opened",
+            "There is no display, or its graphics driver does not offer OpenGL.",
+            "Use the command line (--help), or start the program on a computer with a display.",
+        ),
+        text("无法打开窗口", "没有显示器，或图形驱动不支持 OpenGL。", "请使用命令行（--help），或在有显示器的电脑上启动程序。"),
+    ),
+    (
         ErrorCode::Cancelled,
         text(
             "Not started",
@@ -781,17 +791,17 @@ mod tests {
             | FileUnreadable
             | NotConfirmed => 13,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
-            | Cancelled | Internal => 7,
+            | NoDisplay | Cancelled | Internal => 8,
         }
     }
 
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 7);
+        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 8);
         codes.sort();
         codes.dedup();
-        assert_eq!(codes.len(), 53);
+        assert_eq!(codes.len(), 54);
         for code in ErrorCode::all() {
             assert!(counted(code) > 0);
             let (en, zh) = (code.explain(Language::En), code.explain(Language::Zh));

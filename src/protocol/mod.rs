@@ -45,19 +45,22 @@
 //! `409` with [`ErrorCode::ChangedMeanwhile`] and does nothing. A change is applied whole or not at all: the
 //! controller checks it, stages it, stops its OPC UA server if that runs, swaps, starts the server again if it was
 //! running, and answers only then. If any of it fails, configuration and server are left as they were before.
-//! Starting and stopping the server does not change the revision.
+//! Starting and stopping the server does not change the revision. While a task runs or a teach pendant is connected,
+//! changes, start and stop are refused and everything else is answered.
 //!
 //! A change whose answer was lost may have been applied; the client finds out by reading the revision again.
 //!
 //! # Failures
 //! Every failure has a status of 400 or above and a [`Failure`] as its body. [`status_of`] says which status goes
-//! with which code; a client decides by the code alone.
+//! with which code; a client decides by the code alone. A body that is not the message expected is refused with the
+//! code for wrong values of its kind ([`ErrorCode::BadSettings`], [`ErrorCode::BadCredential`], …), what fits no other
+//! code with [`ErrorCode::Refused`].
 //!
 //! | status | when |
 //! |---|---|
 //! | 400 | the request is malformed, or breaks a rule of the manual |
 //! | 401 | no session, session over, wrong password |
-//! | 404 | no such path |
+//! | 404, 405 | no such path; not this method |
 //! | 409 | changed meanwhile; or the controller's state forbids it: task running, teach pendant connected |
 //! | 413 | request too large |
 //! | 429 | locked out |

@@ -15,7 +15,7 @@ use super::new_controller::NewController;
 use super::opcua::{DeviceIdentity, OpcUaConfig, OpcUaServer, OpcUaUser, StartError};
 use super::state::{State, Surroundings};
 use super::store::{Store, StoreError};
-use super::{listener as management, tls};
+use super::{listener as management, memory, tls};
 use crate::model::{
     ClientList, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion,
     Problem, SerialNumber, ServerSettings, ServerStatus, StartupMode, UserName,
@@ -113,6 +113,12 @@ impl VirtualController {
     /// Where the management protocol answers.
     pub fn management_address(&self) -> SocketAddr {
         self.address
+    }
+
+    /// [`Self::management_address`] as a program on this machine reaches it, also when the controller listens on every
+    /// address.
+    pub fn reachable_address(&self) -> SocketAddr {
+        SocketAddr::new(self.controller.surroundings().address(), self.address.port())
     }
 
     /// SHA-256 of the management identity, which a configurator pins.
@@ -259,7 +265,7 @@ impl Controller {
             status,
             error,
             activated: state.activated,
-            certificate: state.certificate_summary(),
+            certificate: state.server_certificate(),
             application_name: state.application_name(&around),
             endpoint: self.endpoint(reached),
             used_ports: state.taken_ports(&around),
@@ -320,9 +326,8 @@ impl Controller {
                 this.faults.admit_change()?;
                 let mut plant = this.server.lock().await;
                 plant.admit()?;
-                if let Some(server) = plant.server.take() {
-                    server.stop().await;
-                }
+                plant.stop().await;
+                memory::give_back();
                 *this.standing.lock() = Standing::Stopped;
                 Ok(this.changed())
             })
@@ -475,7 +480,10 @@ impl Controller {
     async fn switch_off(&self) {
         let mut plant = self.server.lock().await;
         plant.off = true;
-        plant.stop().await;
+        if plant.server.is_some() {
+            plant.stop().await;
+            memory::give_back();
+        }
         *self.standing.lock() = Standing::Stopped;
     }
 

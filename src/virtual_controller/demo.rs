@@ -72,13 +72,14 @@ pub async fn demo_fleet(data: &Path, bind: IpAddr, count: usize, seed: u64) -> R
     }
     let controllers = start_all(specs).await?;
 
+    let host = if bind.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { bind };
     let mut started = controllers.iter();
     let mut entries = Vec::with_capacity(cast.len());
     for role in cast {
         let controller = if role.part == Part::Unreachable { None } else { started.next() };
-        let (port, fingerprint) = match controller {
-            Some(controller) => (controller.management_address().port(), Some(controller.fingerprint())),
-            None => (free_port(bind).map_err(FleetError::NoFreePort)?, None),
+        let (at, fingerprint) = match controller {
+            Some(controller) => (controller.reachable_address(), Some(controller.fingerprint())),
+            None => (SocketAddr::new(host, free_port(bind).map_err(FleetError::NoFreePort)?), None),
         };
         if let Some(controller) = controller
             && role.part == Part::Slow
@@ -88,7 +89,7 @@ pub async fn demo_fleet(data: &Path, bind: IpAddr, count: usize, seed: u64) -> R
         entries.push(DemoEntry {
             name: role.identity.name,
             series: role.identity.series,
-            address: address(bind, port)?,
+            address: address(at)?,
             fingerprint,
             password: DEMO_PASSWORD.into(),
         });
@@ -132,7 +133,7 @@ fn role(seed: u64, index: usize) -> Result<Role, FleetError> {
         7 => (Part::Unreachable, Rc800, version(8, 1, 2), "涂装车间 1 号"),
         _ => {
             let identity = plausible_identity(seed, index, FleetFirmware::Mixed)?;
-            let part = if index % 3 == 0 { Part::Plain } else { Part::Stopped };
+            let part = if index.is_multiple_of(3) { Part::Plain } else { Part::Stopped };
             return Ok(Role { part, identity });
         }
     };
@@ -181,9 +182,6 @@ fn certificate(years: u8, ends_in: TimeDelta) -> Option<NewCertificate> {
     Some(NewCertificate { key_length: KeyLength::Rsa2048, made: Utc::now() + ends_in - validity.duration(), validity })
 }
 
-/// Where a configurator on this machine reaches a controller.
-fn address(bind: IpAddr, port: u16) -> Result<Address, FleetError> {
-    let host = if bind.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { bind };
-    let text = SocketAddr::new(host, port).to_string();
-    text.parse().map_err(|error| Problem::with_detail(ErrorCode::BadAddress, error).into())
+fn address(at: SocketAddr) -> Result<Address, FleetError> {
+    at.to_string().parse().map_err(|error| Problem::with_detail(ErrorCode::BadAddress, error).into())
 }

@@ -9,6 +9,7 @@ use thiserror::Error;
 use tokio::task::{JoinSet, spawn_blocking};
 
 use super::controller::{ControllerSpec, SwitchOnError, VirtualController};
+use super::file_limit::raise_file_limit;
 use super::new_controller::NewController;
 use super::password::hash_connection_password;
 use super::ports::free_port;
@@ -108,6 +109,7 @@ impl Fleet {
     /// Switches all controllers on, or none: if one fails, the others are switched off again.
     pub async fn start(config: FleetConfig) -> Result<Self, FleetError> {
         config.check_ports()?;
+        raise_file_limit();
         let lock = FolderLock::take(&config.data)?;
         let password = config.password.clone();
         let hash =
@@ -166,7 +168,7 @@ impl VirtualController {
             serial: self.serial(),
             series: self.series(),
             firmware: self.firmware(),
-            management: self.management_address().to_string(),
+            management: self.reachable_address().to_string(),
             fingerprint: self.fingerprint(),
             opcua: self.endpoint(),
         }

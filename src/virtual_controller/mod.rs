@@ -18,7 +18,9 @@
 //! | `listener` | connections: accepted, bounded in number and time, encrypted |
 //! | `tls` | the management identity as a TLS server |
 //! | `opcua` | the OPC UA server |
+//! | `memory` | what stopped servers leave free, given back |
 //! | `ports` | TCP ports nobody uses |
+//! | `file_limit` | room for a listener of each controller of a fleet |
 //! | `fleet` | [`Fleet`]: hundreds of controllers in one process |
 //! | `demo` | [`demo_fleet`]: controllers worth looking at |
 //!
@@ -41,9 +43,11 @@ mod changes;
 mod controller;
 mod demo;
 mod faults;
+mod file_limit;
 mod fleet;
 mod listener;
 mod login;
+mod memory;
 mod new_controller;
 pub mod opcua;
 mod password;

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::secret_bytes::SecretBytes;
 use crate::model::{
-    CertificateSummary, CertificateType, ClientList, ControllerName, ControllerSeries, ErrorCode, FirmwareGeneration,
-    FirmwareVersion, ListLimits, MAX_USERS, Problem, SerialNumber, ServerSettings, UserName, default_common_name,
+    CertificateType, ClientList, ControllerName, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion,
+    ListLimits, MAX_USERS, Problem, SerialNumber, ServerCertificate, ServerSettings, UserName, default_common_name,
     offered_key_lengths,
 };
 use crate::pki::{Certificate, PkiError, ServerNames};
@@ -137,9 +137,9 @@ impl State {
         self.certificates.get(&self.selected)
     }
 
-    pub fn certificate_summary(&self) -> Option<(CertificateType, CertificateSummary)> {
+    pub fn server_certificate(&self) -> Option<ServerCertificate> {
         let certificate = self.selected_certificate()?.parse().ok()?;
-        Some((self.selected, certificate.summary()))
+        Some(ServerCertificate { kind: self.selected, summary: certificate.summary() })
     }
 
     /// Ports taken by other functions, the management protocol among them; sorted.

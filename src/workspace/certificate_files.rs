@@ -29,6 +29,13 @@ impl CertificateFiles {
         self.root.join(serial.as_str()).join("Cert").join("SelfSigned")
     }
 
+    /// Finds out whether a backup could be written, before anything is changed in the controller.
+    pub fn check_writable(&self, serial: &SerialNumber) -> Result<(), WorkspaceError> {
+        let probe = self.self_signed_folder(serial).join(".probe");
+        write_atomic(&probe, b"")?;
+        std::fs::remove_file(&probe).map_err(|e| WorkspaceError::writing(&probe, e))
+    }
+
     /// Backup of a self-signed certificate: `1_cert.der`, and `1_key.pfx` where the key exists on the PC.
     ///
     /// The key file is protected by the controller's connection password, as the engineer has no other at hand; with
@@ -52,6 +59,6 @@ impl CertificateFiles {
         };
         let path = folder.join("1_cert.der");
         write_atomic(&path, certificate.der())?;
-        Ok::<_, WorkspaceError>(SavedCertificate { certificate: path, key: key_file }).map_err(Problem::from)
+        Ok(SavedCertificate { certificate: path, key: key_file })
     }
 }

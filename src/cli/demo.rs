@@ -1,0 +1,33 @@
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::virtual_plant::VirtualPlant;
+use super::{Ending, Settled, window};
+use crate::model::{ErrorCode, Language, Problem};
+use crate::virtual_controller::DEMO_COUNT;
+use crate::workspace::{Configuration, MemoryPasswords, Passwords, Workspace};
+
+#[derive(Debug, Args)]
+pub struct DemoArgs {
+    /// How many controllers; the first eight differ from each other
+    #[arg(long, value_name = "N", default_value_t = DEMO_COUNT)]
+    controllers: usize,
+    /// The same seed makes the same controllers
+    #[arg(long, value_name = "S", default_value_t = 1)]
+    seed: u64,
+}
+
+/// The window over virtual controllers, in a folder that is removed at the end.
+pub fn run(settled: &Settled, args: &DemoArgs, language: Option<Language>) -> Result<Ending, Problem> {
+    let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
+    let workspace = Workspace::new(folder.path().join("OPCUA"));
+    let lock = workspace.lock()?;
+    let plant = VirtualPlant::new(folder.path().join("virtual"), args.controllers, args.seed)?;
+    let passwords: Arc<dyn Passwords> = Arc::new(MemoryPasswords::default());
+    let mut configuration = Configuration::default();
+    eprintln!("Starting {} virtual controllers…", args.controllers);
+    plant.enter(&mut configuration, passwords.as_ref())?;
+    let settled = Settled { workspace, output: settled.output, yes: settled.yes, connection_password_file: None };
+    window::open(&settled, language, configuration, lock, passwords, None, plant)
+}

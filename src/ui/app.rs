@@ -1,0 +1,142 @@
+use std::sync::Arc;
+use std::time::Duration;
+
+use chrono::{DateTime, Utc};
+use egui::ThemePreference;
+
+use super::backend::{Backend, Command};
+use super::model::{Message, Model, reduce};
+use super::{dialogs, fonts, keys, theme, views};
+use crate::workspace::ThemeChoice;
+
+/// What the window remembers of itself is saved when nothing changed for so long.
+const SAVE_DELAY: Duration = Duration::from_secs(2);
+
+type Clock = Arc<dyn Fn() -> DateTime<Utc>>;
+
+/// The window, over any backend.
+pub struct App<B: Backend> {
+    pub model: Model,
+    pub backend: B,
+    clock: Clock,
+    /// In egui's time.
+    save_at: Option<f64>,
+    theme: Option<ThemeChoice>,
+    size: Option<(f32, f32)>,
+    dialogs_shown: usize,
+}
+
+impl<B: Backend> std::fmt::Debug for App<B> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("App").field("model", &self.model).finish_non_exhaustive()
+    }
+}
+
+impl<B: Backend> App<B> {
+    pub fn new(ctx: &egui::Context, model: Model, backend: B) -> Self {
+        theme::install(ctx);
+        fonts::install(ctx);
+        Self {
+            model,
+            backend,
+            clock: Arc::new(Utc::now),
+            save_at: None,
+            theme: None,
+            size: None,
+            dialogs_shown: 0,
+        }
+    }
+
+    /// Another clock than the computer's, for pictures that must not change.
+    pub fn with_clock(mut self, clock: impl Fn() -> DateTime<Utc> + 'static) -> Self {
+        self.clock = Arc::new(clock);
+        self
+    }
+
+    /// One frame: take in what happened, draw, change the model, hand out the work.
+    pub fn frame(&mut self, ui: &mut egui::Ui) {
+        self.model.set_now((self.clock)());
+        let mut messages = Vec::new();
+        while let Some(event) = self.backend.poll() {
+            messages.push(Message::Event(event));
+        }
+        self.take_in(&mut messages, ui.ctx());
+        self.apply_theme(ui.ctx());
+
+        keys::read(ui.ctx(), &self.model, &mut messages);
+        views::window(ui, &self.model, &mut messages);
+        // A dialog's form is the one thing a view may write to.
+        let mut open = std::mem::take(&mut self.model.dialogs);
+        let opened = open.len() > self.dialogs_shown;
+        self.dialogs_shown = open.len();
+        dialogs::show(ui, &mut open, opened, &self.model, &mut messages);
+        self.model.dialogs = open;
+        self.remember_size(ui.ctx(), &mut messages);
+
+        if !messages.is_empty() {
+            self.take_in(&mut messages, ui.ctx());
+            ui.ctx().request_repaint();
+        }
+        self.save_when_due(ui.ctx());
+    }
+
+    fn take_in(&mut self, messages: &mut Vec<Message>, ctx: &egui::Context) {
+        for message in messages.drain(..) {
+            for command in reduce(&mut self.model, message) {
+                match command {
+                    Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+                    command => self.backend.send(command),
+                }
+            }
+        }
+    }
+
+    fn apply_theme(&mut self, ctx: &egui::Context) {
+        let theme = self.model.options.theme;
+        if self.theme.replace(theme) != Some(theme) {
+            ctx.set_theme(match theme {
+                ThemeChoice::System => ThemePreference::System,
+                ThemeChoice::Light => ThemePreference::Light,
+                ThemeChoice::Dark => ThemePreference::Dark,
+            });
+        }
+    }
+
+    fn remember_size(&mut self, ctx: &egui::Context, messages: &mut Vec<Message>) {
+        let size = ctx.content_rect().size();
+        let size = (size.x.round(), size.y.round());
+        // What the window opens with is not a choice to remember.
+        if self.size.replace(size).is_some_and(|before| before != size) {
+            messages.push(Message::Resized(size));
+        }
+    }
+
+    fn save_when_due(&mut self, ctx: &egui::Context) {
+        if !self.model.unsaved {
+            self.save_at = None;
+            return;
+        }
+        let now = ctx.input(|input| input.time);
+        let at = *self.save_at.get_or_insert(now + SAVE_DELAY.as_secs_f64());
+        if now >= at {
+            self.take_in(&mut vec![Message::Save], ctx);
+            self.save_at = None;
+        } else {
+            ctx.request_repaint_after(Duration::from_secs_f64(at - now));
+        }
+    }
+}
+
+impl<B: Backend> eframe::App for App<B> {
+    fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
+        self.frame(ui);
+    }
+
+    fn on_exit(&mut self, _gl: Option<&eframe::glow::Context>) {
+        if self.model.unsaved {
+            for command in reduce(&mut self.model, Message::Save) {
+                self.backend.send(command);
+            }
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! Where the work is done that a frame may not wait for.
+
+mod tokio_backend;
+
+use std::collections::VecDeque;
+
+use async_trait::async_trait;
+use secrecy::SecretString;
+
+pub use tokio_backend::{BackendOptions, TokioBackend};
+
+use super::model::{JobId, Task};
+use crate::jobs::{Enrolled, JobController, JobEvent, Summary};
+use crate::model::{Address, Problem};
+use crate::pki::Fingerprint;
+use crate::workspace::{Configuration, ControllerEntry};
+
+/// Work to be done.
+#[derive(Debug, Clone)]
+pub enum Command {
+    /// Ends with [`Event::JobEnded`].
+    Run {
+        job: JobId,
+        controllers: Vec<JobController>,
+        task: Task,
+        parallelism: usize,
+        /// To be remembered for all these controllers first.
+        password: Option<SecretString>,
+    },
+    Probe { job: JobId, address: Address },
+    Enroll { job: JobId, address: Address, fingerprint: Fingerprint, password: SecretString },
+    /// Stops a job after the step in hand.
+    Cancel(JobId),
+    /// Forgets the passwords of deleted controllers.
+    Forget(Vec<Fingerprint>),
+    StartVirtualControllers,
+    Save(Box<Configuration>),
+    Quit,
+}
+
+/// What came of it.
+#[derive(Debug, Clone)]
+pub enum Event {
+    Job { job: JobId, event: JobEvent },
+    JobEnded { job: JobId, summary: Summary },
+    Probed { job: JobId, result: Result<Fingerprint, Problem> },
+    Enrolled { job: JobId, result: Result<Box<Enrolled>, Problem> },
+    VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
+    /// A password works, but only until the program ends.
+    PasswordNotKept(Problem),
+    SaveFailed(Problem),
+}
+
+/// Does [`Command`]s in the background. Neither call may block.
+pub trait Backend {
+    fn send(&mut self, command: Command);
+    fn poll(&mut self) -> Option<Event>;
+}
+
+/// A virtual controller to be added to the list.
+#[derive(Debug, Clone)]
+pub struct NewVirtual {
+    pub entry: ControllerEntry,
+    pub password: SecretString,
+}
+
+/// Starts the simulated controllers the welcome page offers.
+#[async_trait]
+pub trait VirtualFleetStarter: Send + Sync {
+    async fn start(&self) -> Result<Vec<NewVirtual>, Problem>;
+}
+
+/// For tests: keeps what was sent and plays back what it is given.
+#[derive(Debug, Default)]
+pub struct RecordingBackend {
+    pub sent: Vec<Command>,
+    pub events: VecDeque<Event>,
+}
+
+impl Backend for RecordingBackend {
+    fn send(&mut self, command: Command) {
+        self.sent.push(command);
+    }
+
+    fn poll(&mut self) -> Option<Event> {
+        self.events.pop_front()
+    }
+}

@@ -1,0 +1,253 @@
+use std::collections::HashMap;
+use std::io;
+use std::sync::{Arc, mpsc};
+use std::thread::JoinHandle;
+use std::time::Duration;
+
+use secrecy::SecretString;
+use tokio::runtime::Runtime;
+use tokio_util::sync::CancellationToken;
+
+use super::{Backend, Command, Event, VirtualFleetStarter};
+use crate::jobs::{self, JobContext, JobController};
+use crate::model::{ErrorCode, Problem};
+use crate::session::Connector;
+use crate::ui::model::{JobId, Task};
+use crate::workspace::{Configuration, Passwords, Workspace, WorkspaceLock};
+
+/// How long closing the window waits for tasks to notice.
+const SHUTDOWN: Duration = Duration::from_millis(500);
+
+/// What the backend works with.
+pub struct BackendOptions {
+    pub workspace: Workspace,
+    pub lock: WorkspaceLock,
+    pub passwords: Arc<dyn Passwords>,
+    pub connector: Arc<dyn Connector>,
+    /// `None`: the window does not offer virtual controllers.
+    pub starter: Option<Arc<dyn VirtualFleetStarter>>,
+}
+
+impl std::fmt::Debug for BackendOptions {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("BackendOptions").field("workspace", &self.workspace).finish_non_exhaustive()
+    }
+}
+
+/// Runs jobs on a runtime of its own and saves on a thread of its own.
+pub struct TokioBackend {
+    workspace: Workspace,
+    context: JobContext,
+    starter: Option<Arc<dyn VirtualFleetStarter>>,
+    emit: Emit,
+    events: mpsc::Receiver<Event>,
+    running: HashMap<JobId, CancellationToken>,
+    runtime: Option<Runtime>,
+    saver: Option<Saver>,
+}
+
+type Emit = Arc<dyn Fn(Event) + Send + Sync>;
+
+struct Saver {
+    queue: mpsc::Sender<Box<Configuration>>,
+    thread: JoinHandle<()>,
+}
+
+impl std::fmt::Debug for TokioBackend {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("TokioBackend").field("workspace", &self.workspace).finish_non_exhaustive()
+    }
+}
+
+impl TokioBackend {
+    /// `wake` is called whenever [`Backend::poll`] has something new.
+    pub fn new(options: BackendOptions, wake: impl Fn() + Send + Sync + 'static) -> io::Result<Self> {
+        let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().thread_name("jobs").build()?;
+        let (sender, events) = mpsc::channel();
+        let emit: Emit = Arc::new(move |event| {
+            // Fails only when the window is gone.
+            if sender.send(event).is_ok() {
+                wake();
+            }
+        });
+        let saver = Saver::start(options.workspace.clone(), options.lock, emit.clone())?;
+        Ok(Self {
+            workspace: options.workspace,
+            context: JobContext::new(options.connector, options.passwords, 1),
+            starter: options.starter,
+            emit,
+            events,
+            running: HashMap::new(),
+            runtime: Some(runtime),
+            saver: Some(saver),
+        })
+    }
+
+    fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {
+        if let Some(runtime) = &self.runtime {
+            runtime.spawn(work);
+        }
+    }
+
+    fn token(&mut self, job: JobId) -> CancellationToken {
+        self.running.retain(|_, token| !token.is_cancelled());
+        let token = CancellationToken::new();
+        self.running.insert(job, token.clone());
+        token
+    }
+
+    fn run(
+        &mut self,
+        job: JobId,
+        controllers: Vec<JobController>,
+        task: &Task,
+        parallelism: usize,
+        password: Option<SecretString>,
+    ) {
+        let cancel = self.token(job);
+        let operation = task.operation(&self.workspace);
+        let mut context = self.context.clone();
+        context.parallelism = parallelism.max(1);
+        let emit = self.emit.clone();
+        self.spawn(async move {
+            if let Some(password) = password {
+                let of = controllers.iter().filter_map(|c| c.fingerprint).collect();
+                if let Err(problem) = remember(context.passwords.clone(), of, password).await {
+                    emit(Event::PasswordNotKept(problem));
+                }
+            }
+            let on_event = {
+                let emit = emit.clone();
+                move |event| emit(Event::Job { job, event })
+            };
+            let summary = jobs::run(controllers, operation, context, cancel, on_event).await;
+            emit(Event::JobEnded { job, summary });
+        });
+    }
+
+    fn start_virtual(&self) {
+        let Some(starter) = self.starter.clone() else { return };
+        let (emit, passwords) = (self.emit.clone(), self.context.passwords.clone());
+        self.spawn(async move {
+            let result = async {
+                let mut entries = Vec::new();
+                for new in starter.start().await? {
+                    if let Some(fingerprint) = new.entry.fingerprint {
+                        // That a virtual controller's password is forgotten at the end is as it should be.
+                        let _kept = remember(passwords.clone(), vec![fingerprint], new.password).await;
+                    }
+                    entries.push(new.entry);
+                }
+                Ok(entries)
+            };
+            emit(Event::VirtualStarted(result.await));
+        });
+    }
+}
+
+/// A keyring may ask the user to unlock it: off the async threads. The last failure is reported.
+async fn remember(
+    passwords: Arc<dyn Passwords>,
+    controllers: Vec<crate::pki::Fingerprint>,
+    password: SecretString,
+) -> Result<(), Problem> {
+    tokio::task::spawn_blocking(move || {
+        controllers.into_iter().fold(Ok(()), |so_far, one| passwords.set(one, password.clone()).and(so_far))
+    })
+    .await
+    .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?
+}
+
+impl Backend for TokioBackend {
+    fn send(&mut self, command: Command) {
+        let emit = self.emit.clone();
+        let context = self.context.clone();
+        match command {
+            Command::Run { job, controllers, task, parallelism, password } => {
+                self.run(job, controllers, &task, parallelism, password);
+            }
+            Command::Probe { job, address } => {
+                let cancel = self.token(job);
+                self.spawn(async move {
+                    let probed = cancel.run_until_cancelled(jobs::probe(&address, &context)).await;
+                    if let Some(result) = probed {
+                        emit(Event::Probed { job, result });
+                    }
+                });
+            }
+            Command::Enroll { job, address, fingerprint, password } => {
+                let cancel = self.token(job);
+                self.spawn(async move {
+                    let enrolling = jobs::enroll(&address, fingerprint, password, &context);
+                    if let Some(result) = cancel.run_until_cancelled(enrolling).await {
+                        emit(Event::Enrolled { job, result: result.map(Box::new) });
+                    }
+                });
+            }
+            Command::Cancel(job) => {
+                if let Some(token) = self.running.get(&job) {
+                    token.cancel();
+                }
+            }
+            Command::Forget(fingerprints) => {
+                if let Some(runtime) = &self.runtime {
+                    runtime.spawn_blocking(move || fingerprints.into_iter().for_each(|f| context.passwords.forget(f)));
+                }
+            }
+            Command::StartVirtualControllers => self.start_virtual(),
+            Command::Save(configuration) => {
+                if let Some(saver) = &self.saver
+                    && saver.queue.send(configuration).is_err()
+                {
+                    emit(Event::SaveFailed(Problem::with_detail(ErrorCode::Internal, "the saving thread ended")));
+                }
+            }
+            // The window's own business.
+            Command::Quit => {}
+        }
+    }
+
+    fn poll(&mut self) -> Option<Event> {
+        let event = self.events.try_recv().ok()?;
+        if let Event::JobEnded { job, .. } | Event::Probed { job, .. } | Event::Enrolled { job, .. } = &event {
+            self.running.remove(job);
+        }
+        Some(event)
+    }
+}
+
+impl Drop for TokioBackend {
+    /// Whatever was sent to be saved is saved before this returns.
+    fn drop(&mut self) {
+        for token in self.running.values() {
+            token.cancel();
+        }
+        if let Some(Saver { queue, thread }) = self.saver.take() {
+            drop(queue);
+            if thread.join().is_err() {
+                tracing::error!("the saving thread panicked");
+            }
+        }
+        if let Some(runtime) = self.runtime.take() {
+            runtime.shutdown_timeout(SHUTDOWN);
+        }
+    }
+}
+
+impl Saver {
+    fn start(workspace: Workspace, lock: WorkspaceLock, emit: Emit) -> io::Result<Self> {
+        let (queue, configurations) = mpsc::channel::<Box<Configuration>>();
+        let thread = std::thread::Builder::new().name("save".into()).spawn(move || {
+            while let Ok(mut configuration) = configurations.recv() {
+                // Only the newest matters.
+                while let Ok(newer) = configurations.try_recv() {
+                    configuration = newer;
+                }
+                if let Err(error) = workspace.save(&configuration, &lock) {
+                    emit(Event::SaveFailed(error.into()));
+                }
+            }
+        })?;
+        Ok(Self { queue, thread })
+    }
+}

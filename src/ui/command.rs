@@ -1,0 +1,153 @@
+//! What an engineer can ask the window to do. Menus, buttons and keys all read this one enum.
+
+use egui::{Key, KeyboardShortcut, Modifiers};
+
+use super::model::Model;
+use super::texts::TextKey as T;
+
+/// An action of the main window.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum UiCommand {
+    AddController,
+    DeleteControllers,
+    ConnectionList,
+    Quit,
+    Start,
+    Stop,
+    GetInfo,
+    BasicSettings,
+    Users,
+    Activation,
+    ExportSettings,
+    ImportSettings,
+    SelfSigned,
+    UserSpecified,
+    CaSigned,
+    ExportSelfSigned,
+    TypeSelect,
+    ClientLists,
+    Crl,
+    Backup,
+    Options,
+    CertificateAuthority,
+    Verify,
+    Shortcuts,
+    About,
+    TickAll,
+    Search,
+}
+
+impl UiCommand {
+    pub const ALL: [Self; 27] = [
+        Self::AddController,
+        Self::DeleteControllers,
+        Self::ConnectionList,
+        Self::Quit,
+        Self::Start,
+        Self::Stop,
+        Self::GetInfo,
+        Self::BasicSettings,
+        Self::Users,
+        Self::Activation,
+        Self::ExportSettings,
+        Self::ImportSettings,
+        Self::SelfSigned,
+        Self::UserSpecified,
+        Self::CaSigned,
+        Self::ExportSelfSigned,
+        Self::TypeSelect,
+        Self::ClientLists,
+        Self::Crl,
+        Self::Backup,
+        Self::Options,
+        Self::CertificateAuthority,
+        Self::Verify,
+        Self::Shortcuts,
+        Self::About,
+        Self::TickAll,
+        Self::Search,
+    ];
+
+    pub const fn text(self) -> T {
+        self.text_and_tooltip().0
+    }
+
+    pub const fn tooltip(self) -> T {
+        self.text_and_tooltip().1
+    }
+
+    const fn text_and_tooltip(self) -> (T, T) {
+        match self {
+            Self::AddController => (T::AddController, T::AddControllerTip),
+            Self::DeleteControllers => (T::DeleteControllers, T::DeleteControllersTip),
+            Self::ConnectionList => (T::ConnectionList, T::ConnectionListTip),
+            Self::Quit => (T::Quit, T::QuitTip),
+            Self::Start => (T::Start, T::StartTip),
+            Self::Stop => (T::Stop, T::StopTip),
+            Self::GetInfo => (T::GetInfo, T::GetInfoTip),
+            Self::BasicSettings => (T::BasicSettings, T::BasicSettingsTip),
+            Self::Users => (T::Users, T::UsersTip),
+            Self::Activation => (T::Activation, T::ActivationTip),
+            Self::ExportSettings => (T::ExportSettings, T::ExportSettingsTip),
+            Self::ImportSettings => (T::ImportSettings, T::ImportSettingsTip),
+            Self::SelfSigned => (T::SelfSigned, T::SelfSignedTip),
+            Self::UserSpecified => (T::UserSpecified, T::UserSpecifiedTip),
+            Self::CaSigned => (T::CaSigned, T::CaSignedTip),
+            Self::ExportSelfSigned => (T::ExportSelfSigned, T::ExportSelfSignedTip),
+            Self::TypeSelect => (T::TypeSelect, T::TypeSelectTip),
+            Self::ClientLists => (T::ClientLists, T::ClientListsTip),
+            Self::Crl => (T::Crl, T::CrlTip),
+            Self::Backup => (T::Backup, T::BackupTip),
+            Self::Options => (T::Options, T::OptionsTip),
+            Self::CertificateAuthority => (T::CertificateAuthority, T::CertificateAuthorityTip),
+            Self::Verify => (T::Verify, T::VerifyTip),
+            Self::Shortcuts => (T::Shortcuts, T::ShortcutsTip),
+            Self::About => (T::About, T::AboutTip),
+            Self::TickAll => (T::TickAll, T::TickAllTip),
+            Self::Search => (T::Search, T::SearchTip),
+        }
+    }
+
+    pub const fn shortcut(self) -> Option<KeyboardShortcut> {
+        let (modifiers, key) = match self {
+            Self::AddController => (Modifiers::COMMAND, Key::N),
+            Self::DeleteControllers => (Modifiers::NONE, Key::Delete),
+            Self::Quit => (Modifiers::COMMAND, Key::Q),
+            Self::GetInfo => (Modifiers::NONE, Key::F5),
+            Self::BasicSettings => (Modifiers::COMMAND, Key::B),
+            Self::Users => (Modifiers::COMMAND, Key::U),
+            Self::Shortcuts => (Modifiers::NONE, Key::F1),
+            Self::TickAll => (Modifiers::COMMAND, Key::A),
+            Self::Search => (Modifiers::COMMAND, Key::F),
+            _ => return None,
+        };
+        Some(KeyboardShortcut::new(modifiers, key))
+    }
+
+    /// Why it cannot be done now; what a disabled item says on hover.
+    pub fn why_disabled(self, model: &Model) -> Option<T> {
+        match self {
+            Self::ConnectionList
+            | Self::Activation
+            | Self::ExportSettings
+            | Self::ImportSettings
+            | Self::UserSpecified
+            | Self::CaSigned
+            | Self::ExportSelfSigned
+            | Self::TypeSelect
+            | Self::ClientLists
+            | Self::Crl
+            | Self::CertificateAuthority
+            | Self::Verify => Some(T::WhyLater),
+            Self::DeleteControllers
+            | Self::Start
+            | Self::Stop
+            | Self::GetInfo
+            | Self::BasicSettings
+            | Self::Users
+            | Self::SelfSigned => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
+            Self::AddController | Self::Quit | Self::Backup | Self::Options | Self::Shortcuts | Self::About => None,
+        }
+    }
+}

@@ -1,0 +1,53 @@
+use egui::{Grid, Label, RichText, Ui, vec2};
+
+use crate::ui::command::UiCommand;
+use crate::ui::model::Model;
+use crate::ui::texts::{self, TextKey as T};
+use crate::ui::theme::{self, palette};
+use crate::ui::widgets::{Answer, Buttons, dialog, fine_print};
+
+pub fn about(ui: &Ui, model: &Model) -> Answer {
+    let text = |key: T| key.text(model.language);
+    let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
+    dialog(ui, "about", text(T::AppName), theme::DIALOG, buttons, |ui| {
+        ui.label(texts::version(model.language, env!("CARGO_PKG_VERSION")));
+        ui.add_space(theme::SPACE);
+        ui.add(Label::new(text(T::AboutText)).wrap());
+        ui.add_space(theme::SPACE);
+        let weak = palette(ui).weak;
+        ui.label(RichText::new(text(T::WorkspaceLabel)).size(theme::SMALL_TEXT).color(weak));
+        ui.add(Label::new(RichText::new(model.workspace.root().display().to_string()).monospace()).wrap().selectable(true));
+        ui.add_space(theme::SPACE);
+        fine_print(ui, text(T::AboutLicence));
+    })
+}
+
+pub fn shortcuts(ui: &Ui, model: &Model) -> Answer {
+    let text = |key: T| key.text(model.language);
+    let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
+    dialog(ui, "shortcuts", text(T::Shortcuts), theme::DIALOG, buttons, |ui| {
+        Grid::new("shortcuts").num_columns(2).spacing(vec2(28.0, 8.0)).show(ui, |ui| {
+            let line = |ui: &mut Ui, key: &str, what: &str| {
+                ui.label(RichText::new(key).color(palette(ui).weak));
+                ui.label(what);
+                ui.end_row();
+            };
+            for command in UiCommand::ALL {
+                if let Some(shortcut) = command.shortcut() {
+                    let key = ui.ctx().format_shortcut(&shortcut);
+                    line(ui, &key, text(command.text()).trim_end_matches('…'));
+                }
+            }
+            let fixed = [
+                (T::KeyArrows, T::KeyMove),
+                (T::KeySpace, T::KeyTick),
+                (T::KeyShiftClick, T::KeyRange),
+                (T::KeyEnter, T::KeyConfirm),
+                (T::KeyEscape, T::KeyCancel),
+            ];
+            for (key, what) in fixed {
+                line(ui, text(key), text(what));
+            }
+        });
+    })
+}

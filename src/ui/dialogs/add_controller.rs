@@ -1,0 +1,96 @@
+use egui::{ComboBox, Frame, Label, RichText, Stroke, Ui};
+
+use crate::model::ControllerSeries;
+use crate::pki::Fingerprint;
+use crate::ui::model::{AddController, AddStage, Model};
+use crate::ui::texts::TextKey as T;
+use crate::ui::theme::{self, palette};
+use crate::ui::widgets::{Answer, Buttons, dialog, form, labelled, mistake, note, secret_field, text_field};
+
+/// Register a controller (manual 2.5.1): its fields, then whether it is the right one.
+pub fn show(ui: &Ui, form: &mut AddController, focus: bool, model: &Model) -> Answer {
+    let text = |key: T| key.text(model.language);
+    let (title, submit) = match form.stage {
+        AddStage::Form | AddStage::Probing => (T::AddControllerTitle, T::Apply),
+        AddStage::Compare(_) | AddStage::Enrolling(_) => (T::FingerprintTitle, T::FingerprintMatches),
+    };
+    let waiting = matches!(form.stage, AddStage::Probing | AddStage::Enrolling(_));
+    let submit = if waiting { T::Processing } else { submit };
+    let buttons = Buttons {
+        submit: Some((text(submit), waiting.then(|| text(T::Processing)))),
+        close: Some(text(T::Cancel)),
+    };
+    dialog(ui, "add controller", text(title), theme::DIALOG, buttons, |ui| match form.stage {
+        AddStage::Form | AddStage::Probing => {
+            ui.add_enabled_ui(!waiting, |ui| fields(ui, form, focus, model));
+        }
+        AddStage::Compare(fingerprint) | AddStage::Enrolling(fingerprint) => compare(ui, form, fingerprint, model),
+    })
+}
+
+fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
+    let text = |key: T| key.text(model.language);
+    if let Some(problem) = &add.problem {
+        let explained = problem.code.explain(model.language);
+        note(ui, palette(ui).error, |ui| {
+            ui.label(RichText::new(explained.message).strong());
+            ui.label(explained.remedy);
+        });
+        ui.add_space(theme::SPACE);
+    }
+    let (name_error, address_error) = (add.name_error(model), add.address_error(model));
+    form(ui, "controller", |ui| {
+        labelled(ui, text(T::ColumnName), |ui| {
+            let response = text_field(ui, &mut add.name, "");
+            if focus {
+                response.request_focus();
+            }
+            if let Some(error) = name_error {
+                mistake(ui, text(error));
+            }
+            Some(response)
+        });
+        labelled(ui, text(T::ColumnAddress), |ui| {
+            let response = text_field(ui, &mut add.address, text(T::AddressHint));
+            if let Some(error) = address_error {
+                mistake(ui, text(error));
+            }
+            Some(response)
+        });
+        labelled(ui, text(T::Password), |ui| {
+            let hint = text(T::PasswordHint);
+            Some(secret_field(ui, &mut add.password.0, &mut add.show_password, hint, model.language))
+        });
+        labelled(ui, text(T::ColumnType), |ui| {
+            let list = ComboBox::from_id_salt("series").selected_text(add.series.as_str()).show_ui(ui, |ui| {
+                for series in ControllerSeries::ALL {
+                    ui.selectable_value(&mut add.series, series, series.as_str());
+                }
+            });
+            Some(list.response)
+        });
+    });
+}
+
+fn compare(ui: &mut Ui, add: &AddController, fingerprint: Fingerprint, model: &Model) {
+    let text = |key: T| key.text(model.language);
+    let palette = palette(ui);
+    ui.label(RichText::new(format!("{} · {}", add.name.trim(), add.address.trim())).strong());
+    ui.add_space(theme::SPACE);
+    ui.add(Label::new(text(T::FingerprintText)).wrap());
+    ui.add_space(theme::SPACE_LARGE);
+    ui.label(RichText::new(text(T::FingerprintLabel)).size(theme::SMALL_TEXT).color(palette.weak));
+    Frame::new()
+        .fill(palette.stripe)
+        .stroke(Stroke::new(1.0, palette.line))
+        .corner_radius(8)
+        .inner_margin(theme::CARD_MARGIN)
+        .show(ui, |ui| {
+            ui.set_width(ui.available_width());
+            // Four short lines are easier to compare than one long one.
+            let grouped = fingerprint.grouped();
+            let lines: Vec<String> =
+                grouped.split(':').collect::<Vec<_>>().chunks(8).map(|line| line.join(" ")).collect();
+            ui.add(Label::new(RichText::new(lines.join("\n")).monospace().size(15.0)).selectable(true));
+        });
+}

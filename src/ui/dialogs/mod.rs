@@ -1,0 +1,68 @@
+//! Everything that opens over the window. One file a dialog; each draws from the model and its own form.
+
+mod about;
+mod add_controller;
+mod confirm;
+mod error;
+mod options;
+mod password;
+mod processing;
+mod self_signed;
+mod settings;
+mod users;
+
+use egui::{Key, Modifiers, Ui};
+
+use super::model::{Dialog, Message, Model};
+use super::widgets::Answer;
+
+/// Draws the open dialogs, the last on top. `opened`: the top one is new and takes the keyboard.
+pub fn show(ui: &Ui, open: &mut [Dialog], opened: bool, model: &Model, messages: &mut Vec<Message>) {
+    let top = open.len();
+    let enter = top > 0 && enter_confirms(ui);
+    for (index, dialog) in open.iter_mut().enumerate() {
+        let on_top = index + 1 == top;
+        let answer = one(ui, dialog, on_top && opened, model, messages);
+        match answer {
+            _ if !on_top => {}
+            Answer::Close => messages.push(Message::Close),
+            Answer::Submit => messages.push(Message::Submit),
+            Answer::None if enter && enter_submits(dialog, model) => messages.push(Message::Submit),
+            Answer::None => {}
+        }
+    }
+}
+
+/// Enter belongs to a focused button, or to an open list, before it confirms the dialog.
+fn enter_confirms(ui: &Ui) -> bool {
+    let ctx = ui.ctx();
+    let free = ctx.text_edit_focused() || ctx.memory(|memory| memory.focused()).is_none();
+    free && !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter))
+}
+
+/// Enter never stops a running job.
+fn enter_submits(dialog: &Dialog, model: &Model) -> bool {
+    match dialog {
+        Dialog::Processing(_) => model.job.as_ref().is_none_or(|job| job.summary.is_some()),
+        _ => true,
+    }
+}
+
+fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    match dialog {
+        Dialog::AddController(form) => add_controller::show(ui, form, focus, model),
+        Dialog::Delete { names, .. } => confirm::delete(ui, names, model),
+        Dialog::Confirm { task, names, confirmation, .. } => confirm::show(ui, task, names, *confirmation, model),
+        Dialog::Password(form) => password::show(ui, form, focus, model),
+        Dialog::Processing(view) => processing::show(ui, view, model, messages),
+        Dialog::Settings(form) => settings::show(ui, form, model),
+        Dialog::Users(form) => users::list(ui, form, model, messages),
+        Dialog::AddUser(form) => users::add(ui, form, focus, model),
+        Dialog::SelfSigned(form) => self_signed::show(ui, form, model),
+        Dialog::Backup { on } => options::backup(ui, on, model),
+        Dialog::Options => options::options(ui, model, messages),
+        Dialog::Error(problem) => error::show(ui, problem, model),
+        Dialog::About => about::about(ui, model),
+        Dialog::Shortcuts => about::shortcuts(ui, model),
+    }
+}

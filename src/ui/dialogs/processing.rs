@@ -1,0 +1,140 @@
+use egui::{Align, Frame, Label, Layout, ProgressBar, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
+
+use super::error;
+use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState};
+use crate::ui::texts::{self, TextKey as T};
+use crate::ui::theme::{self, palette};
+use crate::ui::widgets::{Answer, Buttons, chip, dialog, note};
+
+/// Each controller's progress and result; at the end the sum of it.
+pub fn show(ui: &Ui, view: &mut ProcessingView, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    let text = |key: T| key.text(model.language);
+    let Some(job) = &model.job else { return Answer::Close };
+    let ended = job.summary.is_some();
+    let state = match job.summary {
+        None => T::Processing,
+        Some(summary) if summary.not_started > 0 => T::Stopped,
+        Some(_) => T::Completed,
+    };
+    let title = format!("{} – {}", text(job.task.title()), text(state));
+    let buttons = if ended {
+        Buttons { submit: Some((text(T::Close), None)), close: None }
+    } else {
+        Buttons { submit: None, close: (job.cancel == CancelState::No).then(|| text(T::Cancel)) }
+    };
+    dialog(ui, "processing", &title, theme::DIALOG_WIDE, buttons, |ui| {
+        bar(ui, job, model);
+        cancelling(ui, job, model, messages);
+        list(ui, view, job, model);
+        if let Some(problem) = view.selected.and_then(|at| job.rows.get(at)).and_then(|row| row.state.problem()) {
+            ui.add_space(theme::SPACE);
+            note(ui, palette(ui).error, |ui| {
+                ui.label(RichText::new(problem.code.explain(model.language).message).strong());
+                ui.add_space(theme::SPACE);
+                error::explanation(ui, problem, model.language);
+            });
+        }
+        if ended && !job.without_password().is_empty() {
+            ui.add_space(theme::SPACE);
+            if ui.button(text(T::EnterPassword)).clicked() {
+                messages.push(Message::EnterPasswords);
+            }
+        }
+    })
+}
+
+fn bar(ui: &mut Ui, job: &Job, model: &Model) {
+    let palette = palette(ui);
+    let done = job.finished as f32 / job.rows.len().max(1) as f32;
+    // The bar's track is the background otherwise, which cannot be seen on a dialog.
+    ui.scope(|ui| {
+        ui.visuals_mut().extreme_bg_color = palette.line;
+        let fill = if job.failed > 0 && job.summary.is_some() { palette.error } else { palette.accent };
+        ui.add(ProgressBar::new(done).fill(fill).desired_height(6.0).corner_radius(3));
+    });
+    let said = match job.summary {
+        Some(summary) => texts::summary(model.language, summary),
+        None => format!("{} / {}", job.finished, job.rows.len()),
+    };
+    ui.label(RichText::new(said).color(palette.weak));
+    ui.add_space(theme::SPACE);
+}
+
+fn cancelling(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {
+    let text = |key: T| key.text(model.language);
+    match job.cancel {
+        CancelState::Asking if job.summary.is_none() => {
+            note(ui, palette(ui).warning, |ui| {
+                ui.horizontal(|ui| {
+                    ui.label(text(T::CancelAsk));
+                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                        if ui.button(text(T::CancelYes)).clicked() {
+                            messages.push(Message::Close);
+                        }
+                        if ui.button(text(T::CancelNo)).clicked() {
+                            messages.push(Message::KeepGoing);
+                        }
+                    });
+                });
+            });
+            ui.add_space(theme::SPACE);
+        }
+        CancelState::Sent if job.summary.is_none() => {
+            ui.label(text(T::Stopping));
+            ui.add_space(theme::SPACE);
+        }
+        _ => {}
+    }
+}
+
+fn list(ui: &mut Ui, view: &mut ProcessingView, job: &Job, model: &Model) {
+    let line = palette(ui).line;
+    let height = (theme::LIST_ROW * job.rows.len() as f32).clamp(theme::LIST_ROW, theme::LIST_HEIGHT);
+    Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ScrollArea::vertical().id_salt("rows").max_height(height).auto_shrink([false, true]).show_rows(
+            ui,
+            theme::LIST_ROW,
+            job.rows.len(),
+            |ui, range| {
+                for index in range {
+                    row(ui, view, index, &job.rows[index], model);
+                }
+            },
+        );
+    });
+}
+
+fn row(ui: &mut Ui, view: &mut ProcessingView, index: usize, row: &JobRow, model: &Model) {
+    let (language, palette) = (model.language, palette(ui));
+    let (key, color) = match &row.state {
+        RowState::Waiting => (T::StateWaiting, palette.off),
+        RowState::Step(step) => (texts::step(*step), palette.accent),
+        RowState::Done => (T::StateDone, palette.ok),
+        RowState::Failed(_) => (T::StateFailed, palette.error),
+        RowState::NotStarted => (T::StateNotStarted, palette.off),
+    };
+    let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), theme::LIST_ROW), Sense::click());
+    if view.selected == Some(index) && row.state.problem().is_some() {
+        ui.painter().rect_filled(rect, 4.0, palette.error.gamma_multiply(0.09));
+    }
+    let mut ui = ui.new_child(
+        egui::UiBuilder::new().max_rect(rect.shrink2(vec2(4.0, 0.0))).layout(Layout::left_to_right(Align::Center)),
+    );
+    let third = rect.width() * 0.33;
+    let cell = |ui: &mut Ui, width: f32, add: &mut dyn FnMut(&mut Ui)| {
+        ui.allocate_ui_with_layout(vec2(width, theme::LIST_ROW), Layout::left_to_right(Align::Center), |ui| {
+            ui.set_min_width(width);
+            add(ui);
+        });
+    };
+    cell(&mut ui, third, &mut |ui| drop(ui.add(Label::new(&row.name).truncate())));
+    cell(&mut ui, 120.0, &mut |ui| drop(chip(ui, key.text(language), color)));
+    if let Some(problem) = row.state.problem() {
+        ui.add(Label::new(RichText::new(problem.code.explain(language).message).color(palette.error)).truncate());
+    }
+    if response.clicked() && row.state.problem().is_some() {
+        view.selected = Some(index);
+    }
+}

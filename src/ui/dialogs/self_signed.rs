@@ -1,0 +1,125 @@
+use egui::{ComboBox, DragValue, Popup, PopupCloseBehavior, Response, RichText, ScrollArea, TextEdit, Ui};
+
+use crate::model::{COUNTRIES, Country, Language, Validity};
+use crate::ui::model::{Model, SelfSignedForm};
+use crate::ui::texts::{self, TextKey as T};
+use crate::ui::theme::{self, palette};
+use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, text_field};
+
+/// A self-signed server certificate for one controller or many (manual 2.7.1.2).
+pub fn show(ui: &Ui, certificate: &mut SelfSignedForm, model: &Model) -> Answer {
+    let text = |key: T| key.text(model.language);
+    let why = match certificate.fields() {
+        Some(_) => None,
+        None if certificate.reading => Some(T::Reading),
+        None => ["common name", "state", "locality", "organisation"].iter().find_map(|field| certificate.error(field)),
+    };
+    let buttons = Buttons { submit: Some((text(T::Apply), why.map(text))), close: Some(text(T::Cancel)) };
+    let title = texts::title_for(model.language, T::SelfSignedTitle, &certificate.names);
+    dialog(ui, "self-signed", &title, theme::DIALOG, buttons, |ui| {
+        if certificate.reading {
+            ui.label(RichText::new(text(T::Reading)).color(palette(ui).weak));
+            return;
+        }
+        form(ui, "self-signed", |ui| fields(ui, certificate, model));
+    })
+}
+
+fn fields(ui: &mut Ui, certificate: &mut SelfSignedForm, model: &Model) {
+    let text = |key: T| key.text(model.language);
+    labelled(ui, text(T::CommonName), |ui| {
+        if certificate.is_single() {
+            let response = text_field(ui, &mut certificate.common_name, "");
+            complain(ui, certificate, "common name", model);
+            return Some(response);
+        }
+        let mut each = text(T::CommonNameEach).to_owned();
+        Some(ui.add_enabled_ui(false, |ui| text_field(ui, &mut each, "")).inner)
+    });
+    labelled(ui, text(T::Country), |ui| Some(country(ui, certificate, model.language)));
+    let optional = text(T::Optional);
+    labelled(ui, text(T::State), |ui| {
+        let response = text_field(ui, &mut certificate.state, optional);
+        complain(ui, certificate, "state", model);
+        Some(response)
+    });
+    labelled(ui, text(T::Locality), |ui| {
+        let response = text_field(ui, &mut certificate.locality, optional);
+        complain(ui, certificate, "locality", model);
+        Some(response)
+    });
+    labelled(ui, text(T::Organisation), |ui| {
+        let response = text_field(ui, &mut certificate.organisation, optional);
+        complain(ui, certificate, "organisation", model);
+        Some(response)
+    });
+    labelled(ui, text(T::KeyLength), |ui| {
+        ui.horizontal(|ui| {
+            for length in &certificate.offered {
+                let label = texts::bits(model.language, length.bits());
+                ui.radio_value(&mut certificate.key_length, *length, label);
+            }
+        });
+        if certificate.is_single() {
+            fine_print(ui, text(T::KeyLengthOne));
+        } else if certificate.key_length.bits() != 2048 {
+            fine_print(ui, text(T::KeyLengthMany));
+        }
+        None
+    });
+    labelled(ui, text(T::Validity), |ui| {
+        Some(ui.add(DragValue::new(&mut certificate.years).range(Validity::MIN_YEARS..=Validity::MAX_YEARS)))
+    });
+}
+
+fn complain(ui: &mut Ui, certificate: &SelfSignedForm, field: &str, model: &Model) {
+    if let Some(error) = certificate.error(field) {
+        mistake(ui, error.text(model.language));
+    }
+}
+
+fn name(country: &Country, language: Language) -> &'static str {
+    match language {
+        Language::En => country.en,
+        Language::Zh => country.zh,
+    }
+}
+
+/// A list to choose from that can be searched in both languages and by code.
+fn country(ui: &mut Ui, certificate: &mut SelfSignedForm, language: Language) -> Response {
+    let chosen = match Country::from_code(certificate.country) {
+        Some(country) => format!("{} – {}", country.code, name(country, language)),
+        None => T::CountryNone.text(language).to_owned(),
+    };
+    let list = ComboBox::from_id_salt("country")
+        .selected_text(chosen)
+        .width(ui.available_width())
+        .close_behavior(PopupCloseBehavior::CloseOnClickOutside)
+        .show_ui(ui, |ui| {
+            let search = TextEdit::singleline(&mut certificate.country_search)
+                .hint_text(T::CountrySearch.text(language))
+                .desired_width(f32::INFINITY);
+            ui.add(search).accessible_name(T::CountrySearch.text(language));
+            let wanted = certificate.country_search.trim().to_lowercase();
+            ScrollArea::vertical().max_height(theme::LIST_HEIGHT).show(ui, |ui| {
+                let mut choose = |ui: &mut Ui, code: &'static str, label: &str| {
+                    if ui.selectable_label(certificate.country == code, label).clicked() {
+                        certificate.country = code;
+                        Popup::close_all(ui.ctx());
+                    }
+                };
+                if wanted.is_empty() {
+                    choose(ui, "", T::CountryNone.text(language));
+                }
+                for country in COUNTRIES {
+                    let found = country.en.to_lowercase().contains(&wanted)
+                        || country.zh.contains(&wanted)
+                        || country.code.to_lowercase() == wanted;
+                    if found {
+                        choose(ui, country.code, &format!("{} – {}", country.code, name(country, language)));
+                    }
+                }
+            });
+        });
+    list.response
+}

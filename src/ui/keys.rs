@@ -1,0 +1,52 @@
+//! The keyboard, as far as no widget takes it.
+
+use egui::{Context, Key, Modifiers};
+
+use super::command::UiCommand;
+use super::model::{Message, Model};
+use super::views;
+
+/// How far Page Up and Page Down go.
+const PAGE: isize = 15;
+
+pub fn read(ctx: &Context, model: &Model, messages: &mut Vec<Message>) {
+    if !model.dialogs.is_empty() || egui::Popup::is_any_open(ctx) {
+        return;
+    }
+    let typing = ctx.text_edit_focused();
+    for command in UiCommand::ALL {
+        let Some(shortcut) = command.shortcut() else { continue };
+        // A text field has its own use for these.
+        if typing && matches!(command, UiCommand::TickAll | UiCommand::DeleteControllers) {
+            continue;
+        }
+        if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
+            match command {
+                UiCommand::Search => ctx.memory_mut(|memory| memory.request_focus(views::search_id())),
+                command => messages.push(Message::Invoke(command)),
+            }
+        }
+    }
+    if typing {
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
+            ctx.memory_mut(|memory| memory.surrender_focus(views::search_id()));
+        }
+        return;
+    }
+    // A focused button or tick box takes Space and Enter itself.
+    if ctx.memory(|memory| memory.focused()).is_some() {
+        return;
+    }
+    let mut key = |key, message: Message| {
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+            messages.push(message);
+        }
+    };
+    key(Key::ArrowDown, Message::MoveCursor(1));
+    key(Key::ArrowUp, Message::MoveCursor(-1));
+    key(Key::PageDown, Message::MoveCursor(PAGE));
+    key(Key::PageUp, Message::MoveCursor(-PAGE));
+    key(Key::Home, Message::MoveCursor(isize::MIN));
+    key(Key::End, Message::MoveCursor(isize::MAX));
+    key(Key::Space, Message::ToggleCursor);
+}

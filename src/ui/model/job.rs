@@ -1,0 +1,139 @@
+use std::sync::Arc;
+
+use super::RowId;
+use crate::jobs::{self, Operation, SelfSignedFields, Step, Summary};
+use crate::model::{ErrorCode, Problem};
+use crate::ui::texts::TextKey;
+use crate::workspace::Workspace;
+
+/// Tells the events of one job from those of another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct JobId(pub u64);
+
+/// What a job does to each of its controllers.
+#[derive(Debug, Clone)]
+pub enum Task {
+    GetInfo,
+    Start,
+    Stop,
+    ReadSettings,
+    SetSettings(jobs::SetSettings),
+    ListUsers,
+    AddUser(jobs::AddUser),
+    RemoveUsers(jobs::RemoveUsers),
+    SelfSigned { fields: SelfSignedFields, backup: bool },
+}
+
+impl Task {
+    pub fn operation(&self, workspace: &Workspace) -> Arc<dyn Operation> {
+        match self {
+            Self::GetInfo => Arc::new(jobs::GetInfo),
+            Self::Start => Arc::new(jobs::StartServer),
+            Self::Stop => Arc::new(jobs::StopServer),
+            Self::ReadSettings => Arc::new(jobs::ReadSettings),
+            Self::SetSettings(operation) => Arc::new(operation.clone()),
+            Self::ListUsers => Arc::new(jobs::ListUsers),
+            Self::AddUser(operation) => Arc::new(operation.clone()),
+            Self::RemoveUsers(operation) => Arc::new(operation.clone()),
+            Self::SelfSigned { fields, backup } => Arc::new(jobs::SelfSigned {
+                fields: fields.clone(),
+                backup: backup.then(|| workspace.certificate_files()),
+            }),
+        }
+    }
+
+    pub const fn title(&self) -> TextKey {
+        match self {
+            Self::GetInfo => TextKey::GetInfo,
+            Self::Start => TextKey::Start,
+            Self::Stop => TextKey::Stop,
+            Self::ReadSettings | Self::SetSettings(_) => TextKey::SettingsTitle,
+            Self::ListUsers => TextKey::UsersTitle,
+            Self::AddUser(_) => TextKey::AddUserTitle,
+            Self::RemoveUsers(_) => TextKey::DeleteUsers,
+            Self::SelfSigned { .. } => TextKey::SelfSignedTitle,
+        }
+    }
+
+    /// Nothing to read when all went well: the status bar says so and no click is asked for.
+    pub const fn is_quiet(&self) -> bool {
+        matches!(self, Self::GetInfo | Self::Start)
+    }
+}
+
+/// Who waits for the job.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Purpose {
+    /// The processing dialog.
+    Show,
+    /// A form that shows what is in the controller.
+    LoadSettings,
+    LoadUsers,
+    /// How many users there are, for a warning; nobody minds if it fails.
+    CountUsers,
+    LoadPolicies,
+}
+
+/// Where a job is with one controller.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RowState {
+    Waiting,
+    Step(Step),
+    Done,
+    Failed(Problem),
+    NotStarted,
+}
+
+impl RowState {
+    pub fn problem(&self) -> Option<&Problem> {
+        match self {
+            Self::Failed(problem) => Some(problem),
+            _ => None,
+        }
+    }
+
+    /// The connection password is missing or no longer the right one.
+    pub fn needs_password(&self) -> bool {
+        self.problem().is_some_and(|p| matches!(p.code, ErrorCode::PasswordMissing | ErrorCode::WrongPassword))
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum CancelState {
+    #[default]
+    No,
+    /// "Stop after the step in hand?" is shown.
+    Asking,
+    Sent,
+}
+
+#[derive(Debug)]
+pub struct JobRow {
+    pub row: RowId,
+    pub name: String,
+    pub state: RowState,
+}
+
+/// A job, running or ended.
+#[derive(Debug)]
+pub struct Job {
+    pub id: JobId,
+    pub task: Task,
+    pub purpose: Purpose,
+    pub rows: Vec<JobRow>,
+    pub finished: usize,
+    pub failed: usize,
+    pub cancel: CancelState,
+    /// Set when it has ended.
+    pub summary: Option<Summary>,
+}
+
+impl Job {
+    pub fn names(&self) -> Vec<String> {
+        self.rows.iter().map(|row| row.name.clone()).collect()
+    }
+
+    pub fn without_password(&self) -> Vec<RowId> {
+        self.rows.iter().filter(|row| row.state.needs_password()).map(|row| row.row).collect()
+    }
+}

@@ -1,0 +1,139 @@
+//! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
+
+mod dialog;
+mod forms;
+mod job;
+mod reduce;
+mod reduce_dialogs;
+mod rows;
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::BTreeMap;
+
+use chrono::{DateTime, Utc};
+
+pub use dialog::{
+    AddController, AddStage, AddUserForm, Dialog, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm, Typed, UsersForm,
+};
+pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
+pub use reduce::reduce;
+pub use rows::{Column, Expiry, Row, RowId, Rows};
+
+use super::backend::Event;
+use super::command::UiCommand;
+use super::texts::Zone;
+use crate::model::{Language, Problem};
+use crate::workspace::{Configuration, Options, ThemeChoice, Workspace};
+
+/// Everything the views draw from.
+#[derive(Debug)]
+pub struct Model {
+    pub language: Language,
+    /// The time of this frame.
+    pub now: DateTime<Utc>,
+    pub zone: Zone,
+    pub rows: Rows,
+    pub options: Options,
+    pub workspace: Workspace,
+    /// The last one is on top and has the keyboard.
+    pub dialogs: Vec<Dialog>,
+    /// The job that runs, or the one whose summary is shown.
+    pub job: Option<Job>,
+    /// What the status bar says until the next thing happens.
+    pub status: Option<String>,
+    pub virtual_available: bool,
+    pub virtual_starting: bool,
+    /// Something the window remembers has changed since it was last saved.
+    pub unsaved: bool,
+    last_job: u64,
+}
+
+/// What can happen: an engineer did something, or the backend reports.
+#[derive(Debug)]
+pub enum Message {
+    Invoke(UiCommand),
+    // table
+    Toggle { row: RowId, range: bool },
+    TickAll(bool),
+    Sort(Column),
+    Filter(String),
+    /// By rows of the view; clamped.
+    MoveCursor(isize),
+    ToggleCursor,
+    /// The table has scrolled to the cursor.
+    Revealed,
+    Widths(BTreeMap<String, f32>),
+    Resized((f32, f32)),
+    // dialogs
+    /// The main button of the dialog on top.
+    Submit,
+    /// Cancel, Close or Esc.
+    Close,
+    /// Delete the ticked users of the dialog on top.
+    DeleteUsers,
+    /// Open the dialog for one more user.
+    NewUser,
+    /// Go on with the job after all.
+    KeepGoing,
+    /// Ask for the passwords the ended job lacked.
+    EnterPasswords,
+    SetLanguage(Language),
+    SetTheme(ThemeChoice),
+    SetParallelism(usize),
+    StartVirtual,
+    Save,
+    Event(Event),
+}
+
+impl Model {
+    pub fn new(configuration: Configuration, workspace: Workspace, language: Language, now: DateTime<Utc>) -> Self {
+        let mut rows = Rows::new(configuration.controllers, now);
+        if let Some((key, ascending)) = &configuration.options.window.sort
+            && let Some(column) = Column::from_key(key)
+        {
+            rows.sort = Some((column, *ascending));
+            rows.rebuild();
+        }
+        Self {
+            language: configuration.options.language.unwrap_or(language),
+            now,
+            zone: Zone::default(),
+            rows,
+            options: configuration.options,
+            workspace,
+            dialogs: Vec::new(),
+            job: None,
+            status: None,
+            virtual_available: false,
+            virtual_starting: false,
+            unsaved: false,
+            last_job: 0,
+        }
+    }
+
+    /// What is saved of it all.
+    pub fn configuration(&self) -> Configuration {
+        let mut configuration = Configuration::default();
+        configuration.controllers = self.rows.all().iter().map(|row| row.entry.clone()).collect();
+        configuration.options = self.options.clone();
+        configuration
+    }
+
+    /// Shows a failure on top of whatever is shown.
+    pub fn show_problem(&mut self, problem: Problem) {
+        self.dialogs.push(Dialog::Error(problem));
+    }
+
+    /// Moves the window's clock.
+    pub fn set_now(&mut self, now: DateTime<Utc>) {
+        self.now = now;
+        self.rows.refresh_expiry(now);
+    }
+
+    fn next_job(&mut self) -> JobId {
+        self.last_job += 1;
+        JobId(self.last_job)
+    }
+}

@@ -1,0 +1,291 @@
+//! The one place where the model changes.
+
+use super::{
+    AddController, CancelState, Column, Dialog, Job, JobId, JobRow, Message, Model, PasswordForm, ProcessingView,
+    Purpose, RowId, RowState, Task, Typed,
+};
+use crate::jobs::{JobController, JobEvent, Report, Summary};
+use crate::model::ErrorCode;
+use crate::ui::backend::{Command, Event};
+use crate::ui::command::UiCommand;
+use crate::ui::texts;
+
+/// Takes one message in; what comes out is for the backend.
+pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
+    match message {
+        Message::Invoke(command) if command.why_disabled(model).is_some() => vec![],
+        Message::Invoke(command) => model.invoke(command),
+        Message::Toggle { row, range } => done(model.rows.toggle(row, range)),
+        Message::TickAll(on) => done(model.rows.tick_shown(on)),
+        Message::Sort(column) => done(model.sort(column)),
+        Message::Filter(text) => done(model.rows.set_filter(text)),
+        Message::MoveCursor(by) => done(model.rows.move_cursor(by)),
+        Message::ToggleCursor => done(model.rows.toggle_cursor()),
+        Message::Revealed => done(model.rows.reveal = false),
+        Message::Widths(columns) => {
+            model.options.window.columns = columns;
+            done(model.unsaved = true)
+        }
+        Message::Resized(size) => {
+            model.options.window.size = Some(size);
+            done(model.unsaved = true)
+        }
+        Message::Submit => model.submit(),
+        Message::Close => model.close(),
+        Message::DeleteUsers => model.delete_users(),
+        Message::NewUser => done(model.new_user()),
+        Message::KeepGoing => done(model.keep_going()),
+        Message::EnterPasswords => done(model.ask_passwords()),
+        Message::SetLanguage(language) => {
+            model.language = language;
+            model.options.language = Some(language);
+            model.status = None;
+            model.save()
+        }
+        Message::SetTheme(theme) => {
+            model.options.theme = theme;
+            model.save()
+        }
+        Message::SetParallelism(count) => {
+            model.options.parallelism = count.clamp(1, crate::workspace::MAX_PARALLELISM);
+            done(model.unsaved = true)
+        }
+        Message::StartVirtual => {
+            if !model.virtual_available || model.virtual_starting {
+                return vec![];
+            }
+            model.virtual_starting = true;
+            vec![Command::StartVirtualControllers]
+        }
+        Message::Save => model.save(),
+        Message::Event(event) => model.event(event),
+    }
+}
+
+/// Nothing for the backend to do.
+fn done(_changed: ()) -> Vec<Command> {
+    Vec::new()
+}
+
+impl Model {
+    pub(super) fn save(&mut self) -> Vec<Command> {
+        self.unsaved = false;
+        vec![Command::Save(Box::new(self.configuration()))]
+    }
+
+    fn sort(&mut self, column: Column) {
+        self.rows.sort_by(column);
+        self.options.window.sort = self.rows.sort.map(|(column, ascending)| (column.key().to_owned(), ascending));
+        self.unsaved = true;
+    }
+
+    fn invoke(&mut self, command: UiCommand) -> Vec<Command> {
+        let ticked = self.rows.ticked();
+        match command {
+            UiCommand::AddController => done(self.dialogs.push(Dialog::AddController(AddController::new()))),
+            UiCommand::DeleteControllers => {
+                let names = self.rows.names(&ticked);
+                done(self.dialogs.push(Dialog::Delete { rows: ticked, names }))
+            }
+            UiCommand::Start => self.plan(Task::Start, ticked),
+            UiCommand::Stop => self.plan(Task::Stop, ticked),
+            UiCommand::GetInfo => self.plan(Task::GetInfo, ticked),
+            UiCommand::BasicSettings => self.open_settings(ticked),
+            UiCommand::Users => self.open_users(ticked),
+            UiCommand::SelfSigned => self.open_self_signed(ticked),
+            UiCommand::Backup => done(self.dialogs.push(Dialog::Backup { on: self.options.backup })),
+            UiCommand::Options => done(self.dialogs.push(Dialog::Options)),
+            UiCommand::Shortcuts => done(self.dialogs.push(Dialog::Shortcuts)),
+            UiCommand::About => done(self.dialogs.push(Dialog::About)),
+            UiCommand::TickAll => done(self.rows.tick_shown(!self.rows.all_shown_ticked())),
+            UiCommand::Quit => vec![Command::Quit],
+            // The views' own business, or not there yet.
+            _ => vec![],
+        }
+    }
+
+    /// Asks first when the task changes something, else starts it.
+    pub(super) fn plan(&mut self, task: Task, rows: Vec<RowId>) -> Vec<Command> {
+        match task.operation(&self.workspace).confirmation() {
+            Some(confirmation) => {
+                let names = self.rows.names(&rows);
+                done(self.dialogs.push(Dialog::Confirm { task, rows, names, confirmation }))
+            }
+            None => self.start(task, rows, Purpose::Show, None),
+        }
+    }
+
+    pub(super) fn start(
+        &mut self,
+        task: Task,
+        rows: Vec<RowId>,
+        purpose: Purpose,
+        password: Option<secrecy::SecretString>,
+    ) -> Vec<Command> {
+        let id = self.next_job();
+        let entries: Vec<_> = rows.iter().filter_map(|row| self.rows.get(*row)).collect();
+        let controllers: Vec<JobController> = entries.iter().map(|row| JobController::from(&row.entry)).collect();
+        let rows = entries
+            .iter()
+            .map(|row| JobRow { row: row.id, name: row.entry.name.to_string(), state: RowState::Waiting })
+            .collect::<Vec<_>>();
+        self.status = None;
+        if purpose == Purpose::Show {
+            for row in &rows {
+                self.rows.set_live(row.row, Some(RowState::Waiting));
+            }
+            self.dialogs.push(Dialog::Processing(ProcessingView::default()));
+        }
+        self.job = Some(Job {
+            id,
+            task: task.clone(),
+            purpose,
+            rows,
+            finished: 0,
+            failed: 0,
+            cancel: CancelState::No,
+            summary: None,
+        });
+        vec![Command::Run { job: id, controllers, task, parallelism: self.options.parallelism, password }]
+    }
+
+    /// Stops waiting for the job of a form that was closed.
+    pub(super) fn drop_job(&mut self) -> Vec<Command> {
+        match self.job.take() {
+            Some(job) if job.summary.is_none() => vec![Command::Cancel(job.id)],
+            _ => vec![],
+        }
+    }
+
+    fn event(&mut self, event: Event) -> Vec<Command> {
+        match event {
+            Event::Job { job, event } => self.job_event(job, event),
+            Event::JobEnded { job, summary } => self.job_ended(job, summary),
+            Event::Probed { job, result } => done(self.probed(job, result)),
+            Event::Enrolled { job, result } => self.enrolled(job, result),
+            Event::VirtualStarted(result) => self.virtual_started(result),
+            Event::PasswordNotKept(problem) | Event::SaveFailed(problem) => {
+                // Once is enough for the same trouble.
+                let shown = self.dialogs.iter().any(|d| matches!(d, Dialog::Error(p) if p.code == problem.code));
+                if !shown {
+                    self.show_problem(problem);
+                }
+                vec![]
+            }
+        }
+    }
+
+    fn job_event(&mut self, id: JobId, event: JobEvent) -> Vec<Command> {
+        let Some(job) = self.job.as_mut().filter(|job| job.id == id) else { return vec![] };
+        match event {
+            JobEvent::Step { index, step } => {
+                if let Some(row) = job.rows.get_mut(index) {
+                    row.state = RowState::Step(step);
+                    if job.purpose == Purpose::Show {
+                        self.rows.set_live(row.row, Some(RowState::Step(step)));
+                    }
+                }
+                vec![]
+            }
+            JobEvent::Finished { index, report } => {
+                let purpose = job.purpose;
+                let Some(row) = job.rows.get_mut(index) else { return vec![] };
+                let Report { result, info } = *report;
+                let (state, outcome) = match result {
+                    Ok(outcome) => (RowState::Done, Some(outcome)),
+                    Err(problem) if problem.code == ErrorCode::Cancelled => (RowState::NotStarted, None),
+                    Err(problem) => (RowState::Failed(problem), None),
+                };
+                let id = row.row;
+                row.state = state.clone();
+                job.finished += 1;
+                job.failed += usize::from(state.problem().is_some());
+                if purpose == Purpose::Show {
+                    self.rows.set_live(id, Some(state));
+                }
+                if let Some(info) = info {
+                    self.rows.set_info(id, info, self.now);
+                }
+                match outcome {
+                    Some(outcome) => self.loaded(purpose, outcome),
+                    None => vec![],
+                }
+            }
+        }
+    }
+
+    fn job_ended(&mut self, id: JobId, summary: Summary) -> Vec<Command> {
+        let Some(job) = self.job.as_mut().filter(|job| job.id == id) else { return vec![] };
+        job.summary = Some(summary);
+        let purpose = job.purpose;
+        let all_done = summary.failed == 0 && summary.not_started == 0;
+        let lacks_password = !job.without_password().is_empty();
+        let failure = job.rows.iter().position(|row| row.state.problem().is_some());
+        self.rows.rebuild();
+        let commands = self.save();
+        if lacks_password && purpose != Purpose::CountUsers {
+            self.ask_passwords();
+            return commands;
+        }
+        match purpose {
+            Purpose::Show => {
+                let Some(job) = &self.job else { return commands };
+                if all_done && job.task.is_quiet() {
+                    self.status = Some(texts::job_done(self.language, job.task.title(), summary.done));
+                    self.end_processing();
+                } else if let Some(Dialog::Processing(view)) = self.processing_dialog() {
+                    view.selected = view.selected.or(failure);
+                }
+            }
+            Purpose::CountUsers => self.job = None,
+            Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies => {
+                let problem = self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));
+                if let Some(problem) = problem {
+                    // The form has nothing to show.
+                    self.dialogs.pop();
+                    self.show_problem(problem);
+                }
+            }
+        }
+        commands
+    }
+
+    fn processing_dialog(&mut self) -> Option<&mut Dialog> {
+        self.dialogs.iter_mut().rev().find(|dialog| matches!(dialog, Dialog::Processing(_)))
+    }
+
+    pub(super) fn end_processing(&mut self) {
+        self.dialogs.retain(|dialog| !matches!(dialog, Dialog::Processing(_)));
+        self.rows.clear_live();
+        self.job = None;
+    }
+
+    fn keep_going(&mut self) {
+        if let Some(job) = &mut self.job
+            && job.cancel == CancelState::Asking
+        {
+            job.cancel = CancelState::No;
+        }
+    }
+
+    pub(super) fn ask_passwords(&mut self) {
+        let Some(job) = &self.job else { return };
+        let rows = job.without_password();
+        if rows.is_empty() || job.summary.is_none() {
+            return;
+        }
+        let wrong = job
+            .rows
+            .iter()
+            .any(|row| row.state.problem().is_some_and(|problem| problem.code == ErrorCode::WrongPassword));
+        self.dialogs.push(Dialog::Password(PasswordForm {
+            names: self.rows.names(&rows),
+            rows,
+            password: Typed::default(),
+            show_password: false,
+            wrong,
+            task: job.task.clone(),
+            purpose: job.purpose,
+        }));
+    }
+}

@@ -1,0 +1,361 @@
+//! What the dialogs do: open, submit, close, and what arrives for them.
+
+use std::collections::BTreeSet;
+
+use secrecy::SecretString;
+
+use super::{
+    AddStage, AddUserForm, CancelState, Dialog, JobId, Model, Purpose, RowId, SelfSignedForm, SettingsForm, Task,
+    Typed, UsersForm,
+};
+use crate::jobs::{Enrolled, Outcome, RemoveUsers};
+use crate::model::Problem;
+use crate::pki::Fingerprint;
+use crate::ui::backend::Command;
+use crate::ui::texts;
+use crate::workspace::{ControllerEntry, Retrieved};
+
+impl Model {
+    pub(super) fn open_settings(&mut self, rows: Vec<RowId>) -> Vec<Command> {
+        let form = SettingsForm::new(rows.clone(), self);
+        let reading = form.reading;
+        self.dialogs.push(Dialog::Settings(form));
+        if reading { self.start(Task::ReadSettings, rows, Purpose::LoadSettings, None) } else { vec![] }
+    }
+
+    pub(super) fn open_users(&mut self, rows: Vec<RowId>) -> Vec<Command> {
+        match rows[..] {
+            [row] => {
+                let name = self.rows.names(&rows).pop().unwrap_or_default();
+                self.dialogs.push(Dialog::Users(UsersForm {
+                    row,
+                    name,
+                    reading: true,
+                    revision: None,
+                    users: Vec::new(),
+                    ticked: BTreeSet::new(),
+                }));
+                self.start(Task::ListUsers, rows, Purpose::LoadUsers, None)
+            }
+            _ => {
+                self.push_add_user(rows, None, Vec::new());
+                vec![]
+            }
+        }
+    }
+
+    pub(super) fn open_self_signed(&mut self, rows: Vec<RowId>) -> Vec<Command> {
+        let form = SelfSignedForm::new(rows.clone(), self);
+        let reading = form.reading;
+        self.dialogs.push(Dialog::SelfSigned(form));
+        if reading { self.start(Task::ReadSettings, rows, Purpose::LoadPolicies, None) } else { vec![] }
+    }
+
+    fn push_add_user(&mut self, rows: Vec<RowId>, revision: Option<u64>, existing: Vec<crate::model::UserName>) {
+        self.dialogs.push(Dialog::AddUser(AddUserForm {
+            names: self.rows.names(&rows),
+            rows,
+            revision,
+            existing,
+            name: String::new(),
+            password: Typed::default(),
+            show_password: false,
+        }));
+    }
+
+    pub(super) fn new_user(&mut self) {
+        if let Some(Dialog::Users(form)) = self.dialogs.last() {
+            let (rows, revision, users) = (vec![form.row], form.revision, form.users.clone());
+            self.push_add_user(rows, revision, users);
+        }
+    }
+
+    pub(super) fn delete_users(&mut self) -> Vec<Command> {
+        let Some(Dialog::Users(form)) = self.dialogs.last() else { return vec![] };
+        if form.ticked.is_empty() {
+            return vec![];
+        }
+        let names = form.ticked.iter().cloned().collect();
+        let task = Task::RemoveUsers(RemoveUsers { names, based_on: form.revision });
+        let row = form.row;
+        self.plan(task, vec![row])
+    }
+
+    /// The main button of the dialog on top.
+    pub(super) fn submit(&mut self) -> Vec<Command> {
+        let Some(dialog) = self.dialogs.pop() else { return vec![] };
+        match dialog {
+            Dialog::AddController(form) => self.submit_controller(form),
+            Dialog::Delete { rows, .. } => self.delete(&rows),
+            Dialog::Password(form) => {
+                let password = SecretString::from(form.password.0.clone());
+                if form.purpose == Purpose::Show {
+                    self.end_processing();
+                }
+                self.start(form.task, form.rows, form.purpose, Some(password))
+            }
+            Dialog::Confirm { task, rows, .. } => {
+                // The form that asked for it has done its work.
+                if matches!(
+                    self.dialogs.last(),
+                    Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_))
+                ) {
+                    self.dialogs.pop();
+                }
+                self.start(task, rows, Purpose::Show, None)
+            }
+            Dialog::Settings(form) => {
+                let planned = form.operation().map(|operation| (Task::SetSettings(operation), form.rows.clone()));
+                self.ask(Dialog::Settings(form), planned)
+            }
+            Dialog::AddUser(form) => {
+                let planned = form.operation().map(|operation| (Task::AddUser(operation), form.rows.clone()));
+                self.ask(Dialog::AddUser(form), planned)
+            }
+            Dialog::SelfSigned(form) => {
+                let backup = self.options.backup;
+                let planned =
+                    form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
+                self.ask(Dialog::SelfSigned(form), planned)
+            }
+            Dialog::Backup { on } => {
+                self.options.backup = on;
+                self.save()
+            }
+            // Their main button is Close.
+            other => {
+                self.dialogs.push(other);
+                self.close()
+            }
+        }
+    }
+
+    /// Keeps the form under the confirmation, so that Cancel leads back to it.
+    fn ask(&mut self, form: Dialog, planned: Option<(Task, Vec<RowId>)>) -> Vec<Command> {
+        self.dialogs.push(form);
+        match planned {
+            Some((task, rows)) => self.plan(task, rows),
+            None => vec![],
+        }
+    }
+
+    /// Cancel, Close or Esc.
+    pub(super) fn close(&mut self) -> Vec<Command> {
+        match self.dialogs.last_mut() {
+            None => vec![],
+            Some(Dialog::Processing(_)) => self.close_processing(),
+            Some(Dialog::AddController(form)) if form.stage != AddStage::Form => {
+                let waiting = !matches!(form.stage, AddStage::Compare(_));
+                form.stage = AddStage::Form;
+                if waiting { self.cancel_last() } else { vec![] }
+            }
+            Some(Dialog::Password(form)) => {
+                let loading = form.purpose != Purpose::Show;
+                self.dialogs.pop();
+                if loading {
+                    // The form under it cannot be filled.
+                    self.dialogs.pop();
+                    self.job = None;
+                } else if let Some(Dialog::Processing(view)) = self.dialogs.last_mut() {
+                    let failed = self.job.as_ref().and_then(|job| job.rows.iter().position(|r| r.state.problem().is_some()));
+                    view.selected = view.selected.or(failed);
+                }
+                vec![]
+            }
+            Some(Dialog::Settings(_) | Dialog::Users(_) | Dialog::SelfSigned(_)) => {
+                self.dialogs.pop();
+                self.drop_job()
+            }
+            Some(_) => {
+                self.dialogs.pop();
+                vec![]
+            }
+        }
+    }
+
+    /// While the job runs: ask, then stop it. Afterwards: close.
+    fn close_processing(&mut self) -> Vec<Command> {
+        let Some(job) = &mut self.job else {
+            self.end_processing();
+            return vec![];
+        };
+        if job.summary.is_some() {
+            let changed_users = matches!(job.task, Task::AddUser(_) | Task::RemoveUsers(_));
+            self.end_processing();
+            return if changed_users { self.reload_users() } else { vec![] };
+        }
+        match job.cancel {
+            CancelState::No => job.cancel = CancelState::Asking,
+            CancelState::Asking => {
+                job.cancel = CancelState::Sent;
+                return vec![Command::Cancel(job.id)];
+            }
+            CancelState::Sent => {}
+        }
+        vec![]
+    }
+
+    fn reload_users(&mut self) -> Vec<Command> {
+        let Some(Dialog::Users(form)) = self.dialogs.last_mut() else { return vec![] };
+        form.reading = true;
+        form.ticked.clear();
+        let row = form.row;
+        self.start(Task::ListUsers, vec![row], Purpose::LoadUsers, None)
+    }
+
+    fn delete(&mut self, rows: &[RowId]) -> Vec<Command> {
+        let gone = self.rows.remove(rows);
+        self.status = Some(texts::deleted(self.language, gone.len()));
+        let forget = gone.iter().filter_map(|entry| entry.fingerprint).collect();
+        let mut commands = self.save();
+        commands.push(Command::Forget(forget));
+        commands
+    }
+
+    fn submit_controller(&mut self, mut form: super::AddController) -> Vec<Command> {
+        form.tried = true;
+        form.problem = None;
+        let target = form.target(self);
+        let command = match (form.stage, target) {
+            (AddStage::Form, Ok((_, address))) => {
+                form.stage = AddStage::Probing;
+                Some(Command::Probe { job: self.next_job(), address })
+            }
+            (AddStage::Compare(fingerprint), Ok((_, address))) => {
+                form.stage = AddStage::Enrolling(fingerprint);
+                Some(Command::Enroll { job: self.next_job(), address, fingerprint, password: form.secret() })
+            }
+            // Shown beside the fields.
+            (_, Err(_)) | (AddStage::Probing | AddStage::Enrolling(_), Ok(_)) => None,
+        };
+        self.dialogs.push(Dialog::AddController(form));
+        command.into_iter().collect()
+    }
+
+    fn cancel_last(&mut self) -> Vec<Command> {
+        let job = JobId(self.last_job);
+        self.next_job();
+        vec![Command::Cancel(job)]
+    }
+
+    /// The dialog that waits for a controller, unless it was closed or tries another by now.
+    fn adding(&mut self, job: JobId) -> Option<&mut super::AddController> {
+        if job != JobId(self.last_job) {
+            return None;
+        }
+        self.dialogs.iter_mut().find_map(|dialog| match dialog {
+            Dialog::AddController(form) => Some(form),
+            _ => None,
+        })
+    }
+
+    pub(super) fn probed(&mut self, job: JobId, result: Result<Fingerprint, Problem>) {
+        let Some(form) = self.adding(job).filter(|form| form.stage == AddStage::Probing) else { return };
+        match result {
+            Ok(fingerprint) => form.stage = AddStage::Compare(fingerprint),
+            Err(problem) => {
+                form.stage = AddStage::Form;
+                form.problem = Some(problem);
+            }
+        }
+    }
+
+    pub(super) fn enrolled(&mut self, job: JobId, result: Result<Box<Enrolled>, Problem>) -> Vec<Command> {
+        let now = self.now;
+        let Some(form) = self.adding(job) else { return vec![] };
+        let enrolled = match result {
+            Ok(enrolled) => enrolled,
+            Err(problem) => {
+                form.stage = AddStage::Form;
+                form.problem = Some(problem);
+                return vec![];
+            }
+        };
+        let (Ok(name), Ok(address)) = (form.name.parse(), form.address.parse()) else { return vec![] };
+        let Enrolled { fingerprint, info, password_not_kept } = *enrolled;
+        let entry = ControllerEntry {
+            name,
+            address,
+            // What the controller says of itself counts.
+            series: info.series,
+            fingerprint: Some(fingerprint),
+            last: Some(Retrieved { at: now, info }),
+        };
+        self.dialogs.retain(|dialog| !matches!(dialog, Dialog::AddController(_)));
+        self.status = Some(texts::added(self.language, entry.name.as_str()));
+        self.rows.add(entry, now);
+        if let Some(problem) = password_not_kept {
+            self.show_problem(problem);
+        }
+        self.save()
+    }
+
+    pub(super) fn virtual_started(&mut self, result: Result<Vec<ControllerEntry>, Problem>) -> Vec<Command> {
+        self.virtual_starting = false;
+        let entries = match result {
+            Ok(entries) => entries,
+            Err(problem) => {
+                self.show_problem(problem);
+                return vec![];
+            }
+        };
+        let now = self.now;
+        let mut added = Vec::new();
+        for entry in entries {
+            if self.configuration().check_new(&entry.name, &entry.address).is_ok() {
+                added.push(self.rows.add(entry, now));
+            }
+        }
+        for row in &added {
+            self.rows.tick(*row);
+        }
+        let mut commands = self.save();
+        if !added.is_empty() {
+            commands.extend(self.plan(Task::GetInfo, added));
+        }
+        commands
+    }
+
+    /// What a form waited for.
+    pub(super) fn loaded(&mut self, purpose: Purpose, outcome: Outcome) -> Vec<Command> {
+        match (purpose, outcome) {
+            (Purpose::LoadSettings, Outcome::Settings(settings)) => {
+                let Some(Dialog::Settings(form)) = self.dialogs.last_mut() else { return vec![] };
+                form.reading = false;
+                form.revision = Some(settings.revision);
+                form.fill(settings.value);
+                let rows = form.rows.clone();
+                self.start(Task::ListUsers, rows, Purpose::CountUsers, None)
+            }
+            (Purpose::LoadPolicies, Outcome::Settings(settings)) => {
+                if let Some(Dialog::SelfSigned(form)) = self.dialogs.last_mut() {
+                    form.reading = false;
+                    form.offer(&settings.value.security_policies);
+                    let row = form.rows.first().copied();
+                    let name = row.and_then(|row| self.rows.get(row)?.info()).map(|i| i.application_name.clone());
+                    if let (Some(Dialog::SelfSigned(form)), Some(name)) = (self.dialogs.last_mut(), name)
+                        && form.common_name.is_empty()
+                    {
+                        form.common_name = name;
+                    }
+                }
+                vec![]
+            }
+            (Purpose::LoadUsers, Outcome::Users(users)) => {
+                if let Some(Dialog::Users(form)) = self.dialogs.last_mut() {
+                    form.reading = false;
+                    form.revision = Some(users.revision);
+                    form.users = users.value;
+                }
+                vec![]
+            }
+            (Purpose::CountUsers, Outcome::Users(users)) => {
+                if let Some(Dialog::Settings(form)) = self.dialogs.last_mut() {
+                    form.users = Some(users.value.len());
+                }
+                vec![]
+            }
+            _ => vec![],
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! Every text of the window, in English and Chinese. The Chinese terms are those of the controller's manual.
+//!
+//! English is in sentence case, without a full stop after a single sentence, with `…` on whatever asks for more. A text
+//! that lacks a language does not compile. Texts of errors come from [`ErrorCode::explain`](crate::model::ErrorCode).
+
+mod sentences;
+
+pub use sentences::*;
+
+use crate::model::Language;
+
+macro_rules! texts {
+    ($($key:ident: $en:literal, $zh:literal;)*) => {
+        /// A fixed text.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub enum TextKey { $($key),* }
+
+        impl TextKey {
+            pub const ALL: &[Self] = &[$(Self::$key),*];
+
+            pub const fn text(self, language: Language) -> &'static str {
+                match language {
+                    Language::En => match self { $(Self::$key => $en),* },
+                    Language::Zh => match self { $(Self::$key => $zh),* },
+                }
+            }
+        }
+    };
+}
+
+texts! {
+    AppName: "OPC UA Configurator", "OPC UA 配置工具";
+
+    // menus
+    MenuController: "Controller", "控制器";
+    MenuCertificate: "Certificate", "证书";
+    MenuServer: "Server settings", "服务器设置";
+    MenuOptions: "Options", "选项";
+    MenuTools: "Tools", "工具";
+    MenuHelp: "Help", "帮助";
+    MenuCreate: "Create and save", "创建与保存";
+    MenuClients: "Client certificates", "客户端证书";
+
+    // commands, and what they do
+    AddController: "Add controller…", "添加控制器…";
+    AddControllerTip: "Register a controller by its name, address and connection password", "以名称、地址和连接密码注册控制器";
+    DeleteControllers: "Delete…", "删除…";
+    DeleteControllersTip: "Remove the ticked controllers from the list", "从列表中删除已勾选的控制器";
+    ConnectionList: "Get connection list…", "获取连接列表…";
+    ConnectionListTip: "Register controllers from a connection list", "从连接列表注册控制器";
+    Quit: "Quit", "退出";
+    QuitTip: "Close the window", "关闭窗口";
+    Start: "Start", "开始";
+    StartTip: "Start the OPC UA server of the ticked controllers", "启动已勾选控制器的 OPC UA 服务器";
+    Stop: "Stop", "停止";
+    StopTip: "Stop the OPC UA server of the ticked controllers", "停止已勾选控制器的 OPC UA 服务器";
+    GetInfo: "Get new information", "获取新信息";
+    GetInfoTip: "Read status, certificate and activation of the ticked controllers", "读取已勾选控制器的状态、证书和激活信息";
+    BasicSettings: "Basic settings…", "基本设置…";
+    BasicSettingsTip: "Port, startup mode, security policies, user tokens and server log", "端口、启动模式、安全策略、用户令牌策略和服务器日志";
+    Users: "Users…", "用户…";
+    UsersTip: "List, add and delete the users of the OPC UA server", "查看、添加和删除 OPC UA 服务器的用户";
+    Activation: "Activation…", "激活…";
+    ActivationTip: "Enter licence and activation keys", "输入许可密钥和激活密钥";
+    ExportSettings: "Export…", "导出…";
+    ExportSettingsTip: "Save the server settings to a file", "将服务器设置保存到文件";
+    ImportSettings: "Import…", "导入…";
+    ImportSettingsTip: "Take the server settings from a file", "从文件读取服务器设置";
+    SelfSigned: "Self-signed…", "自签名…";
+    SelfSignedTip: "Make a self-signed server certificate and install it", "创建并安装自签名服务器证书";
+    UserSpecified: "User specified…", "用户指定…";
+    UserSpecifiedTip: "Install a server certificate made elsewhere", "安装在别处创建的服务器证书";
+    CaSigned: "CA signed…", "CA 签名…";
+    CaSignedTip: "Make a certificate signing request and import the signed certificate", "创建证书签名请求并导入已签名的证书";
+    ExportSelfSigned: "Export self-signed…", "导出自签名证书…";
+    ExportSelfSignedTip: "Save the self-signed server certificate to a file", "将自签名服务器证书保存到文件";
+    TypeSelect: "Type select…", "类型选择…";
+    TypeSelectTip: "Choose which of the installed server certificates is used", "选择要使用的服务器证书";
+    ClientLists: "Trusted, rejected, issuers…", "信任、拒绝、发行人…";
+    ClientListsTip: "Choose which clients are let in", "选择允许连接的客户端";
+    Crl: "CRL…", "CRL…";
+    CrlTip: "Lists of revoked certificates", "证书吊销列表";
+    Backup: "Backup…", "备份…";
+    BackupTip: "Keep copies of certificates in the workspace", "在工作区中保留证书副本";
+    Options: "Options…", "选项…";
+    OptionsTip: "Language, theme and controllers worked on at once", "语言、主题和同时处理的控制器数量";
+    CertificateAuthority: "Certificate authority…", "证书颁发机构…";
+    CertificateAuthorityTip: "Sign certificate requests with an authority of your own", "使用自己的颁发机构签署证书请求";
+    Verify: "Verify…", "验证…";
+    VerifyTip: "Connect to the OPC UA server as a client would", "以客户端方式连接 OPC UA 服务器";
+    Shortcuts: "Keyboard shortcuts", "键盘快捷键";
+    ShortcutsTip: "Every key this window knows", "本窗口的全部快捷键";
+    About: "About", "关于";
+    AboutTip: "Version and licence", "版本与许可证";
+    TickAll: "Tick all", "全选";
+    TickAllTip: "Tick every controller shown", "勾选所有显示的控制器";
+    Search: "Search", "搜索";
+    SearchTip: "Search name, address, serial number and type", "按名称、地址、序列号和类型搜索";
+    TryVirtual: "Try it with virtual controllers", "使用虚拟控制器试用";
+    TryVirtualTip: "Start a few simulated controllers on this computer and add them to the list", "在本机启动几台模拟控制器并添加到列表";
+
+    // why something is disabled
+    WhyTick: "Tick at least one controller first", "请先勾选至少一台控制器";
+    WhyLater: "Comes in a later version", "将在后续版本中提供";
+    WhyEmpty: "The list is empty", "列表为空";
+    WhyVirtual: "Not available in this build", "此版本不可用";
+
+    // table
+    ColumnName: "Name", "名称";
+    ColumnType: "Controller type", "控制器类型";
+    ColumnAddress: "IP address", "IP 地址";
+    ColumnSerial: "Serial number", "序列号";
+    ColumnStatus: "Status", "状态";
+    ColumnExpiry: "Expiry", "有效期";
+    ColumnCertificate: "Certificate type", "认证类型";
+    ColumnActivation: "Activation", "激活";
+    ColumnRetrieved: "Retrieved at", "获取日期";
+    StatusRun: "Run", "运行";
+    StatusStop: "Stop", "停止";
+    StatusError: "Error", "错误";
+    Expired: "expired", "已过期";
+    ExpiresSoon: "expires soon", "即将到期";
+    TypeSelfSigned: "Self-signed", "自签名";
+    TypeUserSpecified: "User specified", "用户指定";
+    TypeCaSigned: "CA signed", "CA 签名";
+    Yes: "Yes", "是";
+    No: "No", "否";
+    NotRead: "Not read yet", "尚未获取";
+    NothingFound: "No controller matches the search", "没有匹配的控制器";
+    ClearSearch: "Clear search", "清除搜索";
+
+    // welcome
+    WelcomeTitle: "No controllers yet", "尚无控制器";
+    WelcomeText: "Add the controllers whose OPC UA servers you want to set up", "请添加要设置其 OPC UA 服务器的控制器";
+    WelcomeAdd: "Add a controller", "添加控制器";
+    WelcomeVirtualText: "No robot at hand? Simulated controllers run on this computer and behave like real ones", "手边没有机器人？模拟控制器在本机运行，行为与真实控制器一致";
+    StartingVirtual: "Starting virtual controllers…", "正在启动虚拟控制器…";
+
+    // dialogs: buttons and common words
+    Ok: "OK", "确定";
+    Cancel: "Cancel", "取消";
+    Close: "Close", "关闭";
+    Apply: "Apply", "应用";
+    Add: "Add", "添加";
+    Delete: "Delete", "删除";
+    Retry: "Try again", "重试";
+    On: "On", "开";
+    Off: "Off", "关";
+    Show: "Show", "显示";
+    Hide: "Hide", "隐藏";
+    Copy: "Copy", "复制";
+    Reading: "Reading…", "正在读取…";
+    Processing: "Processing…", "处理中...";
+    Cause: "Cause", "原因";
+    Remedy: "Remedy", "解决方法";
+    Detail: "Technical detail", "详细信息";
+    Controllers: "Controllers", "控制器";
+
+    // add controller
+    AddControllerTitle: "Add controller", "添加控制器";
+    Password: "Connection password", "连接密码";
+    PasswordHint: "Empty if none is set", "未设置时留空";
+    AddressHint: "192.168.0.1 or host:port", "192.168.0.1 或 主机：端口";
+    NameRule: "1 to 32 characters", "1 至 32 个字符";
+    NameTaken: "Another controller already has this name", "名称已被使用";
+    AddressTaken: "Another controller already has this address", "地址已被使用";
+    AddressRule: "Enter an IP address or a host name, with or without a port", "请输入 IP 地址或主机名，可带端口";
+    FingerprintTitle: "Is this your controller?", "这是您的控制器吗？";
+    FingerprintText: "Compare this fingerprint with the one the controller shows. It is checked at every connection from now on, so nobody can pose as this controller. The password is sent only after you agree.", "请与控制器上显示的指纹核对。此后每次连接都会检查该指纹，以防有人冒充控制器。确认后才会发送密码。";
+    FingerprintLabel: "Fingerprint (SHA-256)", "指纹 (SHA-256)";
+    FingerprintMatches: "It matches, add", "一致，添加";
+
+    // delete
+    DeleteTitle: "Delete controllers", "删除控制器";
+    DeleteText: "They are removed from the list with their connection passwords. Nothing is changed in the controllers, and saved files stay.", "将从列表中删除以下控制器及其连接密码。控制器本身不受影响，已保存的文件保留。";
+
+    // password
+    PasswordTitle: "Connection password needed", "需要连接密码";
+    PasswordText: "Enter the password for Ethernet connections that is set in these controllers", "请输入以下控制器中设置的以太网连接密码";
+    PasswordUse: "Use for these controllers", "用于以下控制器";
+
+    // confirmation
+    ConfirmStops: "The OPC UA server is stopped for the change, and started again if it was running. Connected clients are cut off.", "更改期间将停止 OPC UA 服务器，若之前正在运行，完成后会重新启动。已连接的客户端将断开。";
+    ConfirmStop: "The OPC UA server is stopped. Connected clients are cut off.", "将停止 OPC UA 服务器。已连接的客户端将断开。";
+    ConfirmReplaces: "The self-signed certificate in the controller is replaced. Clients have to trust the new one.", "将覆盖控制器中的自签名证书。客户端需要重新信任新证书。";
+    ConfirmBackup: "Backup files of the same name in the workspace are overwritten.", "工作区中的同名备份文件将被覆盖。";
+    ConfirmDeletesLog: "The server log in the controller is deleted.", "将删除控制器中的服务器日志。";
+
+    // processing
+    StateWaiting: "Waiting", "等待中";
+    StateDone: "Done", "完成";
+    StateFailed: "Failed", "失败";
+    StateNotStarted: "Not started", "未开始";
+    StepConnect: "Connecting", "正在连接";
+    StepRead: "Reading", "正在读取";
+    StepMakeKey: "Making key", "正在生成密钥";
+    StepApply: "Applying", "正在应用";
+    StepSaveBackup: "Saving backup", "正在保存备份";
+    Completed: "Completed", "处理完成";
+    Stopped: "Stopped", "已中止";
+    CancelAsk: "Stop after the step in hand? What is done stays done.", "是否在当前步骤完成后中止？已完成的处理将保留。";
+    CancelYes: "Stop", "中止";
+    CancelNo: "Go on", "继续";
+    Stopping: "Stopping after the step in hand…", "当前步骤完成后中止…";
+    EnterPassword: "Enter password…", "输入密码…";
+
+    // basic settings
+    SettingsTitle: "Basic settings", "基本设置";
+    SettingsMany: "The same settings go to all ticked controllers. The fields start from the defaults.", "相同的设置将应用到所有已勾选的控制器。各项从默认值开始。";
+    Port: "Port", "端口";
+    PortRule: "Enter a port from 1024 to 65535", "请输入 1024 至 65535 的端口号";
+    PortUsed: "Another function of the controller uses this port", "控制器的其他功能正在使用此端口";
+    StartupMode: "Server startup mode", "服务器启动模式";
+    StartupAutoTip: "The server starts when the controller is switched on", "打开控制器时启动服务器";
+    StartupManualTip: "The server starts when somebody presses Start", "按下[开始]时启动服务器";
+    SecurityPolicy: "Security policy", "安全策略";
+    NotEncrypted: "not encrypted", "未加密";
+    Deprecated: "deprecated", "已弃用";
+    PolicyRule: "Tick at least one security policy", "请至少勾选一种安全策略";
+    TokenPolicy: "User token policy", "用户令牌策略";
+    TokenAnonymous: "Anonymous", "匿名";
+    TokenUserName: "User name and password", "用户名和密码";
+    TokenRule: "Tick at least one user token policy", "请至少勾选一种用户令牌策略";
+    NoUsersWarning: "The controller has no users yet, so nobody can log in", "控制器尚无用户，将无法登录";
+    ServerLog: "Server log", "服务器日志";
+    LogPassword: "Password for the log", "日志密码";
+    LogPasswordTip: "The manual gives the password that allows the log to be switched on", "打开日志所需的密码见手册";
+    LogWarning: "The server stops by itself when the log reaches its size limit", "日志达到上限时服务器会自行停止";
+    DeleteLog: "Delete log", "删除日志";
+
+    // users
+    UsersTitle: "Users", "用户";
+    UsersNone: "No users yet", "尚无用户";
+    UserName: "User name", "用户名";
+    UserPassword: "Password", "密码";
+    UserRule: "8 to 32 letters A–Z, a–z and digits", "8 至 32 个半角字母或数字";
+    AddUser: "Add user…", "添加用户…";
+    AddUserTitle: "Add user", "添加用户";
+    AddUserMany: "The user is added to all ticked controllers", "该用户将添加到所有已勾选的控制器";
+    DeleteUsers: "Delete users", "删除用户";
+    UserExists: "A user of this name already exists", "用户名已存在";
+    UsersFull: "A controller takes at most 10 users", "每台控制器最多可注册 10 个用户";
+    TickUser: "Tick the users to delete first", "请先勾选要删除的用户";
+
+    // self-signed
+    SelfSignedTitle: "Self-signed certificate", "自签名证书";
+    CommonName: "Common name", "通用名";
+    CommonNameEach: "Made per controller", "按控制器自动生成";
+    CommonNameRule: "1 to 64 half-width characters", "1 至 64 个半角字符";
+    Country: "Country", "国家";
+    CountryNone: "(none)", "(无)";
+    CountrySearch: "Search country", "搜索国家";
+    State: "State", "州或省名称";
+    Locality: "Locality", "地区名称";
+    Organisation: "Organisation", "机构";
+    HalfWidthRule: "Half-width printable characters only", "仅限半角可打印字符";
+    LengthRule: "Too long", "过长";
+    KeyLength: "Key length", "密钥长度";
+    KeyLengthOne: "Offered are the lengths every ticked security policy allows", "仅列出所有已勾选安全策略都允许的长度";
+    KeyLengthMany: "Controllers whose security policies do not allow it refuse this length", "安全策略不允许该长度的控制器将拒绝";
+    Validity: "Validity (years)", "有效期(年)";
+    Optional: "optional", "可选";
+
+    // backup
+    BackupTitle: "Backup", "备份";
+    BackupOn: "Keep copies of certificates made here", "保留在此创建的证书副本";
+    BackupWhere: "Copies go to a folder per controller, named after its serial number", "副本按控制器序列号分文件夹保存";
+    BackupKeys: "Keys are kept only for firmware before 8.0.0, protected by the connection password. Later firmware makes its keys itself and never gives them away.", "仅保留固件 8.0.0 之前的密钥，并以连接密码保护。新版固件自行生成密钥，且密钥不会离开控制器。";
+
+    // options
+    OptionsTitle: "Options", "选项";
+    LanguageLabel: "Language", "语言";
+    ThemeLabel: "Theme", "主题";
+    ThemeSystem: "System", "跟随系统";
+    ThemeLight: "Light", "浅色";
+    ThemeDark: "Dark", "深色";
+    Parallelism: "Controllers at once", "同时处理数量";
+    ParallelismTip: "How many controllers a job works on at the same time, 1 to 64", "一次操作同时处理的控制器数量，1 至 64";
+
+    // help
+    AboutText: "Sets up the OPC UA servers inside robot controllers: settings, users and certificates", "设置机器人控制器内的 OPC UA 服务器：设置、用户和证书";
+    AboutLicence: "Licence: MIT or Apache 2.0. Chinese font: Noto Sans CJK, SIL Open Font License 1.1.", "许可证：MIT 或 Apache 2.0。中文字体：Noto Sans CJK，SIL Open Font License 1.1。";
+    WorkspaceLabel: "Workspace", "工作区";
+    KeyMove: "Move through the list", "在列表中移动";
+    KeyTick: "Tick or untick the row", "勾选或取消勾选该行";
+    KeyRange: "Tick a range of rows", "勾选连续多行";
+    KeyConfirm: "Confirm a dialog", "确认对话框";
+    KeyCancel: "Cancel a dialog", "取消对话框";
+    KeyArrows: "Up, Down", "上、下";
+    KeySpace: "Space", "空格";
+    KeyShiftClick: "Shift and click", "Shift+单击";
+    KeyEnter: "Enter", "Enter";
+    KeyEscape: "Esc", "Esc";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn english_follows_the_house_style() {
+        for key in TextKey::ALL {
+            let (en, zh) = (key.text(Language::En), key.text(Language::Zh));
+            assert!(!en.is_empty() && !zh.is_empty(), "{key:?}");
+            let sentences = en.matches(". ").count() + 1;
+            assert!(sentences > 1 || !en.ends_with('.') || en.ends_with("...") || en.len() > 40, "{key:?}: {en}");
+            assert!(!en.ends_with("..."), "{key:?}: use …");
+            assert!(!en.ends_with(':'), "{key:?}: no colon after a label");
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! Texts with something filled in.
+
+use chrono::{DateTime, FixedOffset, Local, Utc};
+
+use super::TextKey as T;
+use crate::jobs::{Step, Summary};
+use crate::model::{CertificateType, Language, ServerStatus};
+use crate::workspace::ThemeChoice;
+
+/// Where times are shown as of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Zone {
+    /// This computer's time zone.
+    #[default]
+    Local,
+    Fixed(FixedOffset),
+}
+
+impl Zone {
+    pub fn date(self, at: DateTime<Utc>) -> String {
+        self.format(at, "%Y-%m-%d")
+    }
+
+    pub fn date_time(self, at: DateTime<Utc>) -> String {
+        self.format(at, "%Y-%m-%d %H:%M")
+    }
+
+    fn format(self, at: DateTime<Utc>, pattern: &str) -> String {
+        match self {
+            Self::Local => at.with_timezone(&Local).format(pattern).to_string(),
+            Self::Fixed(offset) => at.with_timezone(&offset).format(pattern).to_string(),
+        }
+    }
+}
+
+fn s(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
+pub fn controllers(language: Language, count: usize) -> String {
+    match language {
+        Language::En => format!("{count} controller{}", s(count)),
+        Language::Zh => format!("{count} 台控制器"),
+    }
+}
+
+pub fn shown_of(language: Language, shown: usize, all: usize) -> String {
+    match language {
+        Language::En => format!("{shown} of {all} controllers"),
+        Language::Zh => format!("显示 {shown} / {all} 台控制器"),
+    }
+}
+
+pub fn ticked(language: Language, count: usize, hidden: usize) -> String {
+    match (language, hidden) {
+        (Language::En, 0) => format!("{count} ticked"),
+        (Language::En, _) => format!("{count} ticked, {hidden} of them hidden by the search"),
+        (Language::Zh, 0) => format!("已勾选 {count} 台"),
+        (Language::Zh, _) => format!("已勾选 {count} 台，其中 {hidden} 台未显示"),
+    }
+}
+
+pub fn expired(language: Language, count: usize) -> String {
+    match language {
+        Language::En => format!("{count} certificate{} expired", s(count)),
+        Language::Zh => format!("{count} 个证书已过期"),
+    }
+}
+
+pub fn expiring(language: Language, count: usize) -> String {
+    match language {
+        Language::En => format!("{count} certificate{} expire{} soon", s(count), if count == 1 { "s" } else { "" }),
+        Language::Zh => format!("{count} 个证书即将到期"),
+    }
+}
+
+pub fn days_left(language: Language, days: i64) -> String {
+    match language {
+        Language::En => format!("{days} day{} left", if days == 1 { "" } else { "s" }),
+        Language::Zh => format!("剩余 {days} 天"),
+    }
+}
+
+pub fn tick_row(language: Language, name: &str) -> String {
+    match language {
+        Language::En => format!("Tick {name}"),
+        Language::Zh => format!("勾选 {name}"),
+    }
+}
+
+pub fn sort_by(language: Language, column: T) -> String {
+    match language {
+        Language::En => format!("Sort by {}", column.text(language).to_lowercase()),
+        Language::Zh => format!("按{}排序", column.text(language)),
+    }
+}
+
+pub fn sorted_tip(language: Language) -> &'static str {
+    match language {
+        Language::En => "Click to sort, click again to turn the order round",
+        Language::Zh => "单击排序，再次单击反转顺序",
+    }
+}
+
+pub fn summary(language: Language, summary: Summary) -> String {
+    let Summary { done, failed, not_started } = summary;
+    let parts = match language {
+        Language::En => [(done, format!("{done} done")), (failed, format!("{failed} failed")), (not_started, format!("{not_started} not started"))],
+        Language::Zh => [(done, format!("完成 {done} 台")), (failed, format!("失败 {failed} 台")), (not_started, format!("未开始 {not_started} 台"))],
+    };
+    let said: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, text)| text).collect();
+    said.join(if language == Language::En { ", " } else { "，" })
+}
+
+/// What the status bar says after a job that needs no dialog.
+pub fn job_done(language: Language, title: T, count: usize) -> String {
+    let title = title.text(language).trim_end_matches('…');
+    match language {
+        Language::En => format!("{title}: {} done", controllers(language, count)),
+        Language::Zh => format!("{title}：{} 台控制器已完成", count),
+    }
+}
+
+pub fn added(language: Language, name: &str) -> String {
+    match language {
+        Language::En => format!("{name} was added"),
+        Language::Zh => format!("已添加 {name}"),
+    }
+}
+
+pub fn deleted(language: Language, count: usize) -> String {
+    match language {
+        Language::En => format!("{} deleted from the list", controllers(language, count)),
+        Language::Zh => format!("已从列表中删除 {count} 台控制器"),
+    }
+}
+
+pub fn user_count(language: Language, count: usize, most: usize) -> String {
+    match language {
+        Language::En => format!("{count} of at most {most} users"),
+        Language::Zh => format!("{count} 个用户，最多 {most} 个"),
+    }
+}
+
+pub fn version(language: Language, version: &str) -> String {
+    match language {
+        Language::En => format!("Version {version}"),
+        Language::Zh => format!("版本 {version}"),
+    }
+}
+
+pub fn bits(language: Language, bits: u16) -> String {
+    match language {
+        Language::En => format!("{bits} bits"),
+        Language::Zh => format!("{bits} 位"),
+    }
+}
+
+/// The title of a dialog about some controllers: "Basic settings – Weld 1".
+pub fn title_for(language: Language, title: T, names: &[String]) -> String {
+    let title = title.text(language);
+    match names {
+        [] => title.to_owned(),
+        [one] => format!("{title} – {one}"),
+        many => format!("{title} – {}", controllers(language, many.len())),
+    }
+}
+
+pub const fn status(status: ServerStatus) -> T {
+    match status {
+        ServerStatus::Run => T::StatusRun,
+        ServerStatus::Stop => T::StatusStop,
+        ServerStatus::Error => T::StatusError,
+    }
+}
+
+pub const fn certificate_type(kind: CertificateType) -> T {
+    match kind {
+        CertificateType::SelfSigned => T::TypeSelfSigned,
+        CertificateType::UserSpecified => T::TypeUserSpecified,
+        CertificateType::CaSigned => T::TypeCaSigned,
+    }
+}
+
+pub const fn step(step: Step) -> T {
+    match step {
+        Step::Connect => T::StepConnect,
+        Step::Read => T::StepRead,
+        Step::MakeKey => T::StepMakeKey,
+        Step::Apply => T::StepApply,
+        Step::SaveBackup => T::StepSaveBackup,
+    }
+}
+
+pub const fn theme(theme: ThemeChoice) -> T {
+    match theme {
+        ThemeChoice::System => T::ThemeSystem,
+        ThemeChoice::Light => T::ThemeLight,
+        ThemeChoice::Dark => T::ThemeDark,
+    }
+}

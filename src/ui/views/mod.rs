@@ -1,0 +1,29 @@
+//! The main window.
+
+mod main_menu;
+mod status_bar;
+mod table;
+mod toolbar;
+mod welcome;
+
+pub use toolbar::search_id;
+
+use egui::{CentralPanel, Frame, Panel, Ui};
+
+use super::model::{Message, Model};
+use super::theme::{self, palette};
+
+pub fn window(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
+    let palette = palette(ui);
+    let bar = |margin| Frame::new().fill(palette.panel).inner_margin(margin);
+    Panel::top("menu").frame(bar(theme::MENU_MARGIN)).show(ui, |ui| main_menu::show(ui, model, messages));
+    Panel::top("toolbar").frame(bar(theme::TOOLBAR_MARGIN)).show(ui, |ui| toolbar::show(ui, model, messages));
+    Panel::bottom("status").frame(bar(theme::STATUS_MARGIN)).show(ui, |ui| status_bar::show(ui, model));
+    CentralPanel::default().frame(Frame::new().fill(palette.background)).show(ui, |ui| {
+        if model.rows.is_empty() {
+            welcome::show(ui, model, messages);
+        } else {
+            table::show(ui, model, messages);
+        }
+    });
+}

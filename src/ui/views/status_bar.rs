@@ -1,0 +1,36 @@
+use egui::{Align, Layout, RichText, Ui};
+
+use crate::ui::model::Model;
+use crate::ui::texts::{self, TextKey as T};
+use crate::ui::theme::{self, palette};
+
+pub fn show(ui: &mut Ui, model: &Model) {
+    let (language, rows, palette) = (model.language, &model.rows, palette(ui));
+    let small = |text: String| RichText::new(text).size(theme::SMALL_TEXT);
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = theme::SPACE_LARGE;
+        ui.spacing_mut().interact_size.y = theme::CHIP_HEIGHT;
+        let all = rows.all().len();
+        let count = match rows.shown() {
+            shown if shown == all => texts::controllers(language, all),
+            shown => texts::shown_of(language, shown, all),
+        };
+        ui.label(small(count).color(palette.weak));
+        if rows.ticked_count() > 0 {
+            ui.label(small(texts::ticked(language, rows.ticked_count(), rows.ticked_hidden())).color(palette.text));
+        }
+        if rows.expired_count() > 0 {
+            ui.label(small(texts::expired(language, rows.expired_count())).color(palette.error));
+        }
+        if rows.expiring_count() > 0 {
+            ui.label(small(texts::expiring(language, rows.expiring_count())).color(palette.warning));
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if model.virtual_starting {
+                ui.label(small(T::StartingVirtual.text(language).to_owned()));
+            } else if let Some(status) = &model.status {
+                ui.add(egui::Label::new(small(status.clone())).truncate());
+            }
+        });
+    });
+}

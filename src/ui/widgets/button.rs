@@ -1,0 +1,48 @@
+use egui::{Button, Response, RichText, Stroke, Ui};
+
+use crate::ui::command::UiCommand;
+use crate::ui::model::{Message, Model};
+use crate::ui::theme::palette;
+
+/// The one filled button of a window or dialog.
+pub fn primary<'a>(ui: &Ui, text: &str) -> Button<'a> {
+    let palette = palette(ui);
+    Button::new(RichText::new(text).color(palette.on_accent).strong()).fill(palette.accent).stroke(Stroke::NONE)
+}
+
+/// A command as a button.
+pub fn command_button(ui: &mut Ui, command: UiCommand, accent: bool, model: &Model, messages: &mut Vec<Message>) {
+    let text = command.text().text(model.language);
+    let why = command.why_disabled(model);
+    // A disabled accent button would still look like the thing to press.
+    let button = if accent && why.is_none() { primary(ui, text) } else { Button::new(text) };
+    answer(ui, command, button, model, messages);
+}
+
+/// A command as an item of a menu.
+pub fn command_item(ui: &mut Ui, command: UiCommand, model: &Model, messages: &mut Vec<Message>) {
+    let mut button = Button::new(command.text().text(model.language));
+    if let Some(shortcut) = command.shortcut() {
+        button = button.shortcut_text(ui.ctx().format_shortcut(&shortcut));
+    }
+    answer(ui, command, button, model, messages);
+}
+
+fn answer(ui: &mut Ui, command: UiCommand, button: Button<'_>, model: &Model, messages: &mut Vec<Message>) -> Response {
+    let why = command.why_disabled(model);
+    let response = ui.add_enabled(why.is_none(), button);
+    let tooltip = command.tooltip().text(model.language);
+    let response = match (why, command.shortcut()) {
+        (Some(why), _) => response.on_disabled_hover_text(why.text(model.language)),
+        (None, Some(shortcut)) => {
+            response.on_hover_ui(|ui| {
+                ui.label(format!("{tooltip} ({})", ui.ctx().format_shortcut(&shortcut)));
+            })
+        }
+        (None, None) => response.on_hover_text(tooltip),
+    };
+    if response.clicked() {
+        messages.push(Message::Invoke(command));
+    }
+    response
+}

@@ -1,0 +1,66 @@
+use egui::{Grid, Response, RichText, TextEdit, Ui, vec2};
+
+use crate::model::Language;
+use crate::ui::texts::TextKey as T;
+use crate::ui::theme::{self, palette};
+
+/// A form: labels on the left, fields on the right. Each row is made by [`labelled`].
+pub fn form(ui: &mut Ui, id: &str, rows: impl FnOnce(&mut Ui)) {
+    Grid::new(id).num_columns(2).spacing(vec2(12.0, 10.0)).min_col_width(theme::LABEL_WIDTH).show(ui, rows);
+}
+
+/// One row of a form. The label names the field for screen readers.
+pub fn labelled(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui) -> Option<Response>) {
+    let label = ui
+        .with_layout(egui::Layout::left_to_right(egui::Align::TOP), |ui| {
+            ui.add_space(0.0);
+            ui.vertical(|ui| {
+                ui.add_space(5.0);
+                ui.label(label)
+            })
+            .inner
+        })
+        .inner;
+    ui.vertical(|ui| {
+        ui.set_width(ui.available_width());
+        if let Some(response) = field(ui) {
+            response.labelled_by(label.id);
+        }
+    });
+    ui.end_row();
+}
+
+/// A text field over the whole width.
+pub fn text_field(ui: &mut Ui, text: &mut String, hint: &str) -> Response {
+    let width = ui.available_width();
+    ui.add(TextEdit::singleline(text).hint_text(hint.to_owned()).desired_width(width).margin(theme::SEARCH_MARGIN))
+}
+
+/// A masked field with a button that shows what is typed.
+pub fn secret_field(ui: &mut Ui, text: &mut String, shown: &mut bool, hint: &str, language: Language) -> Response {
+    ui.horizontal(|ui| {
+        let word = if *shown { T::Hide } else { T::Show }.text(language);
+        let room = 76.0;
+        let edit = TextEdit::singleline(text)
+            .password(!*shown)
+            .hint_text(hint.to_owned())
+            .desired_width(ui.available_width() - room)
+            .margin(theme::SEARCH_MARGIN);
+        let response = ui.add(edit);
+        if ui.add(egui::Button::new(word).min_size(vec2(room - theme::SPACE, theme::BUTTON_HEIGHT))).clicked() {
+            *shown = !*shown;
+        }
+        response
+    })
+    .inner
+}
+
+/// What is wrong with the field above.
+pub fn mistake(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).size(theme::SMALL_TEXT).color(palette(ui).error));
+}
+
+/// An explanation under a field.
+pub fn fine_print(ui: &mut Ui, text: &str) {
+    ui.add(egui::Label::new(RichText::new(text).size(theme::SMALL_TEXT).color(palette(ui).weak)).wrap());
+}

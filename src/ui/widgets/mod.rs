@@ -1,0 +1,11 @@
+//! Small things the views and dialogs are made of.
+
+mod button;
+mod chip;
+mod dialog;
+mod field;
+
+pub use button::{command_button, command_item, primary};
+pub use chip::{chip, word};
+pub use dialog::{Answer, Buttons, dialog, note};
+pub use field::{fine_print, form, labelled, mistake, secret_field, text_field};

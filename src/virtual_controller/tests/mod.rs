@@ -1,0 +1,9 @@
+//! Stories about whole controllers, told over their management protocol.
+
+mod bench;
+mod changes;
+mod crowd;
+mod persistence;
+mod sessions;
+mod starting;
+mod whole_or_nothing;

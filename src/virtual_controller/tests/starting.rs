@@ -1,0 +1,76 @@
+use serde_json::json;
+
+use super::bench::{Bench, CURRENT, LEGACY, bounded, code, initial, with_certificate};
+use crate::model::{ErrorCode, ServerStatus, StartupMode};
+use crate::protocol::{self, Changed};
+use crate::virtual_controller::NewController;
+
+async fn refuses_to_start(new: NewController, expected: ErrorCode) -> Bench {
+    let bench = Bench::new(new).await;
+    let client = bench.client().await;
+    assert_eq!(bench.status(), (ServerStatus::Stop, None));
+    assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), expected);
+    assert_eq!(bench.status(), (ServerStatus::Error, Some(expected)));
+    let stopped: Changed = client.post(protocol::SERVER_STOP, &()).await.unwrap();
+    assert_eq!(stopped, Changed { revision: 1, status: ServerStatus::Stop });
+    assert_eq!(bench.status(), (ServerStatus::Stop, None));
+    bench
+}
+
+#[tokio::test]
+async fn each_reason_not_to_start_has_its_code() {
+    bounded(async {
+        let mut without_licence = initial(LEGACY);
+        without_licence.activated = false;
+        refuses_to_start(without_licence, ErrorCode::NotActivated).await;
+        refuses_to_start(initial(LEGACY), ErrorCode::NoCertificate).await;
+        let mut conflict = with_certificate(initial(CURRENT));
+        conflict.used_ports.push(conflict.settings.port.get());
+        refuses_to_start(conflict, ErrorCode::PortConflict).await;
+        let occupied = with_certificate(initial(CURRENT));
+        let blocker = std::net::TcpListener::bind(("127.0.0.1", occupied.settings.port.get())).unwrap();
+        refuses_to_start(occupied, ErrorCode::PortConflict).await;
+        drop(blocker);
+    })
+    .await;
+}
+
+#[tokio::test]
+async fn an_error_lasts_until_a_start_succeeds() {
+    bounded(async {
+        let bench = Bench::new(with_certificate(initial(CURRENT))).await;
+        let client = bench.client().await;
+        bench.controller.faults().update(|switches| switches.server_error = true);
+        assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), ErrorCode::ServerError);
+        let body = json!({ "revision": 1, "name": "operator1", "password": "Passw0rd" });
+        let changed: Changed = client.post(protocol::USERS, &body).await.unwrap();
+        assert_eq!(changed, Changed { revision: 2, status: ServerStatus::Error });
+        bench.controller.faults().update(|switches| switches.server_error = false);
+        for _ in 0..2 {
+            let started: Changed = client.post(protocol::SERVER_START, &()).await.unwrap();
+            assert_eq!(started, Changed { revision: 2, status: ServerStatus::Run });
+        }
+        assert!(bench.answers());
+        let stopped: Changed = client.post(protocol::SERVER_STOP, &()).await.unwrap();
+        assert_eq!(stopped.status, ServerStatus::Stop);
+        assert!(!bench.answers());
+    })
+    .await;
+}
+
+#[tokio::test]
+async fn startup_auto_starts_with_the_controller_or_says_why_not() {
+    bounded(async {
+        let mut good = with_certificate(initial(CURRENT));
+        good.settings.startup = StartupMode::Auto;
+        let bench = Bench::new(good).await;
+        assert_eq!(bench.status(), (ServerStatus::Run, None));
+        assert!(bench.answers());
+        let mut bare = initial(CURRENT);
+        bare.settings.startup = StartupMode::Auto;
+        let bench = Bench::new(bare).await;
+        assert_eq!(bench.status(), (ServerStatus::Error, Some(ErrorCode::NoCertificate)));
+        bench.client().await.hello().await;
+    })
+    .await;
+}
