@@ -4,18 +4,26 @@
 mod plant;
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
+use async_trait::async_trait;
 use opcua_configurator::jobs::{
-    AddUser, GetInfo, JobEvent, ListUsers, Outcome, RemoveUsers, Report, SelfSigned, SelfSignedFields, SetSettings,
+    AddUser, GetInfo, JobContext, JobController, JobEvent, ListUsers, Outcome, RemoveUsers, Report, SelfSigned, SelfSignedFields, SetSettings,
     SettingsChange, StartServer, Step, StopServer, Summary,
 };
 use opcua_configurator::model::{
-    Credential, ErrorCode, KeyLength, SecurityPolicy, ServerStatus, UserPassword, UserTokenPolicy, Validity,
+    Address, ClientList, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, SecurityPolicy, ServerSettings, ServerStatus, UserName, UserPassword, UserTokenPolicy, Validity,
 };
+use opcua_configurator::pki::Fingerprint;
+use opcua_configurator::protocol::{self, Changed, Installed, ListedCertificate, Revisioned};
+use opcua_configurator::session::{Connector, ControllerSession};
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
-use opcua_configurator::workspace::{Passwords as _, Workspace};
+use opcua_configurator::workspace::{MemoryPasswords, Passwords, Workspace};
+use parking_lot::Mutex;
 use plant::Plant;
+use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
 fn user(name: &str) -> AddUser {
@@ -261,4 +269,164 @@ async fn a_backup_that_cannot_be_written_stops_before_the_controller_is_changed(
     let reports = plant.run(SelfSigned { backup: Some(files), ..certificate() }).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::WorkspaceReadOnly)]);
     assert_eq!(plant.controller(0).info().revision, before);
+}
+
+/// Stands in for every controller: sessions whose information and goodbye the test decides.
+struct Stand {
+    info: Result<ControllerInfo, Problem>,
+    /// Addresses in the order in which they were connected to.
+    met: Arc<Mutex<Vec<String>>>,
+    /// A goodbye waits until so many controllers were met.
+    goodbye_after: usize,
+    closing: Arc<AtomicUsize>,
+    most_closing: Arc<AtomicUsize>,
+}
+
+impl Stand {
+    fn new(info: Result<ControllerInfo, Problem>) -> Self {
+        let (met, closing, most_closing) = Default::default();
+        Self { info, met, goodbye_after: 0, closing, most_closing }
+    }
+
+    fn context(self: &Arc<Self>, parallelism: usize) -> JobContext {
+        let passwords = MemoryPasswords::default();
+        passwords.set(plant::nobody(), "".into()).unwrap();
+        JobContext::new(Arc::new(StandIn(self.clone())), Arc::new(passwords), parallelism)
+    }
+}
+
+/// `count` controllers at 10.0.0.1, 10.0.0.2, …
+fn crowd(count: usize) -> Vec<JobController> {
+    let nth = |n| JobController {
+        name: format!("cell {n}").parse().unwrap(),
+        address: format!("10.0.0.{n}").parse().unwrap(),
+        fingerprint: Some(plant::nobody()),
+        known: None,
+    };
+    (1..=count).map(nth).collect()
+}
+
+/// As the connector and as a session.
+struct StandIn(Arc<Stand>);
+
+#[async_trait]
+impl Connector for StandIn {
+    async fn probe(&self, _: &Address) -> Result<Fingerprint, Problem> {
+        unimplemented!()
+    }
+
+    async fn connect(
+        &self,
+        address: &Address,
+        _: Fingerprint,
+        _: &SecretString,
+    ) -> Result<Box<dyn ControllerSession>, Problem> {
+        self.0.met.lock().push(address.to_string());
+        Ok(Box::new(StandIn(self.0.clone())))
+    }
+}
+
+#[async_trait]
+impl ControllerSession for StandIn {
+    async fn info(&mut self) -> Result<ControllerInfo, Problem> {
+        self.0.info.clone()
+    }
+
+    async fn close(&mut self) {
+        let closing = self.0.closing.fetch_add(1, Ordering::SeqCst) + 1;
+        self.0.most_closing.fetch_max(closing, Ordering::SeqCst);
+        while self.0.met.lock().len() < self.0.goodbye_after {
+            tokio::time::sleep(Duration::from_millis(1)).await;
+        }
+        tokio::time::sleep(Duration::from_millis(5)).await;
+        self.0.closing.fetch_sub(1, Ordering::SeqCst);
+    }
+
+    async fn start_server(&mut self) -> Result<Changed, Problem> {
+        unimplemented!()
+    }
+    async fn stop_server(&mut self) -> Result<Changed, Problem> {
+        unimplemented!()
+    }
+    async fn settings(&mut self) -> Result<Revisioned<ServerSettings>, Problem> {
+        unimplemented!()
+    }
+    async fn set_settings(&mut self, _: protocol::SetSettings) -> Result<Changed, Problem> {
+        unimplemented!()
+    }
+    async fn users(&mut self) -> Result<Revisioned<Vec<UserName>>, Problem> {
+        unimplemented!()
+    }
+    async fn add_user(&mut self, _: protocol::AddUser) -> Result<Changed, Problem> {
+        unimplemented!()
+    }
+    async fn remove_users(&mut self, _: protocol::RemoveUsers) -> Result<Changed, Problem> {
+        unimplemented!()
+    }
+    async fn make_self_signed(&mut self, _: protocol::MakeSelfSigned) -> Result<Installed, Problem> {
+        unimplemented!()
+    }
+    async fn import_certificate(&mut self, _: protocol::ImportCertificate) -> Result<Installed, Problem> {
+        unimplemented!()
+    }
+    async fn clients(&mut self, _: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
+        unimplemented!()
+    }
+    async fn add_clients(&mut self, _: ClientList, _: protocol::AddClients) -> Result<Changed, Problem> {
+        unimplemented!()
+    }
+}
+
+async fn some_info() -> ControllerInfo {
+    Plant::start(1, FleetFirmware::Current).await.controller(0).info()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn controllers_have_their_turns_in_list_order() {
+    let stand = Arc::new(Stand::new(Ok(some_info().await)));
+    let (_, summary) = plant::run(crowd(200), GetInfo, stand.context(1), CancellationToken::new(), |_| {}).await;
+    assert_eq!(summary.done, 200);
+    let in_order: Vec<String> = crowd(200).iter().map(|c| c.address.to_string()).collect();
+    assert_eq!(*stand.met.lock(), in_order);
+}
+
+/// What went wrong is said, not merely that something did.
+#[tokio::test]
+async fn information_that_cannot_be_read_is_explained() {
+    for problem in [ErrorCode::Timeout.into(), Problem::with_detail(ErrorCode::NotAController, "line 1")] {
+        let stand = Arc::new(Stand::new(Err(problem.clone())));
+        let (reports, _) = plant::run(crowd(1), GetInfo, stand.context(16), CancellationToken::new(), |_| {}).await;
+        assert_eq!(reports[0].result, Err(problem));
+    }
+}
+
+/// Asks the user to unlock it, and the user has gone home.
+struct LockedKeyring(Mutex<std::sync::mpsc::Receiver<()>>);
+
+impl Passwords for LockedKeyring {
+    fn get(&self, _: Fingerprint) -> Option<SecretString> {
+        let _gone = self.0.lock().recv();
+        None
+    }
+    fn set(&self, _: Fingerprint, _: SecretString) -> Result<(), Problem> {
+        unimplemented!()
+    }
+    fn forget(&self, _: Fingerprint) {}
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_cancel_does_not_wait_for_a_locked_keyring() {
+    let (home, keyring) = std::sync::mpsc::channel();
+    let stand = Arc::new(Stand::new(Err(ErrorCode::Internal.into())));
+    let context = JobContext::new(Arc::new(StandIn(stand)), Arc::new(LockedKeyring(Mutex::new(keyring))), 16);
+    let cancel = CancellationToken::new();
+    let stop = cancel.clone();
+    tokio::spawn(async move {
+        tokio::time::sleep(Duration::from_millis(50)).await;
+        stop.cancel();
+    });
+    let job = plant::run(crowd(3), GetInfo, context, cancel, |_| {});
+    let (_, summary) = tokio::time::timeout(Duration::from_secs(20), job).await.expect("cancelled");
+    assert_eq!(summary, Summary { not_started: 3, ..Summary::default() });
+    drop(home);
 }

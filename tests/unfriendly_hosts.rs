@@ -38,6 +38,12 @@ async fn probe(address: &Address) -> ErrorCode {
 
 /// An HTTPS server that answers every request with the same bytes.
 async fn https(answer: Vec<u8>) -> (Address, TlsIdentity) {
+    https_in_turn(vec![answer]).await
+}
+
+/// An HTTPS server that answers one connection with the first bytes, the next with the second, and so on; the last
+/// are for all that follow.
+async fn https_in_turn(answers: Vec<Vec<u8>>) -> (Address, TlsIdentity) {
     let identity = tls_identity("not a controller", chrono::Utc::now()).unwrap();
     let key = PrivateKeyDer::Pkcs8(PrivatePkcs8KeyDer::from(identity.private_key_pkcs8.to_vec()));
     let provider = Arc::new(rustls::crypto::aws_lc_rs::default_provider());
@@ -50,8 +56,10 @@ async fn https(answer: Vec<u8>) -> (Address, TlsIdentity) {
     let acceptor = tokio_rustls::TlsAcceptor::from(Arc::new(config));
     let (listener, address) = listener().await;
     tokio::spawn(async move {
+        let last = answers.last().cloned().unwrap_or_default();
+        let mut answers = answers.into_iter();
         while let Ok((stream, _)) = listener.accept().await {
-            let (acceptor, answer) = (acceptor.clone(), answer.clone());
+            let (acceptor, answer) = (acceptor.clone(), answers.next().unwrap_or_else(|| last.clone()));
             tokio::spawn(async move {
                 let mut stream = acceptor.accept(stream).await?;
                 let mut request = [0; 4096];
@@ -67,7 +75,12 @@ async fn https(answer: Vec<u8>) -> (Address, TlsIdentity) {
 }
 
 fn http(body: &str) -> Vec<u8> {
-    format!("HTTP/1.1 200 OK\r\ncontent-type: application/json\r\ncontent-length: {}\r\n\r\n{body}", body.len()).into()
+    http_with("200 OK", body)
+}
+
+fn http_with(status: &str, body: &str) -> Vec<u8> {
+    let length = body.len();
+    format!("HTTP/1.1 {status}\r\nconnection: close\r\ncontent-length: {length}\r\n\r\n{body}").into()
 }
 
 #[tokio::test]
@@ -129,6 +142,47 @@ async fn another_https_server() {
     }
     let (address, _) = https(b"SSH-2.0-OpenSSH\r\n".to_vec()).await;
     assert_eq!(probe(&address).await, ErrorCode::NotAController);
+}
+
+#[tokio::test]
+async fn a_web_server_without_the_controllers_page() {
+    for body in ["<html>no such page</html>", r#"{"error":"not found"}"#, ""] {
+        let (address, _) = https(http_with("404 Not Found", body)).await;
+        assert_eq!(probe(&address).await, ErrorCode::NotAController, "{body}");
+    }
+}
+
+/// A code of a newer controller is still a refusal; one that only the PC can know is not believed.
+#[tokio::test]
+async fn a_failure_with_a_strange_code() {
+    for code in ["out-of-coffee", "cancelled", "timeout"] {
+        let failure = format!(r#"{{"code":"{code}","message":"not \u001b[31mtoday"}}"#);
+        let (address, identity) = https(http_with("400 Bad Request", &failure)).await;
+        let refused = connector().connect(&address, identity.fingerprint(), &SecretString::from("")).await;
+        let problem = refused.err().expect("refused");
+        assert_eq!(problem.code, ErrorCode::Refused);
+        assert_eq!(problem.detail, Some(format!("{code}: not  [31mtoday")));
+    }
+}
+
+/// It would be kept for every controller of the plant, and fill the configuration until that cannot be read again.
+#[tokio::test]
+async fn information_without_end_is_not_taken() {
+    for (length, taken) in [(32, true), (1_000_000, false)] {
+        let info = format!(
+            r#"{{"name":"{}","serial":"RC80010001","series":"RC800","firmware":"8.0.0","status":"Stop","error":null,
+            "activated":true,"certificate":null,"application_name":"a","endpoint":"opc.tcp://127.0.0.1:4840",
+            "used_ports":[],"limits":{{"trusted":1,"issuers":1,"crls":0}},"clock":"2026-01-01T00:00:00Z","revision":1}}"#,
+            "x".repeat(length)
+        );
+        let (address, identity) = https_in_turn(vec![http(r#"{"token":"t","idle_secs":300}"#), http(&info)]).await;
+        let session = connector().connect(&address, identity.fingerprint(), &SecretString::from("")).await;
+        let info = session.ok().expect("logged in").info().await;
+        match info {
+            Ok(info) => assert!(taken && info.name.len() == length),
+            Err(problem) => assert!(!taken && problem.code == ErrorCode::NotAController, "{problem}"),
+        }
+    }
 }
 
 #[tokio::test]

@@ -25,6 +25,9 @@ pub struct Shown {
     pub cells: Vec<String>,
 }
 
+/// What a shell makes of a program that Ctrl-C ended.
+const INTERRUPTED: i32 = 130;
+
 /// How an operation's outcomes are shown.
 pub struct Presentation {
     /// Column headings after `NAME`.
@@ -107,20 +110,26 @@ impl Settled {
                 slots.lock()[index] = Some(*report);
             }
         };
-        runtime()?.block_on(async {
+        let runtime = runtime()?;
+        runtime.block_on(async {
             let cancel = CancellationToken::new();
             let on_interrupt = {
                 let cancel = cancel.clone();
                 tokio::spawn(async move {
                     if tokio::signal::ctrl_c().await.is_ok() {
-                        eprintln!("Stopping after the step in hand…");
+                        eprintln!("Stopping after the step in hand; press Ctrl-C again to leave it unfinished…");
                         cancel.cancel();
+                    }
+                    if tokio::signal::ctrl_c().await.is_ok() {
+                        std::process::exit(INTERRUPTED);
                     }
                 })
             };
             jobs::run(controllers, operation, context, cancel, on_event).await;
             on_interrupt.abort();
         });
+        // What was given up may still hold a thread: a keyring that asks for its password, a name that is looked up.
+        runtime.shutdown_background();
         progress.finish_and_clear();
         let mut slots = slots.lock();
         Ok(slots.drain(..).flatten().collect())

@@ -1,16 +1,21 @@
 use unicode_width::UnicodeWidthStr as _;
 
 /// A plain table for a terminal: columns padded to their widest cell, two blanks apart. Chinese counts double.
+///
+/// Names in certificates and the like come from strangers: control characters, which a terminal would obey, are shown
+/// as `�`.
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+    let harmless = |cell: &String| cell.replace(char::is_control, "�");
+    let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(harmless).collect()).collect();
     let mut widths: Vec<usize> = header.iter().map(|h| h.width()).collect();
-    for row in rows {
+    for row in &rows {
         for (width, cell) in widths.iter_mut().zip(row) {
             *width = (*width).max(cell.width());
         }
     }
     let mut out = String::new();
     let header: Vec<String> = header.iter().map(ToString::to_string).collect();
-    for row in std::iter::once(&header).chain(rows) {
+    for row in std::iter::once(&header).chain(&rows) {
         let mut line = String::new();
         for (width, cell) in widths.iter().zip(row) {
             line.push_str(cell);
@@ -30,5 +35,10 @@ mod tests {
     fn columns_line_up_in_chinese_too() {
         let text = table(&["NAME", "STATUS"], &[vec!["焊接".into(), "Run".into()], vec!["a".into(), "Stop".into()]]);
         assert_eq!(text, "NAME  STATUS\n焊接  Run\na     Stop\n");
+    }
+
+    #[test]
+    fn a_cell_cannot_command_the_terminal() {
+        assert_eq!(table(&["NAME", "BY"], &[vec!["\u{1b}[2J".into(), "a\nb".into()]]), "NAME  BY\n�[2J  a�b\n");
     }
 }

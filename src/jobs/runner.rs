@@ -111,42 +111,40 @@ pub async fn run(
     on_event: impl Fn(JobEvent) + Send + Sync + 'static,
 ) -> Summary {
     let on_event = Arc::new(on_event);
-    let turns = Arc::new(Semaphore::new(context.parallelism));
-    let mut tasks = JoinSet::new();
-    let mut index_of = HashMap::new();
-    for (index, controller) in controllers.into_iter().enumerate() {
-        let (operation, context, cancel) = (operation.clone(), context.clone(), cancel.clone());
-        let (turns, on_event) = (turns.clone(), on_event.clone());
-        let task = tasks.spawn(async move {
-            let _turn = tokio::select! {
-                biased;
-                () = cancel.cancelled() => return not_started(),
-                turn = turns.acquire() => turn,
-            };
-            let on_step = |step| on_event(JobEvent::Step { index, step });
-            one(&controller, operation.as_ref(), &context, &cancel, &on_step).await
-        });
-        index_of.insert(task.id(), index);
-    }
+    let at_once = context.parallelism.max(1);
     let mut summary = Summary::default();
-    while let Some(joined) = tasks.join_next_with_id().await {
-        let (id, report) = match joined {
-            Ok((id, report)) => (id, report),
-            Err(e) => {
-                let problem = Problem::with_detail(ErrorCode::Internal, &e);
-                (e.id(), Report { result: Err(problem), info: None })
-            }
+    let mut waiting = controllers.into_iter().enumerate();
+    let mut turns = JoinSet::new();
+    let mut index_of = HashMap::new();
+    loop {
+        while turns.len() < at_once
+            && let Some((index, controller)) = waiting.next()
+        {
+            let (operation, context, cancel) = (operation.clone(), context.clone(), cancel.clone());
+            let on_event = on_event.clone();
+            let turn = turns.spawn(async move {
+                let on_step = |step| on_event(JobEvent::Step { index, step });
+                one(&controller, operation.as_ref(), &context, &cancel, &on_step).await
+            });
+            index_of.insert(turn.id(), index);
+        }
+        let (id, report) = match turns.join_next_with_id().await {
+            None => break,
+            Some(Ok((id, report))) => (id, report),
+            Some(Err(e)) => (e.id(), Report::failed(Problem::with_detail(ErrorCode::Internal, &e))),
         };
         summary.add(&report.result);
-        if let Some(index) = index_of.get(&id) {
-            on_event(JobEvent::Finished { index: *index, report: Box::new(report) });
+        if let Some(index) = index_of.remove(&id) {
+            on_event(JobEvent::Finished { index, report: Box::new(report) });
         }
     }
     summary
 }
 
-fn not_started() -> Report {
-    Report { result: Err(ErrorCode::Cancelled.into()), info: None }
+impl Report {
+    fn failed(problem: Problem) -> Self {
+        Self { result: Err(problem), info: None }
+    }
 }
 
 async fn one(
@@ -156,27 +154,31 @@ async fn one(
     cancel: &CancellationToken,
     on_step: &(dyn Fn(Step) + Send + Sync),
 ) -> Report {
-    let failed = |problem| Report { result: Err(problem), info: None };
+    if cancel.is_cancelled() {
+        return Report::failed(ErrorCode::Cancelled.into());
+    }
     if let Err(problem) = operation.check(controller) {
-        return failed(problem);
+        return Report::failed(problem);
     }
     let Some(fingerprint) = controller.fingerprint else {
-        return failed(ErrorCode::FingerprintUnknown.into());
+        return Report::failed(ErrorCode::FingerprintUnknown.into());
     };
-    let password = match context.password(fingerprint).await {
-        Ok(password) => password,
-        Err(problem) => return failed(problem),
+    let open = async {
+        let password = context.password(fingerprint).await?;
+        on_step(Step::Connect);
+        let session = context.connector.connect(&controller.address, fingerprint, &password).await?;
+        Ok((password, session))
     };
-    on_step(Step::Connect);
-    // Nothing has been changed yet, so a cancel need not wait for a controller that does not answer.
-    let connected = tokio::select! {
+    // Nothing has been changed yet, so a cancel waits neither for a keyring that asks nor for a controller that does
+    // not answer.
+    let opened = tokio::select! {
         biased;
-        () = cancel.cancelled() => return not_started(),
-        connected = context.connector.connect(&controller.address, fingerprint, &password) => connected,
+        () = cancel.cancelled() => Err(ErrorCode::Cancelled.into()),
+        opened = open => opened,
     };
-    let mut session = match connected {
-        Ok(session) => session,
-        Err(problem) => return failed(problem),
+    let (password, mut session) = match opened {
+        Ok(opened) => opened,
+        Err(problem) => return Report::failed(problem),
     };
     let result = operation
         .run(&mut Run {
@@ -189,11 +191,15 @@ async fn one(
         })
         .await;
     // Also after a failure: the row must show what the controller is like now.
-    let reachable = !matches!(&result, Err(p) if matches!(p.code, ErrorCode::Timeout | ErrorCode::Unreachable));
-    let info = if reachable { session.info().await.ok() } else { None };
+    let report = match result {
+        Err(problem) if matches!(problem.code, ErrorCode::Timeout | ErrorCode::Unreachable) => {
+            Report { result: Err(problem), info: None }
+        }
+        result => match (result, session.info().await) {
+            (Ok(_), Err(problem)) => Report { result: Err(problem), info: None },
+            (result, info) => Report { result, info: info.ok() },
+        },
+    };
     session.close().await;
-    match (result, info) {
-        (Ok(_), None) => failed(ErrorCode::ConnectionLost.into()),
-        (result, info) => Report { result, info },
-    }
+    report
 }

@@ -62,7 +62,23 @@ pub struct ControllerInfo {
 }
 
 impl ControllerInfo {
+    /// The longest of the controller's texts that is taken, in bytes. None of the manual's comes near it.
+    pub const MAX_TEXT: usize = 1024;
+    /// The most used ports that are taken.
+    pub const MAX_USED_PORTS: usize = 1024;
+
     pub fn generation(&self) -> FirmwareGeneration {
         self.firmware.generation()
+    }
+
+    /// Whether this is small enough to be kept for every controller of a plant.
+    pub fn is_small(&self) -> bool {
+        let certificate = self.certificate.as_ref().map(|certificate| &certificate.summary);
+        let own = [&self.name, &self.application_name, &self.endpoint];
+        let certificates = certificate.into_iter().flat_map(|c| {
+            [&c.issued_to, &c.issued_by, &c.serial_number, &c.thumbprint].into_iter().chain(&c.application_uri)
+        });
+        own.into_iter().chain(certificates).all(|text| text.len() <= Self::MAX_TEXT)
+            && self.used_ports.len() <= Self::MAX_USED_PORTS
     }
 }

@@ -103,6 +103,34 @@ impl ErrorCode {
         }
     }
 
+    /// Whether a controller may give this code. The others are the PC's own findings.
+    pub const fn is_a_controllers(self) -> bool {
+        use ErrorCode::*;
+        !matches!(
+            self,
+            Unreachable
+                | Timeout
+                | ConnectionLost
+                | NotAController
+                | ProtocolVersion
+                | FingerprintChanged
+                | FingerprintUnknown
+                | PasswordMissing
+                | BadFingerprint
+                | NameTaken
+                | AddressTaken
+                | UnknownController
+                | FileUnreadable
+                | NotConfirmed
+                | WorkspaceReadOnly
+                | WorkspaceFull
+                | WorkspaceBusy
+                | ConfigurationDamaged
+                | KeyringUnavailable
+                | Cancelled
+        )
+    }
+
     pub fn explain(self, language: Language) -> Explanation {
         let entry = REGISTRY.iter().find(|entry| entry.0 == self).expect("the registry test covers every code");
         match language {
@@ -114,7 +142,8 @@ impl ErrorCode {
 
 /// One failure, as it is shown, logged and sent: a code and, where it helps, one technical detail.
 ///
-/// The detail is free text in English and never holds a secret.
+/// The detail is free text in English and never holds a secret. Whoever it came from, it is one line that fits on a
+/// screen.
 #[derive(Debug, Clone, PartialEq, Eq, Error, Serialize, Deserialize)]
 pub struct Problem {
     pub code: ErrorCode,
@@ -128,8 +157,20 @@ impl Problem {
     }
 
     pub fn with_detail(code: ErrorCode, detail: impl fmt::Display) -> Self {
-        Self { code, detail: Some(detail.to_string()) }
+        Self { code, detail: Some(one_line(&detail.to_string())) }
     }
+}
+
+const MAX_DETAIL_CHARS: usize = 500;
+
+/// A detail may quote what a stranger sent: no control characters, which a terminal would obey, and no end of text.
+fn one_line(text: &str) -> String {
+    let mut chars = text.chars().map(|c| if c.is_control() { ' ' } else { c });
+    let mut line: String = chars.by_ref().take(MAX_DETAIL_CHARS).collect();
+    if chars.next().is_some() {
+        line.push('…');
+    }
+    line
 }
 
 impl From<ErrorCode> for Problem {
@@ -773,6 +814,14 @@ mod tests {
             }
             assert!(en.message.is_ascii() && !zh.message.is_ascii(), "{code:?}");
         }
+    }
+
+    #[test]
+    fn a_detail_is_one_line_that_fits_on_a_screen() {
+        let detail = |text: &str| Problem::with_detail(ErrorCode::Internal, text).detail.unwrap();
+        assert_eq!(detail("\u{1b}[2Jgone\r\nnext"), " [2Jgone  next");
+        assert_eq!(detail(&"长".repeat(MAX_DETAIL_CHARS)), "长".repeat(MAX_DETAIL_CHARS));
+        assert_eq!(detail(&"x".repeat(4_000_000)).chars().count(), MAX_DETAIL_CHARS + 1);
     }
 
     #[test]

@@ -169,9 +169,16 @@ impl From<Problem> for Failure {
     }
 }
 
+/// A failure of the PC's own, such as a cancel, is not a controller's to report: it is taken for a refusal.
 impl From<Failure> for Problem {
     fn from(failure: Failure) -> Self {
-        Self { code: failure.code, detail: failure.detail }
+        if !failure.code.is_a_controllers() {
+            return Self::with_detail(ErrorCode::Refused, format!("{}: {}", failure.code.as_str(), failure.message));
+        }
+        match failure.detail {
+            Some(detail) => Self::with_detail(failure.code, detail),
+            None => failure.code.into(),
+        }
     }
 }
 
@@ -194,6 +201,16 @@ mod tests {
         assert_eq!(json["code"], "7933");
         assert_eq!(json["detail"], "4840");
         assert_eq!(Problem::from(failure), problem);
+    }
+
+    #[test]
+    fn a_controller_cannot_report_what_only_the_pc_can_know() {
+        for code in [ErrorCode::Cancelled, ErrorCode::Timeout, ErrorCode::FingerprintChanged] {
+            let failure = Failure { code, message: "so there".into(), detail: None };
+            let problem = Problem::from(failure);
+            assert_eq!(problem.code, ErrorCode::Refused);
+            assert_eq!(problem.detail, Some(format!("{}: so there", code.as_str())));
+        }
     }
 
     #[test]

@@ -8,8 +8,8 @@ use std::time::Duration;
 use async_trait::async_trait;
 use reqwest::{Method, StatusCode};
 use secrecy::SecretString;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 
 use super::pinned_tls::PinVerifier;
 use super::{Connector, ControllerSession};
@@ -47,7 +47,12 @@ pub struct ManagementConnector {
 impl Connector for ManagementConnector {
     async fn probe(&self, address: &Address) -> Result<Fingerprint, Problem> {
         let link = Link::new(address, None, self.timeouts)?;
-        let hello: Hello = link.send(Method::GET, protocol::HELLO, None::<&()>, self.timeouts.read).await?;
+        let hello = link.send::<(), Hello>(Method::GET, protocol::HELLO, None, self.timeouts.read).await;
+        let hello = hello.map_err(|problem| match problem.code {
+            // Every web server answers so; a controller has this path in every version.
+            ErrorCode::ProtocolVersion => Problem::with_detail(ErrorCode::NotAController, StatusCode::NOT_FOUND),
+            _ => problem,
+        })?;
         if hello.product != protocol::PRODUCT {
             return Err(ErrorCode::NotAController.into());
         }
@@ -121,11 +126,16 @@ impl Link {
             let json: &[u8] = if bytes.is_empty() { b"null" } else { &bytes };
             return serde_json::from_slice(json).map_err(|e| Problem::with_detail(ErrorCode::NotAController, e));
         }
-        match serde_json::from_slice::<Failure>(&bytes) {
-            Ok(failure) => Err(failure.into()),
-            Err(_) if status == StatusCode::NOT_FOUND => Err(ErrorCode::ProtocolVersion.into()),
-            Err(_) => Err(Problem::with_detail(ErrorCode::NotAController, format!("HTTP {status}"))),
+        if let Ok(failure) = serde_json::from_slice::<Failure>(&bytes) {
+            return Err(failure.into());
         }
+        if let Ok(OtherFailure { code, message }) = serde_json::from_slice(&bytes) {
+            return Err(Problem::with_detail(ErrorCode::Refused, format!("{code}: {message}")));
+        }
+        if status == StatusCode::NOT_FOUND {
+            return Err(ErrorCode::ProtocolVersion.into());
+        }
+        Err(Problem::with_detail(ErrorCode::NotAController, format!("HTTP {status}")))
     }
 
     /// A lying server must not fill the memory of this one.
@@ -173,6 +183,13 @@ impl Link {
     }
 }
 
+/// A failure whose code this version does not know.
+#[derive(Deserialize)]
+struct OtherFailure {
+    code: String,
+    message: String,
+}
+
 /// An error and everything under it, also what `std::io::Error` wraps without calling it its source.
 fn causes<'a>(error: &'a (dyn Error + 'static)) -> impl Iterator<Item = &'a (dyn Error + 'static)> {
     fn under<'a>(error: &'a (dyn Error + 'static)) -> Option<&'a (dyn Error + 'static)> {
@@ -208,7 +225,12 @@ fn is_caused_by_http_parse(error: &reqwest::Error) -> bool {
 #[async_trait]
 impl ControllerSession for Link {
     async fn info(&mut self) -> Result<ControllerInfo, Problem> {
-        self.get(protocol::INFO).await
+        let info: ControllerInfo = self.get(protocol::INFO).await?;
+        if info.is_small() {
+            Ok(info)
+        } else {
+            Err(Problem::with_detail(ErrorCode::NotAController, "its information is too large"))
+        }
     }
 
     async fn start_server(&mut self) -> Result<Changed, Problem> {

@@ -1,7 +1,8 @@
 use std::collections::BTreeMap;
+use std::io;
 
 use chrono::{DateTime, Utc};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 use crate::model::{Address, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, Language, Problem};
 use crate::pki::Fingerprint;
@@ -56,11 +57,22 @@ pub enum ThemeChoice {
 #[serde(default)]
 pub struct WindowState {
     /// Inner size in points.
+    #[serde(serialize_with = "finite_size")]
     pub size: Option<(f32, f32)>,
     /// Column widths in points, by the column's key.
+    #[serde(serialize_with = "finite_values")]
     pub columns: BTreeMap<String, f32>,
     /// The column sorted by, and whether ascending.
     pub sort: Option<(String, bool)>,
+}
+
+/// JSON has no word for what is not a number: it would be written as `null`, and the whole file taken for damaged.
+fn finite_size<S: Serializer>(size: &Option<(f32, f32)>, serializer: S) -> Result<S::Ok, S::Error> {
+    size.filter(|(width, height)| width.is_finite() && height.is_finite()).serialize(serializer)
+}
+
+fn finite_values<S: Serializer>(values: &BTreeMap<String, f32>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(values.iter().filter(|(_, value)| value.is_finite()))
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -105,8 +117,8 @@ impl Configuration {
         Ok(configuration)
     }
 
-    pub(super) fn to_json(&self) -> Vec<u8> {
-        serde_json::to_vec_pretty(self).unwrap_or_default()
+    pub(super) fn to_json(&self) -> io::Result<Vec<u8>> {
+        Ok(serde_json::to_vec_pretty(self)?)
     }
 
     pub fn find(&self, name: &str) -> Option<&ControllerEntry> {
@@ -151,6 +163,18 @@ mod tests {
         assert_eq!(check("Weld 1", "192.168.0.2"), Err(ErrorCode::NameTaken));
         assert_eq!(check("Weld 2", "192.168.0.1:7943"), Err(ErrorCode::AddressTaken));
         assert_eq!(check("Weld 2", "192.168.0.1:8000"), Ok(()));
+    }
+
+    #[test]
+    fn a_width_that_is_no_number_does_not_damage_the_file() {
+        let mut configuration = with_one();
+        let window = &mut configuration.options.window;
+        window.size = Some((f32::NAN, 600.0));
+        window.columns = BTreeMap::from([("name".to_owned(), 80.0), ("status".to_owned(), f32::INFINITY)]);
+        let read = Configuration::from_json(&configuration.to_json().unwrap()).unwrap();
+        assert_eq!(read.options.window.size, None);
+        assert_eq!(read.options.window.columns, BTreeMap::from([("name".to_owned(), 80.0)]));
+        assert_eq!(read.controllers, configuration.controllers);
     }
 
     #[test]

@@ -16,7 +16,7 @@ mod configuration;
 mod passwords;
 
 use std::fs::{self, File, TryLockError};
-use std::io;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use chrono::Utc;
@@ -149,15 +149,16 @@ impl Workspace {
         let path = self.root.join(CONFIGURATION);
         let unreadable = |source| WorkspaceError::Unreadable { path: path.clone(), source };
         let fresh = |damaged| Loaded { configuration: Configuration::default(), damaged };
-        let length = match fs::metadata(&path) {
-            Ok(metadata) => metadata.len(),
+        let mut bytes = Vec::new();
+        match File::open(&path) {
+            Ok(file) => file.take(MAX_CONFIGURATION_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?,
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(fresh(None)),
             Err(e) => return Err(unreadable(e)),
         };
-        let parsed = if length > MAX_CONFIGURATION_BYTES {
-            Err(format!("the file has {length} bytes"))
+        let parsed = if bytes.len() as u64 > MAX_CONFIGURATION_BYTES {
+            Err(format!("the file has more than {MAX_CONFIGURATION_BYTES} bytes"))
         } else {
-            Configuration::from_json(&fs::read(&path).map_err(unreadable)?)
+            Configuration::from_json(&bytes)
         };
         match parsed {
             Ok(configuration) => Ok(Loaded { configuration, damaged: None }),
@@ -181,8 +182,15 @@ impl Workspace {
     }
 
     /// Replaces the configuration. The lock proves that nobody else is doing the same.
+    ///
+    /// One that could not be loaded again is refused, and the old one stays.
     pub fn save(&self, configuration: &Configuration, _lock: &WorkspaceLock) -> Result<(), WorkspaceError> {
-        write_atomic(&self.root.join(CONFIGURATION), &configuration.to_json())
+        let path = self.root.join(CONFIGURATION);
+        let json = configuration.to_json().map_err(|e| WorkspaceError::writing(&path, e))?;
+        if json.len() as u64 > MAX_CONFIGURATION_BYTES {
+            return Err(WorkspaceError::writing(&path, io::ErrorKind::FileTooLarge.into()));
+        }
+        write_atomic(&path, &json)
     }
 }
 
@@ -226,6 +234,20 @@ mod tests {
             workspace.save(&loaded.configuration, &workspace.lock().unwrap()).unwrap();
             assert_eq!(fs::read(aside).unwrap(), damaged, "never overwritten");
         }
+    }
+
+    #[test]
+    fn a_configuration_that_could_not_be_loaded_again_is_not_saved() {
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path());
+        let lock = workspace.lock().unwrap();
+        let mut configuration = Configuration::default();
+        configuration.controllers.push(entry("Weld 1"));
+        workspace.save(&configuration, &lock).unwrap();
+        let mut endless = configuration.clone();
+        endless.options.window.sort = Some(("x".repeat(MAX_CONFIGURATION_BYTES as usize), true));
+        assert!(matches!(workspace.save(&endless, &lock), Err(WorkspaceError::Full { .. })));
+        assert_eq!(workspace.load().unwrap().configuration, configuration);
     }
 
     #[test]
