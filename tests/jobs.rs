@@ -10,11 +10,12 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use opcua_configurator::jobs::{
-    AddUser, GetInfo, JobContext, JobController, JobEvent, ListUsers, Outcome, RemoveUsers, Report, SelfSigned, SelfSignedFields, SetSettings,
-    SettingsChange, StartServer, Step, StopServer, Summary,
+    AddUser, GetInfo, JobContext, JobController, JobEvent, ListUsers, Outcome, RemoveUsers, Report, SelfSigned,
+    SelfSignedFields, SetSettings, SettingsChange, StartServer, Step, StopServer, Summary,
 };
 use opcua_configurator::model::{
-    Address, ClientList, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, SecurityPolicy, ServerSettings, ServerStatus, UserName, UserPassword, UserTokenPolicy, Validity,
+    Address, ClientList, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, SecurityPolicy, ServerSettings,
+    ServerStatus, UserName, UserPassword, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::protocol::{self, Changed, Installed, ListedCertificate, Revisioned};
