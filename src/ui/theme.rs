@@ -86,7 +86,7 @@ pub const DIALOG_WIDE: f32 = 680.0;
 /// What a dialog leaves of the window's height for its own frame.
 pub const DIALOG_MARGIN: f32 = 120.0;
 pub const LABEL_WIDTH: f32 = 150.0;
-pub const LIST_HEIGHT: f32 = 180.0;
+pub const LIST_HEIGHT: f32 = 10.0 * LIST_ROW;
 pub const LIST_ROW: f32 = 26.0;
 
 pub const SPACE: f32 = 8.0;

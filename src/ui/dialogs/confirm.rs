@@ -47,7 +47,7 @@ pub fn names(ui: &mut Ui, names: &[String]) {
     Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = 0.0;
-        let height = theme::LIST_ROW * names.len().min(6) as f32;
+        let height = theme::LIST_ROW * names.len().min(10) as f32;
         ScrollArea::vertical().id_salt("names").max_height(height).auto_shrink([false, true]).show_rows(
             ui,
             theme::LIST_ROW,

@@ -93,17 +93,23 @@ fn list(ui: &mut Ui, view: &mut ProcessingView, job: &Job, model: &Model) {
     Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = 0.0;
-        ScrollArea::vertical()
+        let mut area = ScrollArea::vertical()
             .id_salt("rows")
             .max_height(height)
             // Else it takes one row less whenever it lies in the dialog's own scroll area.
             .min_scrolled_height(height)
-            .auto_shrink([false, true])
-            .show_rows(ui, theme::LIST_ROW, job.rows.len(), |ui, range| {
-                for index in range {
-                    row(ui, view, index, &job.rows[index], model);
-                }
-            });
+            .auto_shrink([false, true]);
+        if view.selected != view.revealed
+            && let Some(selected) = view.selected
+        {
+            area = area.vertical_scroll_offset((theme::LIST_ROW * (selected as f32 + 0.5) - height / 2.0).max(0.0));
+            view.revealed = view.selected;
+        }
+        area.show_rows(ui, theme::LIST_ROW, job.rows.len(), |ui, range| {
+            for index in range {
+                row(ui, view, index, &job.rows[index], model);
+            }
+        });
     });
 }
 

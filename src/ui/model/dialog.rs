@@ -74,6 +74,8 @@ pub struct PasswordForm {
 pub struct ProcessingView {
     /// Index of the controller whose failure is explained.
     pub selected: Option<usize>,
+    /// The one the list has scrolled to.
+    pub revealed: Option<usize>,
 }
 
 /// The basic settings (manual 2.6.1).
