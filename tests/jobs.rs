@@ -10,11 +10,12 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use opcua_configurator::jobs::{
-    AddUser, GetInfo, JobContext, JobController, JobEvent, ListUsers, Outcome, RemoveUsers, Report, SelfSigned, SelfSignedFields, SetSettings,
-    SettingsChange, StartServer, Step, StopServer, Summary,
+    AddUser, GetInfo, JobContext, JobController, JobEvent, ListUsers, Outcome, RemoveUsers, Report, SelfSigned,
+    SelfSignedFields, SetSettings, SettingsChange, StartServer, Step, StopServer, Summary,
 };
 use opcua_configurator::model::{
-    Address, ClientList, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, SecurityPolicy, ServerSettings, ServerStatus, UserName, UserPassword, UserTokenPolicy, Validity,
+    Address, ClientList, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, SecurityPolicy, ServerSettings,
+    ServerStatus, UserName, UserPassword, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::protocol::{self, Changed, Installed, ListedCertificate, Revisioned};
@@ -398,6 +399,19 @@ async fn information_that_cannot_be_read_is_explained() {
         let (reports, _) = plant::run(crowd(1), GetInfo, stand.context(16), CancellationToken::new(), |_| {}).await;
         assert_eq!(reports[0].result, Err(problem));
     }
+}
+
+/// Logging out is nothing an engineer should wait for; but no more say goodbye at once than have their turn.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_next_turn_begins_before_the_last_goodbye_is_said() {
+    let info = some_info().await;
+    let stand = Arc::new(Stand { goodbye_after: 2, ..Stand::new(Ok(info.clone())) });
+    let (reports, _) = plant::run(crowd(2), GetInfo, stand.context(1), CancellationToken::new(), |_| {}).await;
+    assert_eq!(codes(&reports), [None; 2]);
+    let stand = Arc::new(Stand::new(Ok(info)));
+    plant::run(crowd(100), GetInfo, stand.context(4), CancellationToken::new(), |_| {}).await;
+    assert!((1..=4).contains(&stand.most_closing.load(Ordering::SeqCst)), "{:?}", stand.most_closing);
+    assert_eq!(stand.closing.load(Ordering::SeqCst), 0, "the job ends with the last goodbye");
 }
 
 /// Asks the user to unlock it, and the user has gone home.
