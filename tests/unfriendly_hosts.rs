@@ -177,7 +177,7 @@ async fn information_without_end_is_not_taken() {
         );
         let (address, identity) = https_in_turn(vec![http(r#"{"token":"t","idle_secs":300}"#), http(&info)]).await;
         let session = connector().connect(&address, identity.fingerprint(), &SecretString::from("")).await;
-        let info = session.ok().expect("logged in").info().await;
+        let info = session.expect("logged in").info().await;
         match info {
             Ok(info) => assert!(taken && info.name.len() == length),
             Err(problem) => assert!(!taken && problem.code == ErrorCode::NotAController, "{problem}"),
