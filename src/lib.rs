@@ -32,6 +32,6 @@ pub mod model;
 pub mod pki;
 pub mod protocol;
 pub mod session;
-pub mod virtual_controller;
 pub mod ui;
+pub mod virtual_controller;
 pub mod workspace;

@@ -36,6 +36,19 @@ async fn probe(address: &Address) -> ErrorCode {
         .code
 }
 
+/// The server's end of TLS under a new identity.
+fn tls(name: &str) -> (tokio_rustls::TlsAcceptor, TlsIdentity) {
+    let identity = tls_identity(name, chrono::Utc::now()).unwrap();
+    let key = PrivateKeyDer::Pkcs8(PrivatePkcs8KeyDer::from(identity.private_key_pkcs8.to_vec()));
+    let config = rustls::ServerConfig::builder_with_provider(Arc::new(rustls::crypto::aws_lc_rs::default_provider()))
+        .with_safe_default_protocol_versions()
+        .unwrap()
+        .with_no_client_auth()
+        .with_single_cert(vec![CertificateDer::from(identity.certificate_der.clone())], key)
+        .unwrap();
+    (tokio_rustls::TlsAcceptor::from(Arc::new(config)), identity)
+}
+
 /// An HTTPS server that answers every request with the same bytes.
 async fn https(answer: Vec<u8>) -> (Address, TlsIdentity) {
     https_in_turn(vec![answer]).await
@@ -44,16 +57,7 @@ async fn https(answer: Vec<u8>) -> (Address, TlsIdentity) {
 /// An HTTPS server that answers one connection with the first bytes, the next with the second, and so on; the last
 /// are for all that follow.
 async fn https_in_turn(answers: Vec<Vec<u8>>) -> (Address, TlsIdentity) {
-    let identity = tls_identity("not a controller", chrono::Utc::now()).unwrap();
-    let key = PrivateKeyDer::Pkcs8(PrivatePkcs8KeyDer::from(identity.private_key_pkcs8.to_vec()));
-    let provider = Arc::new(rustls::crypto::aws_lc_rs::default_provider());
-    let config = rustls::ServerConfig::builder_with_provider(provider)
-        .with_safe_default_protocol_versions()
-        .unwrap()
-        .with_no_client_auth()
-        .with_single_cert(vec![CertificateDer::from(identity.certificate_der.clone())], key)
-        .unwrap();
-    let acceptor = tokio_rustls::TlsAcceptor::from(Arc::new(config));
+    let (acceptor, identity) = tls("not a controller");
     let (listener, address) = listener().await;
     tokio::spawn(async move {
         let last = answers.last().cloned().unwrap_or_default();
@@ -177,8 +181,8 @@ async fn information_without_end_is_not_taken() {
         );
         let (address, identity) = https_in_turn(vec![http(r#"{"token":"t","idle_secs":300}"#), http(&info)]).await;
         let session = connector().connect(&address, identity.fingerprint(), &SecretString::from("")).await;
-        let info = session.expect("logged in").info().await;
-        match info {
+        let Ok(mut session) = session else { panic!("not logged in") };
+        match session.info().await {
             Ok(info) => assert!(taken && info.name.len() == length),
             Err(problem) => assert!(!taken && problem.code == ErrorCode::NotAController, "{problem}"),
         }
@@ -204,16 +208,7 @@ async fn an_answer_without_end_does_not_fill_the_memory() {
 /// The password must not be sent: the server would have read it.
 #[tokio::test]
 async fn a_changed_fingerprint_is_refused_before_the_password_is_sent() {
-    let identity = tls_identity("impostor", chrono::Utc::now()).unwrap();
-    let key = PrivateKeyDer::Pkcs8(PrivatePkcs8KeyDer::from(identity.private_key_pkcs8.to_vec()));
-    let provider = Arc::new(rustls::crypto::aws_lc_rs::default_provider());
-    let config = rustls::ServerConfig::builder_with_provider(provider)
-        .with_safe_default_protocol_versions()
-        .unwrap()
-        .with_no_client_auth()
-        .with_single_cert(vec![CertificateDer::from(identity.certificate_der.clone())], key)
-        .unwrap();
-    let acceptor = tokio_rustls::TlsAcceptor::from(Arc::new(config));
+    let (acceptor, identity) = tls("impostor");
     let (listener, address) = listener().await;
     let heard = tokio::spawn(async move {
         let (stream, _) = listener.accept().await.unwrap();

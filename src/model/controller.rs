@@ -125,18 +125,7 @@ impl FromStr for FirmwareVersion {
     }
 }
 
-impl TryFrom<String> for FirmwareVersion {
-    type Error = VersionError;
-    fn try_from(text: String) -> Result<Self, VersionError> {
-        text.parse()
-    }
-}
-
-impl From<FirmwareVersion> for String {
-    fn from(version: FirmwareVersion) -> Self {
-        version.to_string()
-    }
-}
+text_in_messages!(FirmwareVersion, VersionError);
 
 /// Why a name, a serial number or a series was not understood.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
@@ -186,18 +175,7 @@ impl FromStr for ControllerName {
     }
 }
 
-impl TryFrom<String> for ControllerName {
-    type Error = NameError;
-    fn try_from(text: String) -> Result<Self, NameError> {
-        text.parse()
-    }
-}
-
-impl From<ControllerName> for String {
-    fn from(name: ControllerName) -> Self {
-        name.0
-    }
-}
+text_in_messages!(ControllerName, NameError);
 
 impl fmt::Display for ControllerName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -227,18 +205,7 @@ impl FromStr for SerialNumber {
     }
 }
 
-impl TryFrom<String> for SerialNumber {
-    type Error = NameError;
-    fn try_from(text: String) -> Result<Self, NameError> {
-        text.parse()
-    }
-}
-
-impl From<SerialNumber> for String {
-    fn from(serial: SerialNumber) -> Self {
-        serial.0
-    }
-}
+text_in_messages!(SerialNumber, NameError);
 
 impl fmt::Display for SerialNumber {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

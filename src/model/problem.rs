@@ -727,7 +727,11 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "There is no display, or its graphics driver does not offer OpenGL.",
             "Use the command line (--help), or start the program on a computer with a display.",
         ),
-        text("无法打开窗口", "没有显示器，或图形驱动不支持 OpenGL。", "请使用命令行（--help），或在有显示器的电脑上启动程序。"),
+        text(
+            "无法打开窗口",
+            "没有显示器，或图形驱动不支持 OpenGL。",
+            "请使用命令行（--help），或在有显示器的电脑上启动程序。",
+        ),
     ),
     (
         ErrorCode::Cancelled,

@@ -48,18 +48,7 @@ impl FromStr for UserName {
     }
 }
 
-impl TryFrom<String> for UserName {
-    type Error = CredentialError;
-    fn try_from(text: String) -> Result<Self, CredentialError> {
-        text.parse()
-    }
-}
-
-impl From<UserName> for String {
-    fn from(name: UserName) -> Self {
-        name.0
-    }
-}
+text_in_messages!(UserName, CredentialError);
 
 impl fmt::Display for UserName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -36,15 +36,7 @@ impl<B: Backend> App<B> {
     pub fn new(ctx: &egui::Context, model: Model, backend: B) -> Self {
         theme::install(ctx);
         fonts::install(ctx);
-        Self {
-            model,
-            backend,
-            clock: Arc::new(Utc::now),
-            save_at: None,
-            theme: None,
-            size: None,
-            dialogs_shown: 0,
-        }
+        Self { model, backend, clock: Arc::new(Utc::now), save_at: None, theme: None, size: None, dialogs_shown: 0 }
     }
 
     /// Another clock than the computer's, for pictures that must not change.
@@ -78,6 +70,8 @@ impl<B: Backend> App<B> {
             ui.ctx().request_repaint();
         }
         self.save_when_due(ui.ctx());
+        // The bench of the window counts these.
+        tracing::trace!(frame = ui.ctx().cumulative_frame_nr(), "drawn");
     }
 
     fn take_in(&mut self, messages: &mut Vec<Message>, ctx: &egui::Context) {

@@ -76,8 +76,10 @@ pub const TICK_COLUMN: f32 = 34.0;
 pub const MIN_COLUMN: f32 = 60.0;
 /// Initial widths of the columns, in their order.
 pub const COLUMN_WIDTHS: [f32; 9] = [170.0, 110.0, 135.0, 115.0, 105.0, 175.0, 115.0, 80.0, 145.0];
-pub const SEARCH_WIDTH: f32 = 280.0;
+pub const SEARCH_WIDTH: f32 = 320.0;
 pub const BUTTON_HEIGHT: f32 = 28.0;
+/// Of lines that follow closely on each other.
+pub const DENSE_HEIGHT: f32 = 22.0;
 
 pub const DIALOG: f32 = 520.0;
 pub const DIALOG_WIDE: f32 = 680.0;
@@ -147,8 +149,8 @@ fn visuals(visuals: &mut egui::Visuals, theme: Theme, palette: &Palette) {
         Shadow { offset: [0, 8], blur: 28, spread: 0, color: Color32::from_black_alpha(palette.shadow) };
     visuals.popup_shadow = visuals.window_shadow;
     visuals.selection.bg_fill = palette.accent.gamma_multiply(palette.selection);
-    // Also the text colour of selected rows.
-    visuals.selection.stroke = Stroke::new(1.0, palette.text);
+    // Also the outline of the text field that has the keyboard.
+    visuals.selection.stroke = Stroke::new(1.5, palette.accent);
     visuals.weak_text_color = Some(palette.weak);
     visuals.warn_fg_color = palette.warning;
     visuals.error_fg_color = palette.error;
@@ -167,10 +169,8 @@ fn visuals(visuals: &mut egui::Visuals, theme: Theme, palette: &Palette) {
         widget.corner_radius = CornerRadius::same(6);
         widget.expansion = 0.0;
         widget.fg_stroke = Stroke::new(if engaged { 1.5 } else { 1.0 }, palette.text);
-        widget.bg_stroke =
-            Stroke::new(1.0, if engaged { palette.accent.gamma_multiply(0.7) } else { palette.line });
-        widget.weak_bg_fill =
-            if engaged { palette.raised.lerp_to_gamma(palette.accent, 0.12) } else { palette.raised };
+        widget.bg_stroke = Stroke::new(1.0, if engaged { palette.accent.gamma_multiply(0.7) } else { palette.line });
+        widget.weak_bg_fill = if engaged { palette.raised.lerp_to_gamma(palette.accent, 0.12) } else { palette.raised };
         widget.bg_fill = palette.background;
     }
 }

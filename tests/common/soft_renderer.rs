@@ -93,33 +93,83 @@ impl Canvas {
         };
         let (left, right) = span(at.map(|p| p.0), clip.x);
         let (top, bottom) = span(at.map(|p| p.1), clip.y);
-        let edges = [(1, 2), (2, 0), (0, 1)].map(|(from, to)| {
-            let (dx, dy) = (at[to].0 - at[from].0, at[to].1 - at[from].1);
-            let is_top_left = dy < 0 || (dy == 0 && dx > 0);
-            (at[from], dx, dy, if is_top_left { 0 } else { -1 })
-        });
+        let edges = [(1, 2), (2, 0), (0, 1)].map(|(from, to)| Edge::new(at[from], at[to]));
         let colors = corners.map(|v| v.color.to_array().map(f32::from));
-        let flat = corners[0].uv == corners[1].uv && corners[1].uv == corners[2].uv;
-        let one_texel = flat.then(|| texture.sample(corners[0].uv.x, corners[0].uv.y));
+        let same = |f: &dyn Fn(&Vertex) -> bool| corners.iter().all(f);
+        let flat_texel = same(&|v| v.uv == corners[0].uv).then(|| texture.sample(corners[0].uv.x, corners[0].uv.y));
+        let flat_color = same(&|v| v.color == corners[0].color).then_some(colors[0]);
         for y in top..bottom {
-            for x in left..right {
-                let (px, py) = ((x << FRACTION) + ONE / 2, (y << FRACTION) + ONE / 2);
-                let inside = edges.map(|(from, dx, dy, bias)| dx * (py - from.1) - dy * (px - from.0) + bias);
-                if inside.iter().any(|w| *w < 0) {
-                    continue;
-                }
-                let share = inside.map(|w| w as f32 / area as f32);
-                let mix = |values: [f32; 3]| values[0] * share[0] + values[1] * share[1] + values[2] * share[2];
-                let color: Rgba = std::array::from_fn(|k| mix(colors.map(|c| c[k])));
-                let texel = one_texel
-                    .unwrap_or_else(|| texture.sample(mix(corners.map(|v| v.uv.x)), mix(corners.map(|v| v.uv.y))));
-                let pixel = &mut self.pixels[y as usize * self.width + x as usize];
-                let alpha = color[3] * texel[3] / 255.0;
-                for k in 0..4 {
-                    pixel[k] = (color[k] * texel[k] / 255.0 + pixel[k] * (1.0 - alpha / 255.0)).min(255.0);
-                }
+            let py = (y << FRACTION) + ONE / 2;
+            let (mut from, mut to) = (left, right);
+            for edge in &edges {
+                (from, to) = edge.narrow(py, from, to);
+            }
+            if from >= to {
+                continue;
+            }
+            let row = y as usize * self.width;
+            let pixels = &mut self.pixels[row + from as usize..row + to as usize];
+            if let (Some(color), Some(texel)) = (flat_color, flat_texel) {
+                fill(pixels, color, texel);
+                continue;
+            }
+            for (x, pixel) in (from..to).zip(pixels) {
+                let px = (x << FRACTION) + ONE / 2;
+                let share = [0, 1, 2].map(|i| edges[i].at(px, py) as f32 / area as f32);
+                let mix = |a: f32, b: f32, c: f32| a * share[0] + b * share[1] + c * share[2];
+                let color =
+                    flat_color.unwrap_or_else(|| [0, 1, 2, 3].map(|k| mix(colors[0][k], colors[1][k], colors[2][k])));
+                let texel = flat_texel.unwrap_or_else(|| {
+                    let [a, b, c] = corners;
+                    texture.sample(mix(a.uv.x, b.uv.x, c.uv.x), mix(a.uv.y, b.uv.y, c.uv.y))
+                });
+                fill(std::slice::from_mut(pixel), color, texel);
             }
         }
+    }
+}
+
+/// One side of a triangle, in fixed point.
+struct Edge {
+    from: (i64, i64),
+    dx: i64,
+    dy: i64,
+    /// Keeps a pixel centre that lies exactly on the side out of one of the two triangles.
+    bias: i64,
+}
+
+impl Edge {
+    fn new(from: (i64, i64), to: (i64, i64)) -> Self {
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        let is_top_left = dy < 0 || (dy == 0 && dx > 0);
+        Self { from, dx, dy, bias: if is_top_left { 0 } else { -1 } }
+    }
+
+    /// Not negative inside.
+    fn at(&self, px: i64, py: i64) -> i64 {
+        self.dx * (py - self.from.1) - self.dy * (px - self.from.0) + self.bias
+    }
+
+    /// What of a row of pixels is inside.
+    fn narrow(&self, py: i64, from: i64, to: i64) -> (i64, i64) {
+        let first = self.at(ONE / 2, py);
+        let step = self.dy * ONE;
+        match step {
+            0 if first < 0 => (from, from),
+            0 => (from, to),
+            1.. => (from, to.min(first.div_euclid(step) + 1)),
+            _ => (from.max(-first.div_euclid(-step)), to),
+        }
+    }
+}
+
+/// Blends one colour over pixels.
+fn fill(pixels: &mut [Rgba], color: Rgba, texel: Rgba) {
+    let keep = 1.0 - color[3] * texel[3] / 255.0 / 255.0;
+    let [r, g, b, a] = [0, 1, 2, 3].map(|k| color[k] * texel[k] / 255.0);
+    for pixel in pixels {
+        let [r0, g0, b0, a0] = *pixel;
+        *pixel = [r + r0 * keep, g + g0 * keep, b + b0 * keep, a + a0 * keep];
     }
 }
 
@@ -163,7 +213,7 @@ impl egui_kittest::TestRenderer for SoftRenderer {
         for primitive in &ctx.tessellate(output.shapes.clone(), scale) {
             self.draw(&mut canvas, primitive);
         }
-        let bytes = canvas.pixels.into_iter().flatten().map(|channel| (channel + 0.5) as u8).collect();
+        let bytes = canvas.pixels.into_iter().flatten().map(|channel| (channel.min(255.0) + 0.5) as u8).collect();
         image::RgbaImage::from_raw(width as u32, height as u32, bytes).ok_or_else(|| "wrong size".into())
     }
 }

@@ -1,8 +1,10 @@
 //! The real window without a display, driven by labels as a person reads them.
+#![allow(dead_code, reason = "a story uses a part of it")]
 
 use std::time::{Duration, Instant};
 
 use chrono::{DateTime, FixedOffset, Utc};
+use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::model::Language;
@@ -54,11 +56,19 @@ pub fn settle<B: Backend>(window: &mut Window<B>) {
     window.run_ok();
 }
 
-/// Clicks what has this label; of several, what can be clicked and is on top.
+/// Clicks the button, menu item, tick box or the like with this label; of several, the one on top.
 pub fn click<B: Backend>(window: &mut Window<B>, label: &str) {
-    let found = window.get_all_by_label(label).last();
-    found.unwrap_or_else(|| panic!("nothing is called {label:?}")).click();
+    let found = window.query_all_by_label(label).rfind(|node| is_control(node.accesskit_node().role()));
+    found.unwrap_or_else(|| panic!("nothing to click is called {label:?}")).click();
     settle(window);
+}
+
+/// Other things may have the same words on them, such as the state "Stop" of a row.
+fn is_control(role: Role) -> bool {
+    matches!(
+        role,
+        Role::Button | Role::CheckBox | Role::RadioButton | Role::ComboBox | Role::MenuItem | Role::ListBoxOption
+    )
 }
 
 /// Opens a menu and clicks an item.
@@ -70,10 +80,9 @@ pub fn choose<B: Backend>(window: &mut Window<B>, path: &[&str]) {
 
 /// Replaces what is in the text field with this label.
 pub fn type_into<B: Backend>(window: &mut Window<B>, label: &str, text: &str) {
-    use egui::accesskit::Role;
     let is_field = |role: Role| matches!(role, Role::TextInput | Role::PasswordInput);
     let field = |window: &Window<B>| {
-        let found = window.query_all_by_label(label).filter(|node| is_field(node.accesskit_node().role())).last();
+        let found = window.query_all_by_label(label).rfind(|node| is_field(node.accesskit_node().role()));
         found.unwrap_or_else(|| panic!("no text field is called {label:?}")).focus();
     };
     field(window);
@@ -88,14 +97,18 @@ pub fn shows<B: Backend>(window: &Window<B>, label: &str) -> bool {
 }
 
 pub fn is_enabled<B: Backend>(window: &Window<B>, label: &str) -> bool {
-    window.get_all_by_label(label).last().is_some_and(|node| !node.accesskit_node().is_disabled())
+    window
+        .query_all_by_label(label)
+        .rfind(|node| is_control(node.accesskit_node().role()))
+        .is_some_and(|node| !node.accesskit_node().is_disabled())
 }
 
 /// Runs frames until something holds.
 pub fn wait_until<B: Backend>(window: &mut Window<B>, timeout: Duration, holds: impl Fn(&Window<B>) -> bool) {
     let end = Instant::now() + timeout;
     while !holds(window) {
-        assert!(Instant::now() < end, "waited in vain; dialogs: {:?}", window.state().model.dialogs);
+        let model = &window.state().model;
+        assert!(Instant::now() < end, "waited in vain; dialogs: {:?}, job: {:?}", model.dialogs, model.job);
         std::thread::sleep(Duration::from_millis(5));
         window.step();
     }

@@ -27,8 +27,16 @@ pub enum Command {
         /// To be remembered for all these controllers first.
         password: Option<SecretString>,
     },
-    Probe { job: JobId, address: Address },
-    Enroll { job: JobId, address: Address, fingerprint: Fingerprint, password: SecretString },
+    Probe {
+        job: JobId,
+        address: Address,
+    },
+    Enroll {
+        job: JobId,
+        address: Address,
+        fingerprint: Fingerprint,
+        password: SecretString,
+    },
     /// Stops a job after the step in hand.
     Cancel(JobId),
     /// Forgets the passwords of deleted controllers.
@@ -41,10 +49,22 @@ pub enum Command {
 /// What came of it.
 #[derive(Debug, Clone)]
 pub enum Event {
-    Job { job: JobId, event: JobEvent },
-    JobEnded { job: JobId, summary: Summary },
-    Probed { job: JobId, result: Result<Fingerprint, Problem> },
-    Enrolled { job: JobId, result: Result<Box<Enrolled>, Problem> },
+    Job {
+        job: JobId,
+        event: JobEvent,
+    },
+    JobEnded {
+        job: JobId,
+        summary: Summary,
+    },
+    Probed {
+        job: JobId,
+        result: Result<Fingerprint, Problem>,
+    },
+    Enrolled {
+        job: JobId,
+        result: Result<Box<Enrolled>, Problem>,
+    },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
     /// A password works, but only until the program ends.
     PasswordNotKept(Problem),

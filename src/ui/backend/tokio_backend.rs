@@ -152,7 +152,12 @@ async fn remember(
     password: SecretString,
 ) -> Result<(), Problem> {
     tokio::task::spawn_blocking(move || {
-        controllers.into_iter().fold(Ok(()), |so_far, one| passwords.set(one, password.clone()).and(so_far))
+        let mut result = Ok(());
+        for controller in controllers {
+            // One that cannot be kept must not keep the others out.
+            result = passwords.set(controller, password.clone()).and(result);
+        }
+        result
     })
     .await
     .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?

@@ -16,7 +16,9 @@ pub fn about(ui: &Ui, model: &Model) -> Answer {
         ui.add_space(theme::SPACE);
         let weak = palette(ui).weak;
         ui.label(RichText::new(text(T::WorkspaceLabel)).size(theme::SMALL_TEXT).color(weak));
-        ui.add(Label::new(RichText::new(model.workspace.root().display().to_string()).monospace()).wrap().selectable(true));
+        ui.add(
+            Label::new(RichText::new(model.workspace.root().display().to_string()).monospace()).wrap().selectable(true),
+        );
         ui.add_space(theme::SPACE);
         fine_print(ui, text(T::AboutLicence));
     })
@@ -26,6 +28,7 @@ pub fn shortcuts(ui: &Ui, model: &Model) -> Answer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
     dialog(ui, "shortcuts", text(T::Shortcuts), theme::DIALOG, buttons, |ui| {
+        ui.spacing_mut().interact_size.y = theme::DENSE_HEIGHT;
         Grid::new("shortcuts").num_columns(2).spacing(vec2(28.0, 8.0)).show(ui, |ui| {
             let line = |ui: &mut Ui, key: &str, what: &str| {
                 ui.label(RichText::new(key).color(palette(ui).weak));

@@ -16,10 +16,8 @@ pub fn show(ui: &Ui, form: &mut AddController, focus: bool, model: &Model) -> An
     };
     let waiting = matches!(form.stage, AddStage::Probing | AddStage::Enrolling(_));
     let submit = if waiting { T::Processing } else { submit };
-    let buttons = Buttons {
-        submit: Some((text(submit), waiting.then(|| text(T::Processing)))),
-        close: Some(text(T::Cancel)),
-    };
+    let why = if waiting { Some(T::Processing) } else { form.incomplete(model) };
+    let buttons = Buttons { submit: Some((text(submit), why.map(text))), close: Some(text(T::Cancel)) };
     dialog(ui, "add controller", text(title), theme::DIALOG, buttons, |ui| match form.stage {
         AddStage::Form | AddStage::Probing => {
             ui.add_enabled_ui(!waiting, |ui| fields(ui, form, focus, model));

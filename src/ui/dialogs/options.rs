@@ -4,7 +4,7 @@ use crate::model::Language;
 use crate::ui::model::{Message, Model};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled};
+use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, labelled};
 use crate::workspace::{MAX_PARALLELISM, ThemeChoice};
 
 /// Language, theme, controllers at once. Everything takes effect at once.
@@ -14,7 +14,7 @@ pub fn options(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
     dialog(ui, "options", text(T::OptionsTitle), theme::DIALOG, buttons, |ui| {
         form(ui, "options", |ui| {
             labelled(ui, text(T::LanguageLabel), |ui| {
-                ui.horizontal(|ui| {
+                choices(ui, |ui| {
                     for language in Language::ALL {
                         if ui.radio(model.language == language, language.own_name()).clicked() {
                             messages.push(Message::SetLanguage(language));
@@ -24,7 +24,7 @@ pub fn options(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
                 None
             });
             labelled(ui, text(T::ThemeLabel), |ui| {
-                ui.horizontal(|ui| {
+                choices(ui, |ui| {
                     for choice in [ThemeChoice::System, ThemeChoice::Light, ThemeChoice::Dark] {
                         if ui.radio(model.options.theme == choice, text(texts::theme(choice))).clicked() {
                             messages.push(Message::SetTheme(choice));

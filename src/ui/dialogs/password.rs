@@ -19,8 +19,13 @@ pub fn show(ui: &Ui, ask: &mut PasswordForm, focus: bool, model: &Model) -> Answ
         ui.add_space(theme::SPACE);
         form(ui, "password", |ui| {
             labelled(ui, text(T::Password), |ui| {
-                let response =
-                    secret_field(ui, &mut ask.password.0, &mut ask.show_password, text(T::PasswordHint), model.language);
+                let response = secret_field(
+                    ui,
+                    &mut ask.password.0,
+                    &mut ask.show_password,
+                    text(T::PasswordHint),
+                    model.language,
+                );
                 if focus {
                     response.request_focus();
                 }

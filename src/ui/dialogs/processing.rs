@@ -49,7 +49,7 @@ fn bar(ui: &mut Ui, job: &Job, model: &Model) {
     // The bar's track is the background otherwise, which cannot be seen on a dialog.
     ui.scope(|ui| {
         ui.visuals_mut().extreme_bg_color = palette.line;
-        let fill = if job.failed > 0 && job.summary.is_some() { palette.error } else { palette.accent };
+        let fill = if job.failed == job.rows.len() { palette.error } else { palette.accent };
         ui.add(ProgressBar::new(done).fill(fill).desired_height(6.0).corner_radius(3));
     });
     let said = match job.summary {
@@ -93,16 +93,17 @@ fn list(ui: &mut Ui, view: &mut ProcessingView, job: &Job, model: &Model) {
     Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = 0.0;
-        ScrollArea::vertical().id_salt("rows").max_height(height).auto_shrink([false, true]).show_rows(
-            ui,
-            theme::LIST_ROW,
-            job.rows.len(),
-            |ui, range| {
+        ScrollArea::vertical()
+            .id_salt("rows")
+            .max_height(height)
+            // Else it takes one row less whenever it lies in the dialog's own scroll area.
+            .min_scrolled_height(height)
+            .auto_shrink([false, true])
+            .show_rows(ui, theme::LIST_ROW, job.rows.len(), |ui, range| {
                 for index in range {
                     row(ui, view, index, &job.rows[index], model);
                 }
-            },
-        );
+            });
     });
 }
 

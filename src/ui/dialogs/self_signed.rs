@@ -4,7 +4,7 @@ use crate::model::{COUNTRIES, Country, Language, Validity};
 use crate::ui::model::{Model, SelfSignedForm};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, text_field};
+use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, text_field};
 
 /// A self-signed server certificate for one controller or many (manual 2.7.1.2).
 pub fn show(ui: &Ui, certificate: &mut SelfSignedForm, model: &Model) -> Answer {
@@ -54,7 +54,7 @@ fn fields(ui: &mut Ui, certificate: &mut SelfSignedForm, model: &Model) {
         Some(response)
     });
     labelled(ui, text(T::KeyLength), |ui| {
-        ui.horizontal(|ui| {
+        choices(ui, |ui| {
             for length in &certificate.offered {
                 let label = texts::bits(model.language, length.bits());
                 ui.radio_value(&mut certificate.key_length, *length, label);

@@ -4,7 +4,9 @@ use crate::model::{SecurityPolicy, StartupMode, UserTokenPolicy};
 use crate::ui::model::{Model, SettingsForm};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, text_field, word};
+use crate::ui::widgets::{
+    Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, note, text_field, word,
+};
 
 /// The basic settings of one controller, or the same for many (manual 2.6.1).
 pub fn show(ui: &Ui, settings: &mut SettingsForm, model: &Model) -> Answer {
@@ -52,7 +54,7 @@ fn fields(ui: &mut Ui, settings: &mut SettingsForm, model: &Model) {
         Some(response)
     });
     labelled(ui, text(T::StartupMode), |ui| {
-        ui.horizontal(|ui| {
+        choices(ui, |ui| {
             for (mode, tip) in [(StartupMode::Auto, T::StartupAutoTip), (StartupMode::Manual, T::StartupManualTip)] {
                 ui.radio_value(&mut settings.startup, mode, mode.as_str()).on_hover_text(text(tip));
             }
@@ -60,6 +62,7 @@ fn fields(ui: &mut Ui, settings: &mut SettingsForm, model: &Model) {
         None
     });
     labelled(ui, text(T::SecurityPolicy), |ui| {
+        ui.spacing_mut().interact_size.y = theme::DENSE_HEIGHT;
         for policy in SecurityPolicy::ALL {
             ui.horizontal(|ui| {
                 toggle(ui, &mut settings.policies, policy, policy.as_str());
@@ -75,6 +78,7 @@ fn fields(ui: &mut Ui, settings: &mut SettingsForm, model: &Model) {
         None
     });
     labelled(ui, text(T::TokenPolicy), |ui| {
+        ui.spacing_mut().interact_size.y = theme::DENSE_HEIGHT;
         for (token, label) in
             [(UserTokenPolicy::Anonymous, T::TokenAnonymous), (UserTokenPolicy::UserName, T::TokenUserName)]
         {
@@ -89,7 +93,7 @@ fn fields(ui: &mut Ui, settings: &mut SettingsForm, model: &Model) {
         None
     });
     labelled(ui, text(T::ServerLog), |ui| {
-        ui.horizontal(|ui| {
+        choices(ui, |ui| {
             ui.radio_value(&mut settings.server_log, false, text(T::Off));
             ui.radio_value(&mut settings.server_log, true, text(T::On));
             ui.add_space(theme::SPACE_LARGE);

@@ -4,7 +4,9 @@ use crate::model::MAX_USERS;
 use crate::ui::model::{AddUserForm, Message, Model, UsersForm};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, secret_field, text_field};
+use crate::ui::widgets::{
+    Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, secret_field, text_field,
+};
 
 /// The users of one controller (manual 2.6.2).
 pub fn list(ui: &Ui, users: &mut UsersForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
@@ -75,8 +77,7 @@ pub fn add(ui: &Ui, user: &mut AddUserForm, focus: bool, model: &Model) -> Answe
                 Some(response)
             });
             labelled(ui, text(T::UserPassword), |ui| {
-                let response =
-                    secret_field(ui, &mut user.password.0, &mut user.show_password, "", model.language);
+                let response = secret_field(ui, &mut user.password.0, &mut user.show_password, "", model.language);
                 match user.password_error() {
                     Some(error) => mistake(ui, text(error)),
                     None => fine_print(ui, text(T::UserRule)),

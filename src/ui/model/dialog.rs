@@ -2,9 +2,7 @@ use std::collections::BTreeSet;
 
 use super::{Purpose, RowId, Task};
 use crate::jobs::Confirmation;
-use crate::model::{
-    ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy,
-};
+use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
 use crate::pki::Fingerprint;
 
 /// A dialog with whatever is typed into it.
@@ -24,6 +22,13 @@ pub enum Dialog {
     Error(Problem),
     About,
     Shortcuts,
+}
+
+impl Dialog {
+    /// A form that may wait for what is in a controller. At most one is open.
+    pub(super) fn is_form(&self) -> bool {
+        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_))
+    }
 }
 
 /// A new controller (manual 2.5.1).

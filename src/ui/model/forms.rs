@@ -44,6 +44,17 @@ impl AddController {
         }
     }
 
+    /// Why the form cannot be sent yet.
+    pub fn incomplete(&self, model: &Model) -> Option<TextKey> {
+        if self.name.trim().is_empty() {
+            return Some(TextKey::NameRule);
+        }
+        if self.address.trim().is_empty() {
+            return Some(TextKey::AddressRule);
+        }
+        self.name_error(model).or_else(|| self.address_error(model))
+    }
+
     pub fn target(&self, model: &Model) -> Result<(ControllerName, Address), Problem> {
         let name: ControllerName = self.name.parse().map_err(|e| Problem::with_detail(ErrorCode::BadName, e))?;
         let address: Address = self.address.parse().map_err(|e| Problem::with_detail(ErrorCode::BadAddress, e))?;
@@ -148,8 +159,7 @@ impl SettingsForm {
     }
 
     pub fn warns_no_users(&self) -> bool {
-        self.settings()
-            .is_some_and(|s| s.warnings(self.users).contains(&crate::model::SettingsWarning::NoUsers))
+        self.settings().is_some_and(|s| s.warnings(self.users).contains(&crate::model::SettingsWarning::NoUsers))
     }
 }
 

@@ -15,7 +15,8 @@ use std::collections::BTreeMap;
 use chrono::{DateTime, Utc};
 
 pub use dialog::{
-    AddController, AddStage, AddUserForm, Dialog, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm, Typed, UsersForm,
+    AddController, AddStage, AddUserForm, Dialog, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm, Typed,
+    UsersForm,
 };
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
@@ -55,7 +56,10 @@ pub struct Model {
 pub enum Message {
     Invoke(UiCommand),
     // table
-    Toggle { row: RowId, range: bool },
+    Toggle {
+        row: RowId,
+        range: bool,
+    },
     TickAll(bool),
     Sort(Column),
     Filter(String),

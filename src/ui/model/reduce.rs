@@ -12,59 +12,55 @@ use crate::ui::texts;
 
 /// Takes one message in; what comes out is for the backend.
 pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
+    let mut commands = Vec::new();
     match message {
-        Message::Invoke(command) if command.why_disabled(model).is_some() => vec![],
-        Message::Invoke(command) => model.invoke(command),
-        Message::Toggle { row, range } => done(model.rows.toggle(row, range)),
-        Message::TickAll(on) => done(model.rows.tick_shown(on)),
-        Message::Sort(column) => done(model.sort(column)),
-        Message::Filter(text) => done(model.rows.set_filter(text)),
-        Message::MoveCursor(by) => done(model.rows.move_cursor(by)),
-        Message::ToggleCursor => done(model.rows.toggle_cursor()),
-        Message::Revealed => done(model.rows.reveal = false),
+        Message::Invoke(command) if command.why_disabled(model).is_some() => {}
+        Message::Invoke(command) => commands = model.invoke(command),
+        Message::Toggle { row, range } => model.rows.toggle(row, range),
+        Message::TickAll(on) => model.rows.tick_shown(on),
+        Message::Sort(column) => model.sort(column),
+        Message::Filter(text) => model.rows.set_filter(text),
+        Message::MoveCursor(by) => model.rows.move_cursor(by),
+        Message::ToggleCursor => model.rows.toggle_cursor(),
+        Message::Revealed => model.rows.reveal = false,
         Message::Widths(columns) => {
             model.options.window.columns = columns;
-            done(model.unsaved = true)
+            model.unsaved = true;
         }
         Message::Resized(size) => {
             model.options.window.size = Some(size);
-            done(model.unsaved = true)
+            model.unsaved = true;
         }
-        Message::Submit => model.submit(),
-        Message::Close => model.close(),
-        Message::DeleteUsers => model.delete_users(),
-        Message::NewUser => done(model.new_user()),
-        Message::KeepGoing => done(model.keep_going()),
-        Message::EnterPasswords => done(model.ask_passwords()),
+        Message::Submit => commands = model.submit(),
+        Message::Close => commands = model.close(),
+        Message::DeleteUsers => commands = model.delete_users(),
+        Message::NewUser => model.new_user(),
+        Message::KeepGoing => model.keep_going(),
+        Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
             model.language = language;
             model.options.language = Some(language);
             model.status = None;
-            model.save()
+            commands = model.save();
         }
         Message::SetTheme(theme) => {
             model.options.theme = theme;
-            model.save()
+            commands = model.save();
         }
         Message::SetParallelism(count) => {
             model.options.parallelism = count.clamp(1, crate::workspace::MAX_PARALLELISM);
-            done(model.unsaved = true)
+            model.unsaved = true;
         }
         Message::StartVirtual => {
-            if !model.virtual_available || model.virtual_starting {
-                return vec![];
+            if model.virtual_available && !model.virtual_starting {
+                model.virtual_starting = true;
+                commands.push(Command::StartVirtualControllers);
             }
-            model.virtual_starting = true;
-            vec![Command::StartVirtualControllers]
         }
-        Message::Save => model.save(),
-        Message::Event(event) => model.event(event),
+        Message::Save => commands = model.save(),
+        Message::Event(event) => commands = model.event(event),
     }
-}
-
-/// Nothing for the backend to do.
-fn done(_changed: ()) -> Vec<Command> {
-    Vec::new()
+    commands
 }
 
 impl Model {
@@ -81,27 +77,29 @@ impl Model {
 
     fn invoke(&mut self, command: UiCommand) -> Vec<Command> {
         let ticked = self.rows.ticked();
-        match command {
-            UiCommand::AddController => done(self.dialogs.push(Dialog::AddController(AddController::new()))),
-            UiCommand::DeleteControllers => {
-                let names = self.rows.names(&ticked);
-                done(self.dialogs.push(Dialog::Delete { rows: ticked, names }))
+        let dialog = match command {
+            UiCommand::Start => return self.plan(Task::Start, ticked),
+            UiCommand::Stop => return self.plan(Task::Stop, ticked),
+            UiCommand::GetInfo => return self.plan(Task::GetInfo, ticked),
+            UiCommand::BasicSettings => return self.open_settings(ticked),
+            UiCommand::Users => return self.open_users(ticked),
+            UiCommand::SelfSigned => return self.open_self_signed(ticked),
+            UiCommand::Quit => return vec![Command::Quit],
+            UiCommand::TickAll => {
+                self.rows.tick_shown(!self.rows.all_shown_ticked());
+                return vec![];
             }
-            UiCommand::Start => self.plan(Task::Start, ticked),
-            UiCommand::Stop => self.plan(Task::Stop, ticked),
-            UiCommand::GetInfo => self.plan(Task::GetInfo, ticked),
-            UiCommand::BasicSettings => self.open_settings(ticked),
-            UiCommand::Users => self.open_users(ticked),
-            UiCommand::SelfSigned => self.open_self_signed(ticked),
-            UiCommand::Backup => done(self.dialogs.push(Dialog::Backup { on: self.options.backup })),
-            UiCommand::Options => done(self.dialogs.push(Dialog::Options)),
-            UiCommand::Shortcuts => done(self.dialogs.push(Dialog::Shortcuts)),
-            UiCommand::About => done(self.dialogs.push(Dialog::About)),
-            UiCommand::TickAll => done(self.rows.tick_shown(!self.rows.all_shown_ticked())),
-            UiCommand::Quit => vec![Command::Quit],
+            UiCommand::AddController => Dialog::AddController(AddController::new()),
+            UiCommand::DeleteControllers => Dialog::Delete { names: self.rows.names(&ticked), rows: ticked },
+            UiCommand::Backup => Dialog::Backup { on: self.options.backup },
+            UiCommand::Options => Dialog::Options,
+            UiCommand::Shortcuts => Dialog::Shortcuts,
+            UiCommand::About => Dialog::About,
             // The views' own business, or not there yet.
-            _ => vec![],
-        }
+            _ => return vec![],
+        };
+        self.dialogs.push(dialog);
+        vec![]
     }
 
     /// Asks first when the task changes something, else starts it.
@@ -109,7 +107,8 @@ impl Model {
         match task.operation(&self.workspace).confirmation() {
             Some(confirmation) => {
                 let names = self.rows.names(&rows);
-                done(self.dialogs.push(Dialog::Confirm { task, rows, names, confirmation }))
+                self.dialogs.push(Dialog::Confirm { task, rows, names, confirmation });
+                vec![]
             }
             None => self.start(task, rows, Purpose::Show, None),
         }
@@ -161,7 +160,10 @@ impl Model {
         match event {
             Event::Job { job, event } => self.job_event(job, event),
             Event::JobEnded { job, summary } => self.job_ended(job, summary),
-            Event::Probed { job, result } => done(self.probed(job, result)),
+            Event::Probed { job, result } => {
+                self.probed(job, result);
+                vec![]
+            }
             Event::Enrolled { job, result } => self.enrolled(job, result),
             Event::VirtualStarted(result) => self.virtual_started(result),
             Event::PasswordNotKept(problem) | Event::SaveFailed(problem) => {
@@ -239,10 +241,10 @@ impl Model {
             }
             Purpose::CountUsers => self.job = None,
             Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies => {
-                let problem = self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));
+                let problem =
+                    self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));
                 if let Some(problem) = problem {
-                    // The form has nothing to show.
-                    self.dialogs.pop();
+                    self.drop_form();
                     self.show_problem(problem);
                 }
             }

@@ -96,10 +96,8 @@ impl Model {
             }
             Dialog::Confirm { task, rows, .. } => {
                 // The form that asked for it has done its work.
-                if matches!(
-                    self.dialogs.last(),
-                    Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_))
-                ) {
+                if matches!(self.dialogs.last(), Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_)))
+                {
                     self.dialogs.pop();
                 }
                 self.start(task, rows, Purpose::Show, None)
@@ -114,8 +112,7 @@ impl Model {
             }
             Dialog::SelfSigned(form) => {
                 let backup = self.options.backup;
-                let planned =
-                    form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
+                let planned = form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
                 self.ask(Dialog::SelfSigned(form), planned)
             }
             Dialog::Backup { on } => {
@@ -153,11 +150,11 @@ impl Model {
                 let loading = form.purpose != Purpose::Show;
                 self.dialogs.pop();
                 if loading {
-                    // The form under it cannot be filled.
-                    self.dialogs.pop();
+                    self.drop_form();
                     self.job = None;
                 } else if let Some(Dialog::Processing(view)) = self.dialogs.last_mut() {
-                    let failed = self.job.as_ref().and_then(|job| job.rows.iter().position(|r| r.state.problem().is_some()));
+                    let failed =
+                        self.job.as_ref().and_then(|job| job.rows.iter().position(|r| r.state.problem().is_some()));
                     view.selected = view.selected.or(failed);
                 }
                 vec![]
@@ -196,7 +193,7 @@ impl Model {
     }
 
     fn reload_users(&mut self) -> Vec<Command> {
-        let Some(Dialog::Users(form)) = self.dialogs.last_mut() else { return vec![] };
+        let Some(Dialog::Users(form)) = self.form() else { return vec![] };
         form.reading = true;
         form.ticked.clear();
         let row = form.row;
@@ -316,11 +313,21 @@ impl Model {
         commands
     }
 
+    /// The form about controllers that is open, whatever is on top of it.
+    fn form(&mut self) -> Option<&mut Dialog> {
+        self.dialogs.iter_mut().rev().find(|dialog| dialog.is_form())
+    }
+
+    /// Closes a form that has nothing to show.
+    pub(super) fn drop_form(&mut self) {
+        self.dialogs.retain(|dialog| !dialog.is_form());
+    }
+
     /// What a form waited for.
     pub(super) fn loaded(&mut self, purpose: Purpose, outcome: Outcome) -> Vec<Command> {
         match (purpose, outcome) {
             (Purpose::LoadSettings, Outcome::Settings(settings)) => {
-                let Some(Dialog::Settings(form)) = self.dialogs.last_mut() else { return vec![] };
+                let Some(Dialog::Settings(form)) = self.form() else { return vec![] };
                 form.reading = false;
                 form.revision = Some(settings.revision);
                 form.fill(settings.value);
@@ -328,12 +335,12 @@ impl Model {
                 self.start(Task::ListUsers, rows, Purpose::CountUsers, None)
             }
             (Purpose::LoadPolicies, Outcome::Settings(settings)) => {
-                if let Some(Dialog::SelfSigned(form)) = self.dialogs.last_mut() {
+                if let Some(Dialog::SelfSigned(form)) = self.form() {
                     form.reading = false;
                     form.offer(&settings.value.security_policies);
                     let row = form.rows.first().copied();
                     let name = row.and_then(|row| self.rows.get(row)?.info()).map(|i| i.application_name.clone());
-                    if let (Some(Dialog::SelfSigned(form)), Some(name)) = (self.dialogs.last_mut(), name)
+                    if let (Some(Dialog::SelfSigned(form)), Some(name)) = (self.form(), name)
                         && form.common_name.is_empty()
                     {
                         form.common_name = name;
@@ -342,7 +349,7 @@ impl Model {
                 vec![]
             }
             (Purpose::LoadUsers, Outcome::Users(users)) => {
-                if let Some(Dialog::Users(form)) = self.dialogs.last_mut() {
+                if let Some(Dialog::Users(form)) = self.form() {
                     form.reading = false;
                     form.revision = Some(users.revision);
                     form.users = users.value;
@@ -350,7 +357,7 @@ impl Model {
                 vec![]
             }
             (Purpose::CountUsers, Outcome::Users(users)) => {
-                if let Some(Dialog::Settings(form)) = self.dialogs.last_mut() {
+                if let Some(Dialog::Settings(form)) = self.form() {
                     form.users = Some(users.value.len());
                 }
                 vec![]

@@ -146,9 +146,7 @@ impl Row {
             Column::Expiry => self.not_after().cmp(&other.not_after()),
             Column::Certificate => self.certificate_type().cmp(&other.certificate_type()),
             Column::Activation => self.info().map(|i| i.activated).cmp(&other.info().map(|i| i.activated)),
-            Column::Retrieved => {
-                self.entry.last.as_ref().map(|l| l.at).cmp(&other.entry.last.as_ref().map(|l| l.at))
-            }
+            Column::Retrieved => self.entry.last.as_ref().map(|l| l.at).cmp(&other.entry.last.as_ref().map(|l| l.at)),
         };
         order.then_with(by_name)
     }

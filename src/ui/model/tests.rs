@@ -1,1 +1,337 @@
+//! The rules of the window, without a window.
 
+use chrono::Duration;
+
+use super::*;
+use crate::jobs::{JobEvent, Outcome, Report, Step, Summary};
+use crate::model::{ControllerInfo, ErrorCode, ServerSettings};
+use crate::pki::Fingerprint;
+use crate::protocol::Revisioned;
+use crate::ui::backend::Command;
+use crate::workspace::ControllerEntry;
+
+fn now() -> DateTime<Utc> {
+    "2026-06-01T08:30:00Z".parse().unwrap()
+}
+
+fn entry(name: &str, address: &str) -> ControllerEntry {
+    ControllerEntry {
+        name: name.parse().unwrap(),
+        address: address.parse().unwrap(),
+        series: crate::model::ControllerSeries::Rc800,
+        fingerprint: Some(Fingerprint::of(name.as_bytes())),
+        last: None,
+    }
+}
+
+fn model() -> Model {
+    let mut configuration = Configuration::default();
+    configuration.controllers =
+        vec![entry("Weld 10", "10.0.0.9"), entry("Weld 2", "10.0.0.10"), entry("Paint", "10.0.0.1")];
+    Model::new(configuration, Workspace::new("/nowhere"), Language::En, now())
+}
+
+fn shown(model: &Model) -> Vec<&str> {
+    (0..model.rows.shown()).filter_map(|at| model.rows.at(at)).map(|row| row.entry.name.as_str()).collect()
+}
+
+fn info() -> ControllerInfo {
+    serde_json::from_value(serde_json::json!({
+        "name": "RC", "serial": "SN1", "series": "RC800", "firmware": "8.0.0", "status": "Run", "error": null,
+        "activated": true, "certificate": null, "application_name": "EpsonRC.SN1", "endpoint": "opc.tcp://x:4840",
+        "used_ports": [5000], "limits": { "trusted": 50, "issuers": 50, "crls": 50 },
+        "clock": "2026-06-01T08:30:00Z", "revision": 1
+    }))
+    .unwrap()
+}
+
+fn finished(index: usize, result: Result<Outcome, Problem>) -> JobEvent {
+    JobEvent::Finished { index, report: Box::new(Report { info: result.is_ok().then(info), result }) }
+}
+
+fn tick(model: &mut Model, names: &[&str]) {
+    for name in names {
+        let row = model.rows.all().iter().find(|row| row.entry.name.as_str() == *name).unwrap().id;
+        reduce(model, Message::Toggle { row, range: false });
+    }
+}
+
+fn job(commands: &[Command]) -> JobId {
+    let [Command::Run { job, .. }] = commands else { panic!("{commands:?}") };
+    *job
+}
+
+fn event(model: &mut Model, job: JobId, event: JobEvent) -> Vec<Command> {
+    reduce(model, Message::Event(Event::Job { job, event }))
+}
+
+fn ended(model: &mut Model, job: JobId, done: usize, failed: usize) -> Vec<Command> {
+    reduce(model, Message::Event(Event::JobEnded { job, summary: Summary { done, failed, not_started: 0 } }))
+}
+
+#[test]
+fn names_sort_as_people_count_and_addresses_by_number() {
+    let mut model = model();
+    reduce(&mut model, Message::Sort(Column::Name));
+    assert_eq!(shown(&model), ["Paint", "Weld 2", "Weld 10"]);
+    reduce(&mut model, Message::Sort(Column::Address));
+    assert_eq!(shown(&model), ["Paint", "Weld 10", "Weld 2"]);
+    reduce(&mut model, Message::Sort(Column::Address));
+    assert_eq!(shown(&model), ["Weld 2", "Weld 10", "Paint"]);
+    assert_eq!(model.configuration().options.window.sort, Some(("address".into(), false)));
+}
+
+#[test]
+fn a_tick_survives_the_search_and_is_counted() {
+    let mut model = model();
+    tick(&mut model, &["Paint"]);
+    reduce(&mut model, Message::Filter("WELD".into()));
+    assert_eq!(shown(&model), ["Weld 10", "Weld 2"]);
+    assert_eq!((model.rows.ticked_count(), model.rows.ticked_hidden()), (1, 1));
+    reduce(&mut model, Message::TickAll(true));
+    assert_eq!(model.rows.ticked_count(), 3);
+    reduce(&mut model, Message::TickAll(false));
+    assert_eq!(model.rows.ticked_count(), 1, "what is hidden keeps its tick");
+    reduce(&mut model, Message::Filter("10.0.0.10".into()));
+    assert_eq!(shown(&model), ["Weld 2"]);
+}
+
+#[test]
+fn shift_ticks_a_range_and_the_keyboard_moves_a_cursor() {
+    let mut model = model();
+    let (first, last) = (model.rows.at(0).unwrap().id, model.rows.at(2).unwrap().id);
+    reduce(&mut model, Message::Toggle { row: first, range: false });
+    reduce(&mut model, Message::Toggle { row: last, range: true });
+    assert_eq!(model.rows.ticked_count(), 3);
+    reduce(&mut model, Message::MoveCursor(isize::MIN));
+    reduce(&mut model, Message::ToggleCursor);
+    assert!(!model.rows.at(0).unwrap().ticked);
+    reduce(&mut model, Message::MoveCursor(isize::MAX));
+    assert_eq!(model.rows.cursor(), Some(2));
+}
+
+#[test]
+fn a_command_that_is_disabled_does_nothing() {
+    let mut model = model();
+    for command in UiCommand::ALL {
+        if command.why_disabled(&model).is_some() {
+            assert!(reduce(&mut model, Message::Invoke(command)).is_empty());
+            assert!(model.dialogs.is_empty(), "{command:?}");
+        }
+    }
+}
+
+#[test]
+fn reading_closes_by_itself_when_all_went_well() {
+    let mut model = model();
+    tick(&mut model, &["Weld 2", "Paint"]);
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+    event(&mut model, id, JobEvent::Step { index: 0, step: Step::Connect });
+    event(&mut model, id, finished(0, Ok(Outcome::Done)));
+    event(&mut model, id, finished(1, Ok(Outcome::Done)));
+    assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
+    let saved = ended(&mut model, id, 2, 0);
+    assert!(matches!(saved[..], [Command::Save(_)]));
+    assert!(model.dialogs.is_empty());
+    assert_eq!(model.status.as_deref(), Some("Get new information: 2 controllers done"));
+    assert!(model.rows.all().iter().all(|row| row.live.is_none()));
+    assert_eq!(model.rows.all()[1].info(), Some(&info()));
+}
+
+#[test]
+fn a_failure_stays_until_it_was_read() {
+    let mut model = model();
+    tick(&mut model, &["Weld 2", "Paint"]);
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+    event(&mut model, id, finished(0, Ok(Outcome::Done)));
+    event(&mut model, id, finished(1, Err(ErrorCode::Unreachable.into())));
+    ended(&mut model, id, 1, 1);
+    assert!(matches!(model.dialogs[..], [Dialog::Processing(ProcessingView { selected: Some(1) })]));
+    reduce(&mut model, Message::Submit);
+    assert!(model.dialogs.is_empty() && model.job.is_none());
+}
+
+#[test]
+fn late_events_of_an_old_job_are_ignored() {
+    let mut model = model();
+    tick(&mut model, &["Paint"]);
+    let old = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
+    let cancelled = reduce(&mut model, Message::Close);
+    assert!(matches!(cancelled[..], [Command::Cancel(id)] if id == old));
+    let new = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
+    let settings = Outcome::Settings(Revisioned { revision: 9, value: ServerSettings::default() });
+    assert!(event(&mut model, old, finished(0, Ok(settings.clone()))).is_empty());
+    ended(&mut model, old, 1, 0);
+    assert!(matches!(&model.dialogs[..], [Dialog::Settings(form)] if form.reading));
+    event(&mut model, new, finished(0, Ok(settings)));
+    assert!(matches!(&model.dialogs[..], [Dialog::Settings(form)] if form.revision == Some(9)));
+}
+
+#[test]
+fn cancelling_asks_once_more() {
+    let mut model = model();
+    tick(&mut model, &["Paint"]);
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Start)));
+    assert!(reduce(&mut model, Message::Close).is_empty());
+    assert_eq!(model.job.as_ref().unwrap().cancel, CancelState::Asking);
+    reduce(&mut model, Message::KeepGoing);
+    assert_eq!(model.job.as_ref().unwrap().cancel, CancelState::No);
+    reduce(&mut model, Message::Close);
+    assert!(matches!(reduce(&mut model, Message::Close)[..], [Command::Cancel(job)] if job == id));
+    assert!(reduce(&mut model, Message::Close).is_empty(), "it is stopping already");
+    assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
+}
+
+#[test]
+fn a_change_is_confirmed_and_cancel_leads_back_to_the_form() {
+    let mut model = model();
+    tick(&mut model, &["Paint", "Weld 2"]);
+    assert!(reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)).is_empty(), "nothing is read for many");
+    assert!(reduce(&mut model, Message::Submit).is_empty());
+    assert!(matches!(model.dialogs[..], [Dialog::Settings(_), Dialog::Confirm { .. }]));
+    reduce(&mut model, Message::Close);
+    assert!(matches!(model.dialogs[..], [Dialog::Settings(_)]));
+    reduce(&mut model, Message::Submit);
+    let commands = reduce(&mut model, Message::Submit);
+    assert!(
+        matches!(&commands[..], [Command::Run { task: Task::SetSettings(_), controllers, .. }] if controllers.len() == 2)
+    );
+    assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
+}
+
+#[test]
+fn settings_with_a_mistake_are_not_applied() {
+    let mut model = model();
+    tick(&mut model, &["Paint", "Weld 2"]);
+    reduce(&mut model, Message::Invoke(UiCommand::BasicSettings));
+    let edit = |model: &mut Model, change: &dyn Fn(&mut SettingsForm)| {
+        let Some(Dialog::Settings(form)) = model.dialogs.last_mut() else { panic!("no form") };
+        change(form);
+        form.operation().is_some()
+    };
+    assert!(!edit(&mut model, &|form| form.port = "80".into()));
+    assert!(!edit(&mut model, &|form| (form.port, form.server_log) = ("4840".into(), true)));
+    assert!(!edit(&mut model, &|form| form.log_password = "123456".into()));
+    reduce(&mut model, Message::Submit);
+    assert!(matches!(model.dialogs[..], [Dialog::Settings(_)]));
+    assert!(edit(&mut model, &|form| form.log_password = ServerSettings::LOG_PASSWORD.into()));
+    assert!(!edit(&mut model, &|form| form.policies.clear()));
+}
+
+#[test]
+fn a_missing_password_is_asked_for_and_those_controllers_are_tried_again() {
+    let mut model = model();
+    tick(&mut model, &["Weld 2", "Paint"]);
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+    event(&mut model, id, finished(0, Err(ErrorCode::PasswordMissing.into())));
+    event(&mut model, id, finished(1, Ok(Outcome::Done)));
+    ended(&mut model, id, 1, 1);
+    let Some(Dialog::Password(form)) = model.dialogs.last_mut() else { panic!("not asked") };
+    assert_eq!(form.names, ["Weld 2"]);
+    form.password.0 = "secret".into();
+    let commands = reduce(&mut model, Message::Submit);
+    let [Command::Run { controllers, password: Some(_), task: Task::GetInfo, .. }] = &commands[..] else {
+        panic!("{commands:?}")
+    };
+    assert_eq!(controllers.len(), 1);
+    assert!(!format!("{commands:?}").contains("secret"));
+    assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
+}
+
+#[test]
+fn a_controller_is_added_only_after_its_fingerprint_was_agreed_to() {
+    let mut model = model();
+    reduce(&mut model, Message::Invoke(UiCommand::AddController));
+    let form = |model: &mut Model| -> AddStage {
+        let Some(Dialog::AddController(form)) = model.dialogs.last_mut() else { panic!("no form") };
+        (form.name, form.address) = ("Paint".into(), "10.0.0.77".into());
+        form.stage
+    };
+    form(&mut model);
+    assert!(reduce(&mut model, Message::Submit).is_empty(), "the name is taken");
+    let Some(Dialog::AddController(open)) = model.dialogs.last_mut() else { panic!("no form") };
+    (open.name, open.address) = ("New".into(), "10.0.0.77".into());
+    let [Command::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
+    let fingerprint = Fingerprint::of(b"new");
+    reduce(&mut model, Message::Event(Event::Probed { job, result: Ok(fingerprint) }));
+    let [Command::Enroll { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no enrolment") };
+    let enrolled = crate::jobs::Enrolled { fingerprint, info: info(), password_not_kept: None };
+    reduce(&mut model, Message::Event(Event::Enrolled { job, result: Ok(Box::new(enrolled)) }));
+    assert!(model.dialogs.is_empty());
+    let row = model.rows.all().last().unwrap();
+    assert_eq!((row.entry.name.as_str(), row.entry.fingerprint), ("New", Some(fingerprint)));
+}
+
+#[test]
+fn an_attempt_that_was_given_up_adds_nothing() {
+    let mut model = model();
+    reduce(&mut model, Message::Invoke(UiCommand::AddController));
+    let Some(Dialog::AddController(open)) = model.dialogs.last_mut() else { panic!("no form") };
+    (open.name, open.address) = ("New".into(), "10.0.0.77".into());
+    let [Command::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
+    assert!(matches!(reduce(&mut model, Message::Close)[..], [Command::Cancel(id)] if id == job));
+    reduce(&mut model, Message::Event(Event::Probed { job, result: Ok(Fingerprint::of(b"new")) }));
+    assert!(matches!(&model.dialogs[..], [Dialog::AddController(form)] if form.stage == AddStage::Form));
+}
+
+#[test]
+fn deleting_forgets_the_passwords() {
+    let mut model = model();
+    tick(&mut model, &["Paint"]);
+    reduce(&mut model, Message::Invoke(UiCommand::DeleteControllers));
+    let commands = reduce(&mut model, Message::Submit);
+    assert!(matches!(&commands[..], [Command::Save(_), Command::Forget(gone)] if gone.len() == 1));
+    assert_eq!(model.rows.all().len(), 2);
+    assert_eq!(model.rows.ticked_count(), 0);
+}
+
+#[test]
+fn expiry_is_counted_as_time_goes_by() {
+    let mut model = model();
+    let id = model.rows.at(0).unwrap().id;
+    let mut info = info();
+    let summary = serde_json::json!({
+        "issued_to": "x", "issued_by": "x", "serial_number": "01", "not_before": "2026-01-01T00:00:00Z",
+        "not_after": "2026-07-15T00:00:00Z", "thumbprint": "00", "key_bits": 2048, "application_uri": null
+    });
+    info.certificate = Some(crate::model::ServerCertificate {
+        kind: crate::model::CertificateType::SelfSigned,
+        summary: serde_json::from_value(summary).unwrap(),
+    });
+    model.rows.set_info(id, info, now());
+    model.rows.rebuild();
+    let counts = |model: &Model| (model.rows.expiring_count(), model.rows.expired_count());
+    assert_eq!(counts(&model), (0, 0));
+    model.set_now(now() + Duration::days(20));
+    assert_eq!(counts(&model), (1, 0));
+    model.set_now(now() + Duration::days(60));
+    assert_eq!(counts(&model), (0, 1));
+}
+
+#[test]
+fn a_dialogs_debug_output_holds_no_secret() {
+    let mut form = AddController::new();
+    form.password.0 = "hunter22".into();
+    assert!(!format!("{:?}", Dialog::AddController(form)).contains("hunter22"));
+}
+
+#[test]
+fn a_form_is_filled_also_under_a_notice() {
+    let mut model = model();
+    tick(&mut model, &["Paint"]);
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
+    reduce(&mut model, Message::Event(Event::PasswordNotKept(ErrorCode::KeyringUnavailable.into())));
+    let settings = Outcome::Settings(Revisioned { revision: 9, value: ServerSettings::default() });
+    event(&mut model, id, finished(0, Ok(settings)));
+    assert!(matches!(&model.dialogs[..], [Dialog::Settings(form), Dialog::Error(_)] if !form.reading));
+}
+
+#[test]
+fn a_form_that_cannot_be_filled_gives_way_to_the_reason() {
+    let mut model = model();
+    tick(&mut model, &["Paint"]);
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Users)));
+    event(&mut model, id, finished(0, Err(ErrorCode::TaskRunning.into())));
+    ended(&mut model, id, 0, 1);
+    assert!(matches!(&model.dialogs[..], [Dialog::Error(problem)] if problem.code == ErrorCode::TaskRunning));
+}

@@ -171,7 +171,7 @@ texts! {
     FingerprintMatches: "It matches, add", "一致，添加";
 
     // delete
-    DeleteTitle: "Delete controllers", "删除控制器";
+    DeleteTitle: "Delete from the list", "从列表中删除";
     DeleteText: "They are removed from the list with their connection passwords. Nothing is changed in the controllers, and saved files stay.", "将从列表中删除以下控制器及其连接密码。控制器本身不受影响，已保存的文件保留。";
 
     // password
@@ -224,7 +224,7 @@ texts! {
     NoUsersWarning: "The controller has no users yet, so nobody can log in", "控制器尚无用户，将无法登录";
     ServerLog: "Server log", "服务器日志";
     LogPassword: "Password for the log", "日志密码";
-    LogPasswordTip: "The manual gives the password that allows the log to be switched on", "打开日志所需的密码见手册";
+    LogPasswordTip: "The manual gives the password for this", "打开日志所需的密码见手册";
     LogWarning: "The server stops by itself when the log reaches its size limit", "日志达到上限时服务器会自行停止";
     DeleteLog: "Delete log", "删除日志";
 

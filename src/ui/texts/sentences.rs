@@ -90,8 +90,16 @@ pub fn tick_row(language: Language, name: &str) -> String {
 
 pub fn sort_by(language: Language, column: T) -> String {
     match language {
-        Language::En => format!("Sort by {}", column.text(language).to_lowercase()),
+        Language::En => format!("Sort by {}", lower_first(column.text(language))),
         Language::Zh => format!("按{}排序", column.text(language)),
+    }
+}
+
+/// For the middle of a sentence; "IP" stays as it is.
+fn lower_first(text: &str) -> String {
+    match text.split_at_checked(1) {
+        Some((first, rest)) if rest.starts_with(char::is_lowercase) => first.to_lowercase() + rest,
+        _ => text.to_owned(),
     }
 }
 
@@ -105,8 +113,16 @@ pub fn sorted_tip(language: Language) -> &'static str {
 pub fn summary(language: Language, summary: Summary) -> String {
     let Summary { done, failed, not_started } = summary;
     let parts = match language {
-        Language::En => [(done, format!("{done} done")), (failed, format!("{failed} failed")), (not_started, format!("{not_started} not started"))],
-        Language::Zh => [(done, format!("完成 {done} 台")), (failed, format!("失败 {failed} 台")), (not_started, format!("未开始 {not_started} 台"))],
+        Language::En => [
+            (done, format!("{done} done")),
+            (failed, format!("{failed} failed")),
+            (not_started, format!("{not_started} not started")),
+        ],
+        Language::Zh => [
+            (done, format!("完成 {done} 台")),
+            (failed, format!("失败 {failed} 台")),
+            (not_started, format!("未开始 {not_started} 台")),
+        ],
     };
     let said: Vec<String> = parts.into_iter().filter(|(n, _)| *n > 0).map(|(_, text)| text).collect();
     said.join(if language == Language::En { ", " } else { "，" })

@@ -13,7 +13,12 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
         ui.menu_button(text(title), |ui| items(ui, groups, model, messages));
     };
     MenuBar::new().ui(ui, |ui| {
-        menu(ui, T::MenuController, &[&[C::AddController, C::ConnectionList], &[C::DeleteControllers], &[C::Quit]], messages);
+        menu(
+            ui,
+            T::MenuController,
+            &[&[C::AddController, C::ConnectionList], &[C::DeleteControllers], &[C::Quit]],
+            messages,
+        );
         ui.menu_button(text(T::MenuCertificate), |ui| {
             ui.menu_button(text(T::MenuCreate), |ui| {
                 items(ui, &[&[C::SelfSigned, C::UserSpecified, C::CaSigned]], model, messages);

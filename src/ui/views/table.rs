@@ -33,6 +33,8 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
 fn table(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     let palette = palette(ui);
     ui.spacing_mut().item_spacing = vec2(10.0, 0.0);
+    // The text of ticked rows.
+    ui.visuals_mut().selection.stroke.color = palette.text;
     let mut builder = TableBuilder::new(ui)
         .id_salt("controllers")
         .striped(true)
@@ -83,19 +85,29 @@ fn tick_all(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
 
 fn heading(ui: &mut Ui, column: Column, model: &Model, palette: &Palette, messages: &mut Vec<Message>) {
     let text = title(column).text(model.language);
-    let arrow = match model.rows.sort {
-        Some((by, true)) if by == column => " ⏶",
-        Some((by, false)) if by == column => " ⏷",
-        _ => "",
-    };
-    let color = if arrow.is_empty() { palette.weak } else { palette.text };
-    let label = RichText::new(format!("{text}{arrow}")).size(theme::HEADER_TEXT).strong().color(color);
+    let ascending = model.rows.sort.and_then(|(by, ascending)| (by == column).then_some(ascending));
+    let color = if ascending.is_some() { palette.text } else { palette.weak };
+    let label = RichText::new(text).size(theme::HEADER_TEXT).strong().color(color);
     let response = ui.add(Label::new(label).truncate().selectable(false).sense(Sense::click()));
     let name = texts::sort_by(model.language, title(column));
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &name));
     if response.on_hover_text(texts::sorted_tip(model.language)).clicked() {
         messages.push(Message::Sort(column));
     }
+    if let Some(ascending) = ascending {
+        sort_arrow(ui, ascending, color);
+    }
+}
+
+/// Drawn, as no font that is always there has such a character.
+fn sort_arrow(ui: &mut Ui, ascending: bool, color: egui::Color32) {
+    let (rect, _) = ui.allocate_exact_size(vec2(8.0, 5.0), Sense::hover());
+    let points = if ascending {
+        vec![rect.left_bottom(), rect.center_top(), rect.right_bottom()]
+    } else {
+        vec![rect.left_top(), rect.right_top(), rect.center_bottom()]
+    };
+    ui.painter().add(egui::Shape::convex_polygon(points, color, egui::Stroke::NONE));
 }
 
 fn remember_widths(widths: &[f32], model: &Model, messages: &mut Vec<Message>) {
@@ -107,7 +119,8 @@ fn remember_widths(widths: &[f32], model: &Model, messages: &mut Vec<Message>) {
         (before - width).abs() > 0.5
     });
     if changed {
-        let widths: BTreeMap<String, f32> = shown().map(|((c, _), width)| (c.key().to_owned(), width.round())).collect();
+        let widths: BTreeMap<String, f32> =
+            shown().map(|((c, _), width)| (c.key().to_owned(), width.round())).collect();
         messages.push(Message::Widths(widths));
     }
 }

@@ -30,15 +30,14 @@ pub fn command_item(ui: &mut Ui, command: UiCommand, model: &Model, messages: &m
 
 fn answer(ui: &mut Ui, command: UiCommand, button: Button<'_>, model: &Model, messages: &mut Vec<Message>) -> Response {
     let why = command.why_disabled(model);
-    let response = ui.add_enabled(why.is_none(), button);
+    // Without this a screen reader reads the shortcut as part of the name.
+    let response = ui.add_enabled(why.is_none(), button).accessible_name(command.text().text(model.language));
     let tooltip = command.tooltip().text(model.language);
     let response = match (why, command.shortcut()) {
         (Some(why), _) => response.on_disabled_hover_text(why.text(model.language)),
-        (None, Some(shortcut)) => {
-            response.on_hover_ui(|ui| {
-                ui.label(format!("{tooltip} ({})", ui.ctx().format_shortcut(&shortcut)));
-            })
-        }
+        (None, Some(shortcut)) => response.on_hover_ui(|ui| {
+            ui.label(format!("{tooltip} ({})", ui.ctx().format_shortcut(&shortcut)));
+        }),
         (None, None) => response.on_hover_text(tooltip),
     };
     if response.clicked() {

@@ -6,7 +6,8 @@ use crate::ui::theme;
 pub fn chip(ui: &mut Ui, text: &str, color: Color32) -> Response {
     let font = RichText::new(text).size(theme::SMALL_TEXT).color(color);
     let room = ui.available_width() - 2.0 * theme::SPACE - 11.0;
-    let galley = WidgetText::from(font).into_galley(ui, Some(egui::TextWrapMode::Truncate), room, egui::TextStyle::Small);
+    let galley =
+        WidgetText::from(font).into_galley(ui, Some(egui::TextWrapMode::Truncate), room, egui::TextStyle::Small);
     let size = vec2(galley.size().x + 2.0 * theme::SPACE + 11.0, theme::CHIP_HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     if ui.is_rect_visible(rect) {

@@ -37,15 +37,33 @@ pub fn dialog(
         ui.set_width(width);
         ui.add(egui::Label::new(RichText::new(title).heading().strong()).truncate());
         ui.add_space(theme::SPACE);
-        ScrollArea::vertical().max_height(room.height() - theme::DIALOG_MARGIN).auto_shrink([false, true]).show(ui, body);
+        ScrollArea::vertical()
+            .max_height(room.height() - theme::DIALOG_MARGIN)
+            .auto_shrink([false, true])
+            .show(ui, body);
+        if buttons.submit.is_none() && buttons.close.is_none() {
+            return Answer::None;
+        }
         ui.add_space(theme::SPACE_LARGE);
         foot(ui, buttons)
     });
+    settle(ui.ctx(), &shown.response);
     let escape = || ui.ctx().input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
     if shown.inner == Answer::None && shown.is_top_modal && !shown.any_popup_open && escape() {
         return Answer::Close;
     }
     shown.inner
+}
+
+/// A dialog is centred by the size it had a frame ago, so after a change of size one more frame is due. Nothing else
+/// would draw it.
+fn settle(ctx: &egui::Context, dialog: &egui::Response) {
+    let place = dialog.id.with("place");
+    let before = ctx.data_mut(|data| data.get_temp::<egui::Rect>(place));
+    if before != Some(dialog.rect) {
+        ctx.data_mut(|data| data.insert_temp(place, dialog.rect));
+        ctx.request_repaint();
+    }
 }
 
 fn foot(ui: &mut Ui, buttons: Buttons<'_>) -> Answer {

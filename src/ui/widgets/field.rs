@@ -64,3 +64,11 @@ pub fn mistake(ui: &mut Ui, text: &str) {
 pub fn fine_print(ui: &mut Ui, text: &str) {
     ui.add(egui::Label::new(RichText::new(text).size(theme::SMALL_TEXT).color(palette(ui).weak)).wrap());
 }
+
+/// Radio buttons or tick boxes side by side.
+pub fn choices(ui: &mut Ui, add: impl FnOnce(&mut Ui)) {
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = theme::SPACE_LARGE;
+        add(ui);
+    });
+}

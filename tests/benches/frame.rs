@@ -1,0 +1,78 @@
+//! How long a frame takes with 10,000 controllers: drawing and tessellation, without a GPU.
+
+#[path = "../common/samples.rs"]
+mod samples;
+
+use std::time::{Duration, Instant};
+
+use egui::{Event, Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
+use opcua_configurator::model::Language;
+use opcua_configurator::ui::App;
+use opcua_configurator::ui::backend::RecordingBackend;
+use opcua_configurator::ui::model::{Column, Message, Model, reduce};
+use opcua_configurator::workspace::Workspace;
+
+const ROWS: usize = 10_000;
+const WARM_UP: usize = 30;
+const FRAMES: usize = 300;
+const TARGET: Duration = Duration::from_millis(1);
+
+fn main() {
+    let now = "2026-06-01T08:30:00Z".parse().unwrap_or_default();
+    let model = || Model::new(samples::configuration(ROWS, now), Workspace::new("/nowhere"), Language::En, now);
+    for (what, scrolling) in [("frame, still", false), ("frame, scrolling", true)] {
+        report(what, median(frames(model(), scrolling)));
+    }
+    let mut model = model();
+    let mut once = |what: &str, message: Message| {
+        let start = Instant::now();
+        reduce(&mut model, message);
+        report(what, start.elapsed());
+    };
+    once("sort by name, once", Message::Sort(Column::Name));
+    once("sort by address, once", Message::Sort(Column::Address));
+    once("search, per key", Message::Filter("99".into()));
+    once("tick all, once", Message::TickAll(true));
+}
+
+fn report(what: &str, took: Duration) {
+    let ratio = took.as_secs_f64() / TARGET.as_secs_f64();
+    println!("{what:24} {:8.3} ms   {ratio:5.2} × target of {TARGET:?}", took.as_secs_f64() * 1e3);
+}
+
+fn median(mut times: Vec<Duration>) -> Duration {
+    times.sort();
+    times[times.len() / 2]
+}
+
+fn frames(model: Model, scrolling: bool) -> Vec<Duration> {
+    let ctx = egui::Context::default();
+    let mut app = App::new(&ctx, model, RecordingBackend::default());
+    let mut times = Vec::new();
+    for frame in 0..WARM_UP + FRAMES {
+        let mut input = RawInput {
+            screen_rect: Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(1280.0, 800.0))),
+            time: Some(frame as f64 / 60.0),
+            ..RawInput::default()
+        };
+        input.events.push(Event::PointerMoved(pos2(640.0, 400.0)));
+        if scrolling {
+            input.events.push(Event::MouseWheel {
+                unit: MouseWheelUnit::Point,
+                delta: vec2(0.0, -200.0),
+                phase: egui::TouchPhase::Move,
+                modifiers: Modifiers::NONE,
+                source: egui::MouseWheelSource::Unknown,
+            });
+        }
+        let start = Instant::now();
+        let mut output = ctx.run_ui(input, |ui| app.frame(ui));
+        let shapes = std::mem::take(&mut output.shapes);
+        std::hint::black_box(ctx.tessellate(shapes, output.pixels_per_point));
+        if frame >= WARM_UP {
+            times.push(start.elapsed());
+        }
+        output.drop_without_applying_deltas();
+    }
+    times
+}
