@@ -401,6 +401,19 @@ async fn information_that_cannot_be_read_is_explained() {
     }
 }
 
+/// Logging out is nothing an engineer should wait for; but no more say goodbye at once than have their turn.
+#[tokio::test(flavor = "multi_thread")]
+async fn the_next_turn_begins_before_the_last_goodbye_is_said() {
+    let info = some_info().await;
+    let stand = Arc::new(Stand { goodbye_after: 2, ..Stand::new(Ok(info.clone())) });
+    let (reports, _) = plant::run(crowd(2), GetInfo, stand.context(1), CancellationToken::new(), |_| {}).await;
+    assert_eq!(codes(&reports), [None; 2]);
+    let stand = Arc::new(Stand::new(Ok(info)));
+    plant::run(crowd(100), GetInfo, stand.context(4), CancellationToken::new(), |_| {}).await;
+    assert!((1..=4).contains(&stand.most_closing.load(Ordering::SeqCst)), "{:?}", stand.most_closing);
+    assert_eq!(stand.closing.load(Ordering::SeqCst), 0, "the job ends with the last goodbye");
+}
+
 /// Asks the user to unlock it, and the user has gone home.
 struct LockedKeyring(Mutex<std::sync::mpsc::Receiver<()>>);
 

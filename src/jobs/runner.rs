@@ -9,7 +9,7 @@ use tokio_util::sync::CancellationToken;
 use super::{Operation, Outcome, Run, Step};
 use crate::model::{Address, ControllerInfo, ControllerName, ErrorCode, Problem};
 use crate::pki::Fingerprint;
-use crate::session::Connector;
+use crate::session::{Connector, ControllerSession};
 use crate::workspace::{ControllerEntry, Passwords};
 
 /// A controller as a job sees it.
@@ -103,6 +103,9 @@ impl Summary {
 ///
 /// One failing never stops the others. After a cancel, controllers whose turn has not come are not started, and the
 /// others stop after the step in hand. Every controller gets exactly one [`JobEvent::Finished`].
+///
+/// A turn ends with that event; its session is closed while the next one has its turn. At most as many sessions are
+/// being closed as have their turn, and when this returns, all are.
 pub async fn run(
     controllers: Vec<JobController>,
     operation: Arc<dyn Operation>,
@@ -116,6 +119,7 @@ pub async fn run(
     let mut waiting = controllers.into_iter().enumerate();
     let mut turns = JoinSet::new();
     let mut index_of = HashMap::new();
+    let mut goodbyes = JoinSet::new();
     loop {
         while turns.len() < at_once
             && let Some((index, controller)) = waiting.next()
@@ -128,22 +132,37 @@ pub async fn run(
             });
             index_of.insert(turn.id(), index);
         }
-        let (id, report) = match turns.join_next_with_id().await {
+        let (id, turn) = match turns.join_next_with_id().await {
             None => break,
-            Some(Ok((id, report))) => (id, report),
-            Some(Err(e)) => (e.id(), Report::failed(Problem::with_detail(ErrorCode::Internal, &e))),
+            Some(Ok((id, turn))) => (id, turn),
+            Some(Err(e)) => (e.id(), Turn::failed(Problem::with_detail(ErrorCode::Internal, &e))),
         };
-        summary.add(&report.result);
+        summary.add(&turn.report.result);
         if let Some(index) = index_of.remove(&id) {
-            on_event(JobEvent::Finished { index, report: Box::new(report) });
+            on_event(JobEvent::Finished { index, report: Box::new(turn.report) });
+        }
+        if let Some(mut session) = turn.session {
+            while goodbyes.try_join_next().is_some() {}
+            if goodbyes.len() >= at_once {
+                goodbyes.join_next().await;
+            }
+            goodbyes.spawn(async move { session.close().await });
         }
     }
+    while goodbyes.join_next().await.is_some() {}
     summary
 }
 
-impl Report {
+/// A controller's turn is over.
+struct Turn {
+    report: Report,
+    /// Still to be closed.
+    session: Option<Box<dyn ControllerSession>>,
+}
+
+impl Turn {
     fn failed(problem: Problem) -> Self {
-        Self { result: Err(problem), info: None }
+        Self { report: Report { result: Err(problem), info: None }, session: None }
     }
 }
 
@@ -153,15 +172,15 @@ async fn one(
     context: &JobContext,
     cancel: &CancellationToken,
     on_step: &(dyn Fn(Step) + Send + Sync),
-) -> Report {
+) -> Turn {
     if cancel.is_cancelled() {
-        return Report::failed(ErrorCode::Cancelled.into());
+        return Turn::failed(ErrorCode::Cancelled.into());
     }
     if let Err(problem) = operation.check(controller) {
-        return Report::failed(problem);
+        return Turn::failed(problem);
     }
     let Some(fingerprint) = controller.fingerprint else {
-        return Report::failed(ErrorCode::FingerprintUnknown.into());
+        return Turn::failed(ErrorCode::FingerprintUnknown.into());
     };
     let open = async {
         let password = context.password(fingerprint).await?;
@@ -178,7 +197,7 @@ async fn one(
     };
     let (password, mut session) = match opened {
         Ok(opened) => opened,
-        Err(problem) => return Report::failed(problem),
+        Err(problem) => return Turn::failed(problem),
     };
     let result = operation
         .run(&mut Run {
@@ -200,6 +219,5 @@ async fn one(
             (result, info) => Report { result, info: info.ok() },
         },
     };
-    session.close().await;
-    report
+    Turn { report, session: Some(session) }
 }
