@@ -6,7 +6,9 @@
 //! | `pem` | the text armour around DER, both ways |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
 //! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
+//! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
+//! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
 //! | `fingerprint` | [`Fingerprint`]: what a configurator pins of that |
 //! | `name` | the text of an X.509 name |
@@ -19,6 +21,7 @@
 //! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
 
 mod certificate;
+mod csr;
 mod error;
 mod fingerprint;
 mod identity;
@@ -26,15 +29,18 @@ mod key;
 mod name;
 mod pem;
 mod pkcs12;
+mod preflight;
 #[cfg(test)]
 mod samples;
 mod self_signed;
 
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
+pub use csr::{Csr, make_csr};
 pub use error::PkiError;
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
 pub use key::PrivateKey;
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
-pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_write};
+pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_key, pkcs12_write, pkcs12_write_key};
+pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use self_signed::{ServerNames, self_signed};

@@ -40,11 +40,37 @@ pub(super) fn single_certificate(text: &[u8]) -> Result<Vec<u8>, PkiError> {
     }
 }
 
+/// The DER of the only certificate signing request in a PEM text.
+pub(super) fn single_csr(text: &[u8]) -> Result<Vec<u8>, PkiError> {
+    let mut requests = Vec::new();
+    let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    while let Some((item, after)) = rustls_pemfile::read_one_from_slice(rest).map_err(|_| PkiError::BadPem)? {
+        if let Item::Csr(der) = item {
+            requests.push(der);
+        }
+        rest = after;
+    }
+    match requests.as_slice() {
+        [] => Err(PkiError::NotACsr),
+        [der] => Ok(der.to_vec()),
+        several => Err(PkiError::SeveralCsrs(several.len())),
+    }
+}
+
 /// The PEM form of a certificate.
 pub(super) fn certificate(der: &[u8]) -> String {
+    armour("CERTIFICATE", der)
+}
+
+/// The PEM form of a certificate signing request.
+pub(super) fn csr(der: &[u8]) -> String {
+    armour("CERTIFICATE REQUEST", der)
+}
+
+fn armour(label: &str, der: &[u8]) -> String {
     let body = STANDARD.encode(der);
-    let mut text = String::with_capacity(body.len() + body.len() / 64 + 64);
-    text.push_str("-----BEGIN CERTIFICATE-----\n");
+    let mut text = format!("-----BEGIN {label}-----\n");
+    text.reserve(body.len() + body.len() / 64 + 64);
     let mut rest = body.as_str();
     while !rest.is_empty() {
         let (line, after) = rest.split_at(rest.len().min(64));
@@ -52,7 +78,7 @@ pub(super) fn certificate(der: &[u8]) -> String {
         text.push('\n');
         rest = after;
     }
-    text.push_str("-----END CERTIFICATE-----\n");
+    text.push_str(&format!("-----END {label}-----\n"));
     text
 }
 

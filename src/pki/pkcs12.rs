@@ -29,6 +29,22 @@ pub fn pkcs12_write(
     if !key.matches(leaf) {
         return Err(PkiError::NotAPair);
     }
+    // Other tools find the key's certificate by this id, and choose the thumbprint for it.
+    write(alias, key, certificates, &Sha1::digest(leaf.der()), password)
+}
+
+/// Writes a key without a certificate, as long as the CA has not issued one; otherwise as [`pkcs12_write`] does.
+pub fn pkcs12_write_key(alias: &str, key: &PrivateKey, password: &str) -> Result<Vec<u8>, PkiError> {
+    write(alias, key, &[], &Sha1::digest(key.public_key()), password)
+}
+
+fn write(
+    alias: &str,
+    key: &PrivateKey,
+    certificates: &[&Certificate],
+    id: &[u8],
+    password: &str,
+) -> Result<Vec<u8>, PkiError> {
     let encoding = |_: Error| PkiError::Pkcs12Encoding;
     let pkcs8 = key.to_pkcs8_der()?;
     let private_key = p12_keystore::PrivateKey::from_der(&pkcs8).map_err(encoding)?;
@@ -36,10 +52,8 @@ pub fn pkcs12_write(
         .iter()
         .map(|certificate| p12_keystore::Certificate::from_der(certificate.der()).map_err(encoding))
         .collect::<Result<_, _>>()?;
-    // Other tools find the key's certificate by this id, and choose the thumbprint for it.
-    let id = Sha1::digest(leaf.der()).to_vec();
     let mut store = KeyStore::new();
-    store.add_entry(alias, KeyStoreEntry::PrivateKeyChain(PrivateKeyChain::new(id, private_key, chain)));
+    store.add_entry(alias, KeyStoreEntry::PrivateKeyChain(PrivateKeyChain::new(id.to_vec(), private_key, chain)));
     store
         .writer(password)
         .encryption_algorithm(EncryptionAlgorithm::PbeWithHmacSha256AndAes256)
@@ -56,13 +70,8 @@ pub fn pkcs12_write(
 /// how long is up to whoever wrote
 /// the file, within a million hashings of the password for each of its parts.
 pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Certificate>), PkiError> {
-    check_outside(bytes)?;
-    let archive = Pkcs12Archive::from_pkcs12(bytes, password).map_err(reading)?;
-    let key = match archive.keys.as_slice() {
-        [] => return Err(PkiError::NoKey),
-        [bag] => PrivateKey::from_pkcs8_der(bag.key.as_der())?,
-        several => return Err(PkiError::SeveralKeys(several.len())),
-    };
+    let archive = open(bytes, password)?;
+    let key = single_key(&archive)?;
     let mut certificates: Vec<_> =
         archive.certs.iter().map(|bag| Certificate::from_der(bag.cert.as_der())).collect::<Result<_, _>>()?;
     if certificates.is_empty() {
@@ -71,6 +80,24 @@ pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Cert
     let leaf = certificates.iter().position(|certificate| key.matches(certificate)).ok_or(PkiError::NotAPair)?;
     certificates[..=leaf].rotate_right(1);
     Ok((key, certificates))
+}
+
+/// Reads the only key of a PKCS#12, whatever certificates are beside it; otherwise as [`pkcs12_read`] does.
+pub fn pkcs12_read_key(bytes: &[u8], password: &str) -> Result<PrivateKey, PkiError> {
+    single_key(&open(bytes, password)?)
+}
+
+fn open(bytes: &[u8], password: &str) -> Result<Pkcs12Archive, PkiError> {
+    check_outside(bytes)?;
+    Pkcs12Archive::from_pkcs12(bytes, password).map_err(reading)
+}
+
+fn single_key(archive: &Pkcs12Archive) -> Result<PrivateKey, PkiError> {
+    match archive.keys.as_slice() {
+        [] => Err(PkiError::NoKey),
+        [bag] => PrivateKey::from_pkcs8_der(bag.key.as_der()),
+        several => Err(PkiError::SeveralKeys(several.len())),
+    }
 }
 
 /// Whether this is a PKCS#12 at all, seen from outside, so that everything found wrong later is damage or a password.
@@ -192,6 +219,17 @@ mod tests {
         assert!(matches!(pkcs12_read(&large, PASSWORD), Err(PkiError::TooLarge { .. })));
         let ber = [0x30, 0x80, 0x02, 0x01, 0x03];
         assert!(matches!(pkcs12_read(&ber, PASSWORD), Err(PkiError::UnsupportedPkcs12(_))));
+    }
+
+    #[test]
+    fn a_key_can_travel_alone() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let bytes = pkcs12_write_key("server", key, PASSWORD).unwrap();
+            assert!(pkcs12_read_key(&bytes, PASSWORD).unwrap().matches(&samples::certificate_for(key)));
+            assert_eq!(pkcs12_read_key(&bytes, "wrong").err(), Some(PkiError::WrongPasswordOrDamaged));
+            assert_eq!(pkcs12_read(&bytes, PASSWORD).err(), Some(PkiError::NoCertificate));
+        }
+        assert!(pkcs12_read_key(&written(), PASSWORD).is_ok(), "whatever is beside it");
     }
 
     #[test]
