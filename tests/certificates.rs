@@ -11,11 +11,12 @@ use std::path::Path;
 
 use ca::Ca;
 use opcua_configurator::jobs::{
-    CaCertificateSource, CheckCaCertificate, CreateCsr, CsrFields, ExportSelfSigned, ImportCaCertificate,
-    ListCertificates, Outcome, Report, SelectCertificateType, SelfSigned, SelfSignedFields, StartServer,
+    CaCertificateSource, CheckCaCertificate, CheckUserCertificate, CreateCsr, CsrFields, ExportSelfSigned,
+    ImportCaCertificate, ImportUserCertificate, ListCertificates, Outcome, Report, SelectCertificateType, SelfSigned,
+    SelfSignedFields, StartServer, UserCertificateFiles,
 };
 use opcua_configurator::model::{CertificateType, ErrorCode, FileFormat, KeyLength, ServerStatus, Validity};
-use opcua_configurator::pki::{Certificate, Csr, Finding, Severity, pkcs12_read_key};
+use opcua_configurator::pki::{Certificate, Csr, Finding, PrivateKey, Severity, pkcs12_read_key, pkcs12_write};
 use opcua_configurator::protocol::HeldCertificates;
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{CertificateFiles, Workspace};
@@ -314,4 +315,110 @@ async fn a_self_signed_certificate_is_exported_in_both_formats() {
             assert_eq!(info.certificate.unwrap().summary, *summary);
         }
     }
+}
+
+/// A certificate made with another tool, for what the controller is called.
+fn made_elsewhere(plant: &Plant, key: &PrivateKey, change: impl FnOnce(&mut CertificateParams)) -> Certificate {
+    let mut params = CertificateParams::default();
+    let uri = format!("urn:{}", plant.controller(0).info().application_name);
+    let address = SanType::IpAddress("127.0.0.1".parse().unwrap());
+    params.subject_alt_names = vec![SanType::URI(uri.try_into().unwrap()), address];
+    params.key_usages = vec![
+        KeyUsagePurpose::DigitalSignature,
+        KeyUsagePurpose::ContentCommitment,
+        KeyUsagePurpose::KeyEncipherment,
+        KeyUsagePurpose::DataEncipherment,
+    ];
+    params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth];
+    params.not_before = OffsetDateTime::now_utc() - Duration::hours(1);
+    params.not_after = OffsetDateTime::now_utc() + Duration::days(365);
+    change(&mut params);
+    Certificate::from_der(params.self_signed(key).unwrap().der()).unwrap()
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn key_and_certificate_of_another_tool_are_imported_from_one_file_or_two() {
+    let plant = Plant::start(1, FleetFirmware::Legacy).await;
+    let folder = tempfile::tempdir().unwrap();
+    let files = files(folder.path());
+    let serial = plant.controller(0).serial();
+    let key = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
+    let certificate = made_elsewhere(&plant, &key, |_| {});
+    let pfx = pkcs12_write("robot", &key, &[&certificate], "Größe 1").unwrap();
+    assert_eq!(UserCertificateFiles::pfx_in(&files, &serial).unwrap_err().code, ErrorCode::FileNotFound);
+    let inbox = files.user_specified_folder(&serial);
+    fs::create_dir_all(&inbox).unwrap();
+    fs::write(inbox.join("robot_7.pfx"), pfx).unwrap();
+    fs::write(inbox.join("robot_7.der"), certificate.der()).unwrap();
+    fs::write(inbox.join("robot_7.key"), &*key.to_pkcs8_der().unwrap()).unwrap();
+    let from_pfx = ImportUserCertificate {
+        files: UserCertificateFiles::pfx_in(&files, &serial).unwrap(),
+        password: Some("Größe 1".into()),
+        accept_warnings: false,
+    };
+    let pair = UserCertificateFiles::pair_in(&files, &serial).unwrap();
+    let from_pair = ImportUserCertificate { files: pair, password: None, accept_warnings: false };
+    plant.run(self_signed()).await;
+    plant.run(StartServer).await;
+    for operation in [from_pfx.clone(), from_pair] {
+        plant.run(SelectCertificateType(CertificateType::SelfSigned)).await;
+        let report = &plant.run(operation).await[0];
+        let Ok(Outcome::Imported { findings, .. }) = &report.result else { panic!("{report:?}") };
+        let info = report.info.clone().unwrap();
+        let in_use = info.certificate.unwrap();
+        assert_eq!((in_use.kind, in_use.summary), (CertificateType::UserSpecified, certificate.summary()));
+        assert_eq!((info.status, findings.as_slice()), (ServerStatus::Run, &[][..]));
+    }
+    let current = Plant::start(1, FleetFirmware::Current).await;
+    assert_eq!(codes(&current.run(from_pfx).await), [Some(ErrorCode::FirmwareTooNew)]);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn every_mistake_with_another_tools_files_has_its_own_message() {
+    let plant = Plant::start(1, FleetFirmware::Legacy).await;
+    let folder = tempfile::tempdir().unwrap();
+    let key = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
+    let short = PrivateKey::generate(KeyLength::Rsa1024).unwrap();
+    let good = made_elsewhere(&plant, &key, |_| {});
+    let file = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        path
+    };
+    let pfx_of = |name: &str, key: &PrivateKey, certificate: &Certificate| {
+        UserCertificateFiles::Pfx(file(name, &pkcs12_write("robot", key, &[certificate], "right").unwrap()))
+    };
+    let pair = |certificate: &Certificate| UserCertificateFiles::Pair {
+        certificate: file("a.der", certificate.der()),
+        key: file("a.key", &key.to_pkcs8_der().unwrap()),
+    };
+    let whole = pkcs12_write("robot", &key, &[&good], "right").unwrap();
+    let expired = made_elsewhere(&plant, &key, |p| p.not_after = OffsetDateTime::now_utc() - Duration::minutes(1));
+    let stranger = made_elsewhere(&plant, &key, |p| drop(p.subject_alt_names.remove(0)));
+    let before = plant.controller(0).info().revision;
+    for (files, password, code) in [
+        (pfx_of("wrong.pfx", &key, &good), "wrong", ErrorCode::WrongKeyPassword),
+        (UserCertificateFiles::Pfx(file("cut.pfx", &whole[..whole.len() - 9])), "right", ErrorCode::FileFormat),
+        (UserCertificateFiles::Pfx(file("no.pfx", good.der())), "right", ErrorCode::FileFormat),
+        (UserCertificateFiles::Pfx(folder.path().join("nowhere.pfx")), "right", ErrorCode::FileNotFound),
+        (pair(&made_elsewhere(&plant, &short, |_| {})), "", ErrorCode::KeyMismatch),
+        (pfx_of("expired.pfx", &key, &expired), "right", ErrorCode::CertificateExpired),
+        (pfx_of("short.pfx", &short, &made_elsewhere(&plant, &short, |_| {})), "right", ErrorCode::KeyLengthNotAllowed),
+        (pfx_of("stranger.pfx", &key, &stranger), "right", ErrorCode::Preflight),
+    ] {
+        let operation = ImportUserCertificate {
+            files: files.clone(),
+            password: Some(password.to_owned().into()),
+            accept_warnings: true,
+        };
+        let problem = plant.run(operation).await.remove(0).result.unwrap_err();
+        assert_eq!(problem.code, code, "{files:?}: {problem}");
+        assert!(!problem.to_string().contains("right"), "a password in {problem}");
+    }
+    assert_eq!(plant.controller(0).info().revision, before, "nothing was sent");
+
+    let files = pfx_of("stranger.pfx", &key, &stranger);
+    let checked = plant.run(CheckUserCertificate { files, password: Some("right".into()) }).await.remove(0);
+    let Ok(Outcome::Checked { findings, .. }) = &checked.result else { panic!("{checked:?}") };
+    assert!(matches!(&findings[..], [Finding::ApplicationUriMissing { .. }]), "{findings:?}");
 }

@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use async_trait::async_trait;
 
@@ -20,14 +20,25 @@ pub enum CaCertificateSource {
 impl CaCertificateSource {
     /// Finds and reads the certificate for a controller. Blocks for one small file.
     pub fn read(&self, serial: &SerialNumber) -> Result<Certificate, Problem> {
-        let path = match self {
-            Self::Folder(files) => files.find_ca_signed(serial)?,
-            Self::File(path) => path.clone(),
-        };
-        let bytes = read_import_file(&path, MAX_CERTIFICATE_FILE_BYTES)?;
-        Certificate::from_any(&bytes)
-            .map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", path.display())))
+        match self {
+            Self::Folder(files) => read(&files.find_ca_signed(serial)?),
+            Self::File(path) => read(path),
+        }
     }
+
+    /// Reads the certificate if it is the same whatever the controller: a wrong file is found out before any is asked.
+    pub fn read_chosen(&self) -> Result<Option<Certificate>, Problem> {
+        match self {
+            Self::Folder(_) => Ok(None),
+            Self::File(path) => read(path).map(Some),
+        }
+    }
+}
+
+fn read(path: &Path) -> Result<Certificate, Problem> {
+    let bytes = read_import_file(path, MAX_CERTIFICATE_FILE_BYTES)?;
+    Certificate::from_any(&bytes)
+        .map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", path.display())))
 }
 
 /// Imports what a CA issued for the CSR the controller holds, and selects it (manual 2.7.1.5).

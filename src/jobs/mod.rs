@@ -12,6 +12,8 @@
 //! | `self_signed` | make and install a self-signed certificate |
 //! | `create_csr` | make a key and its certificate signing request |
 //! | `import_ca` | check and import what a CA issued for that |
+//! | `import_user` | check and import key and certificate made with another tool |
+//! | `preflight` | what is looked at before such an import |
 //! | `select_certificate` | list the server certificates held, select one |
 //! | `export_self_signed` | save the self-signed certificate on the PC |
 //! | `clients` | list and add trusted client certificates |
@@ -23,6 +25,7 @@ mod enroll;
 mod export_self_signed;
 mod get_info;
 mod import_ca;
+mod import_user;
 mod operation;
 mod preflight;
 mod runner;
@@ -38,6 +41,7 @@ pub use enroll::{Enrolled, enroll, probe};
 pub use export_self_signed::ExportSelfSigned;
 pub use get_info::GetInfo;
 pub use import_ca::{CaCertificateSource, CheckCaCertificate, ImportCaCertificate};
+pub use import_user::{CheckUserCertificate, ImportUserCertificate, UserCertificateFiles};
 pub use operation::{Confirmation, Operation, Outcome, Run, Step};
 pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
 pub use select_certificate::{ListCertificates, SelectCertificateType};

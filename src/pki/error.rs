@@ -39,7 +39,7 @@ pub enum PkiError {
     SeveralCsrs(usize),
 
     // a key
-    #[error("not an RSA private key in PKCS#8, or a damaged one")]
+    #[error("not an RSA private key, or a damaged one")]
     NotAPrivateKey,
     #[error("RSA keys of {0} bits are not used; only 1024, 2048 and 4096 are")]
     KeyLength(u16),

@@ -2,7 +2,7 @@ use p12_keystore::error::Error;
 use p12_keystore::{EncryptionAlgorithm, KeyStore, KeyStoreEntry, MacAlgorithm, Pkcs12Archive, PrivateKeyChain};
 use sha1::{Digest as _, Sha1};
 
-use super::{Certificate, PkiError, PrivateKey};
+use super::{Certificate, PkiError, PrivateKey, tlv};
 
 /// The largest PKCS#12 that is read.
 pub const MAX_PKCS12_BYTES: usize = 256 * 1024;
@@ -88,8 +88,20 @@ pub fn pkcs12_read_key(bytes: &[u8], password: &str) -> Result<PrivateKey, PkiEr
 }
 
 fn open(bytes: &[u8], password: &str) -> Result<Pkcs12Archive, PkiError> {
-    check_outside(bytes)?;
-    Pkcs12Archive::from_pkcs12(bytes, password).map_err(reading)
+    let has_mac = check_outside(bytes)?;
+    Pkcs12Archive::from_pkcs12(bytes, password).map_err(|error| reading(&error, has_mac))
+}
+
+/// A PKCS#12 without a MAC around one encrypted private key (EncryptedPrivateKeyInfo).
+pub(super) fn around(encrypted_key: &[u8]) -> Vec<u8> {
+    let content = |inside: &[u8]| {
+        let octets = tlv::write(tlv::OCTET_STRING, &[inside]);
+        tlv::write(tlv::SEQUENCE, &[DATA, &tlv::write(tlv::CONTEXT_0, &[&octets])])
+    };
+    let bag = tlv::write(tlv::SEQUENCE, &[SHROUDED_KEY_BAG, &tlv::write(tlv::CONTEXT_0, &[encrypted_key])]);
+    let bags = tlv::write(tlv::SEQUENCE, &[&bag]);
+    let safes = tlv::write(tlv::SEQUENCE, &[&content(&bags)]);
+    tlv::write(tlv::SEQUENCE, &[VERSION_3, &content(&safes)])
 }
 
 fn single_key(archive: &Pkcs12Archive) -> Result<PrivateKey, PkiError> {
@@ -100,8 +112,9 @@ fn single_key(archive: &Pkcs12Archive) -> Result<PrivateKey, PkiError> {
     }
 }
 
-/// Whether this is a PKCS#12 at all, seen from outside, so that everything found wrong later is damage or a password.
-fn check_outside(bytes: &[u8]) -> Result<(), PkiError> {
+/// Whether this is a PKCS#12 at all, seen from outside, so that everything found wrong later is damage or a password;
+/// and whether it has a MAC, which tells the two apart but for damage within what the MAC is about.
+fn check_outside(bytes: &[u8]) -> Result<bool, PkiError> {
     if bytes.is_empty() {
         return Err(PkiError::Empty);
     }
@@ -116,10 +129,17 @@ fn check_outside(bytes: &[u8]) -> Result<(), PkiError> {
         | [SEQUENCE, 0x83, _, _, _, inside @ ..] => inside,
         _ => return Err(PkiError::NotPkcs12),
     };
-    if inside.starts_with(VERSION_3) { Ok(()) } else { Err(PkiError::NotPkcs12) }
+    if !inside.starts_with(VERSION_3) {
+        return Err(PkiError::NotPkcs12);
+    }
+    let parts = match tlv::all(bytes).as_deref() {
+        Some([whole]) => tlv::all(whole.content),
+        _ => None,
+    };
+    Ok(parts.ok_or(PkiError::Damaged)?.len() == 3)
 }
 
-fn reading(error: Error) -> PkiError {
+fn reading(error: &Error, has_mac: bool) -> PkiError {
     match error {
         Error::UnsupportedEncryptionScheme | Error::UnsupportedMacAlgorithm => {
             PkiError::UnsupportedPkcs12("unknown encryption")
@@ -127,12 +147,19 @@ fn reading(error: Error) -> PkiError {
         Error::UnsupportedContentType => PkiError::UnsupportedPkcs12("it is not protected by a password"),
         Error::UnsupportedCertificateType => PkiError::UnsupportedPkcs12("it holds a certificate that is not X.509"),
         Error::InvalidParameters => PkiError::UnsupportedPkcs12("the password is to be hashed too often"),
+        Error::MacError(_) => PkiError::WrongPasswordOrDamaged,
+        // The MAC was right, or not even reached.
+        _ if has_mac => PkiError::Damaged,
         _ => PkiError::WrongPasswordOrDamaged,
     }
 }
 
-const SEQUENCE: u8 = 0x30;
+const SEQUENCE: u8 = tlv::SEQUENCE;
 const VERSION_3: &[u8] = &[0x02, 0x01, 0x03];
+/// 1.2.840.113549.1.7.1
+const DATA: &[u8] = &[0x06, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 7, 1];
+/// 1.2.840.113549.1.12.10.1.2
+const SHROUDED_KEY_BAG: &[u8] = &[0x06, 11, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 12, 10, 1, 2];
 
 #[cfg(test)]
 mod tests {
@@ -203,7 +230,7 @@ mod tests {
         let bytes = written();
         assert_eq!(pkcs12_read(&bytes, "wrong").err(), Some(PkiError::WrongPasswordOrDamaged));
         assert_eq!(pkcs12_read(&bytes, "").err(), Some(PkiError::WrongPasswordOrDamaged));
-        assert_eq!(pkcs12_read(&bytes[..bytes.len() - 1], PASSWORD).err(), Some(PkiError::WrongPasswordOrDamaged));
+        assert_eq!(pkcs12_read(&bytes[..bytes.len() - 1], PASSWORD).err(), Some(PkiError::Damaged));
         let mut damaged = bytes.clone();
         damaged[bytes.len() / 2] ^= 1;
         assert_eq!(pkcs12_read(&damaged, PASSWORD).err(), Some(PkiError::WrongPasswordOrDamaged));
