@@ -188,6 +188,11 @@ impl Settled {
             (confirmation.stops_server, "the OPC UA server is stopped, and started again if it was running"),
             (confirmation.replaces_certificate, "the server certificate of the same type is replaced"),
             (confirmation.overwrites_backup, "backup files of the same name are replaced"),
+            (
+                confirmation.invalidates_ca_signed,
+                "below firmware 8.0.0 the CA-signed certificate becomes invalid at once, and a server that uses it stops",
+            ),
+            (confirmation.overwrites_files, "files of the same name on this computer are replaced"),
             (confirmation.deletes_log, "the server log is deleted"),
         ] {
             if applies {

@@ -1,16 +1,116 @@
-use clap::{Args, Subcommand};
-use serde_json::json;
+use std::path::PathBuf;
 
-use super::batch::{Presentation, Shown};
-use super::select::Select;
+use clap::{Args, Subcommand, ValueEnum};
+use serde_json::{Value, json};
+
+use super::batch::{Presentation, STATE, Shown};
+use super::passwords::read_secret;
+use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
-use crate::jobs::{Outcome, SelfSigned, SelfSignedFields};
-use crate::model::{ErrorCode, KeyLength, Problem, Validity};
+use crate::jobs::{
+    CaCertificateSource, CreateCsr, CsrFields, ExportSelfSigned, ImportCaCertificate, ImportUserCertificate, Outcome,
+    SelectCertificateType, SelfSigned, SelfSignedFields, UserCertificateFiles,
+};
+use crate::model::{CertificateType, ErrorCode, FileFormat, KeyLength, Language, Problem, Validity};
+use crate::pki::{Finding, Severity};
+use crate::workspace::{Configuration, ControllerEntry};
 
 #[derive(Debug, Subcommand)]
 pub enum CertCommand {
     /// Make and install a self-signed server certificate
     SelfSigned(SelfSignedArgs),
+    /// Make a key and its signing request, saved as Cert/CSR/3_csr in the controller's folder of the workspace
+    Csr(CsrArgs),
+    /// Import what a CA issued for the signing request; --yes also accepts what clients may complain about
+    ImportCa {
+        /// The certificate, for one controller only [default: the only .der in the controller's Cert/CASigned]
+        #[arg(long)]
+        file: Option<PathBuf>,
+        #[command(flatten)]
+        select: Select,
+    },
+    /// Import key and certificate made with another tool into one controller with firmware below 8.0.0: FILE.pfx
+    /// CONTROLLER, or CERTIFICATE KEYFILE CONTROLLER; --yes also accepts what clients may complain about
+    ImportUser {
+        /// File with the password of the .pfx or of the key, "-" for standard input
+        #[arg(long, value_name = "FILE")]
+        password_file: Option<PathBuf>,
+        #[command(flatten)]
+        arguments: ThingsThenSelect,
+    },
+    /// Select which of the certificates held the server uses
+    Select {
+        #[arg(value_name = "TYPE")]
+        kind: Kind,
+        #[command(flatten)]
+        select: Select,
+    },
+    /// Save the self-signed certificate as Cert/SelfSigned/1_cert in the controller's folder of the workspace
+    Export {
+        #[arg(long, value_enum, default_value_t = Format::Der)]
+        format: Format,
+        #[command(flatten)]
+        select: Select,
+    },
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Kind {
+    SelfSigned,
+    User,
+    Ca,
+}
+
+impl From<Kind> for CertificateType {
+    fn from(kind: Kind) -> Self {
+        match kind {
+            Kind::SelfSigned => Self::SelfSigned,
+            Kind::User => Self::UserSpecified,
+            Kind::Ca => Self::CaSigned,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum Format {
+    Der,
+    Pem,
+}
+
+impl From<Format> for FileFormat {
+    fn from(format: Format) -> Self {
+        match format {
+            Format::Der => Self::Der,
+            Format::Pem => Self::Pem,
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+pub struct CsrArgs {
+    /// Common name, for one controller only [default: the controller's own, EpsonRC.<serial>.<address>]
+    #[arg(long, value_name = "CN")]
+    cn: Option<String>,
+    /// Country, ISO 3166-1 alpha-2
+    #[arg(long, value_name = "CC")]
+    country: String,
+    /// State or province
+    #[arg(long)]
+    state: String,
+    /// City
+    #[arg(long)]
+    locality: String,
+    /// Organisation or company
+    #[arg(long)]
+    organisation: String,
+    /// Key length: 1024, 2048 or 4096, as the ticked security policies allow
+    #[arg(long, value_name = "N", default_value_t = 2048)]
+    bits: u16,
+    /// Format of the file
+    #[arg(long, value_enum, default_value_t = Format::Der)]
+    format: Format,
+    #[command(flatten)]
+    select: Select,
 }
 
 #[derive(Debug, Args)]
@@ -62,10 +162,150 @@ const CERTIFICATE: Presentation = Presentation {
     },
 };
 
+const CSR: Presentation = Presentation {
+    header: &["STATUS", "COMMON NAME", "FILE"],
+    show: |outcome, info| {
+        let Outcome::Csr { common_name, saved } = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        Shown {
+            json: json!({
+                "status": info.status,
+                "common_name": common_name,
+                "saved": { "csr": saved.csr, "key": saved.key },
+            }),
+            cells: vec![info.status.as_str().to_owned(), common_name.clone(), saved.csr.display().to_string()],
+        }
+    },
+};
+
+const IMPORTED: Presentation = Presentation {
+    header: &["STATUS", "ISSUED TO", "ISSUED BY", "EXPIRY", "THUMBPRINT", "WARNINGS"],
+    show: |outcome, info| {
+        let Outcome::Imported { summary, findings } = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        Shown {
+            json: json!({
+                "status": info.status,
+                "certificate": summary,
+                "findings": findings.iter().map(finding).collect::<Vec<_>>(),
+            }),
+            cells: vec![
+                info.status.as_str().to_owned(),
+                summary.issued_to.clone(),
+                summary.issued_by.clone(),
+                summary.not_after.format("%Y-%m-%d").to_string(),
+                summary.thumbprint.clone(),
+                findings.iter().map(Finding::status).collect::<Vec<_>>().join(" "),
+            ],
+        }
+    },
+};
+
+const EXPORTED: Presentation = Presentation {
+    header: &["EXPIRY", "THUMBPRINT", "FILE"],
+    show: |outcome, _| {
+        let Outcome::Exported { summary, file } = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        Shown {
+            json: json!({ "certificate": summary, "file": file }),
+            cells: vec![
+                summary.not_after.format("%Y-%m-%d").to_string(),
+                summary.thumbprint.clone(),
+                file.display().to_string(),
+            ],
+        }
+    },
+};
+
+fn finding(finding: &Finding) -> Value {
+    json!({
+        "severity": match finding.severity() {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        },
+        "status": finding.status(),
+        "message": finding.explain(Language::En),
+    })
+}
+
 pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
-    let CertCommand::SelfSigned(args) = command;
     let configuration = settled.configuration()?;
-    let chosen = args.select.resolve(&configuration)?;
+    match command {
+        CertCommand::SelfSigned(args) => self_signed(settled, &configuration, args),
+        CertCommand::Csr(args) => csr(settled, &configuration, args),
+        CertCommand::ImportCa { file, select } => {
+            let chosen = select.resolve(&configuration)?;
+            let source = match file {
+                None => CaCertificateSource::Folder(settled.workspace.certificate_files()),
+                Some(file) => {
+                    one_only(&chosen)?;
+                    // Read once before anything is sent, so that a wrong file is a wrong request.
+                    let source = CaCertificateSource::File(file);
+                    source.read_chosen()?;
+                    source
+                }
+            };
+            let operation = ImportCaCertificate { source, accept_warnings: settled.yes };
+            settled.batch(&configuration, &chosen, operation, &IMPORTED)
+        }
+        CertCommand::ImportUser { password_file, arguments } => {
+            let (files, chosen) = arguments.resolve(&configuration)?;
+            one_only(&chosen)?;
+            let files = match files.as_slice() {
+                [pfx] => UserCertificateFiles::Pfx(pfx.into()),
+                [certificate, key] => UserCertificateFiles::Pair { certificate: certificate.into(), key: key.into() },
+                _ => return Err(Problem::with_detail(ErrorCode::SeveralFiles, files.join(", "))),
+            };
+            let password = password_file.as_deref().map(read_secret).transpose()?;
+            files.read(password.as_ref())?;
+            let operation = ImportUserCertificate { files, password, accept_warnings: settled.yes };
+            settled.batch(&configuration, &chosen, operation, &IMPORTED)
+        }
+        CertCommand::Select { kind, select } => {
+            let chosen = select.resolve(&configuration)?;
+            settled.batch(&configuration, &chosen, SelectCertificateType(kind.into()), &STATE)
+        }
+        CertCommand::Export { format, select } => {
+            let chosen = select.resolve(&configuration)?;
+            let files = settled.workspace.certificate_files();
+            settled.batch(&configuration, &chosen, ExportSelfSigned { format: format.into(), files }, &EXPORTED)
+        }
+    }
+}
+
+fn one_only(chosen: &[ControllerEntry]) -> Result<(), Problem> {
+    if chosen.len() > 1 { Err(ErrorCode::OneControllerOnly.into()) } else { Ok(()) }
+}
+
+fn csr(settled: &Settled, configuration: &Configuration, args: CsrArgs) -> Result<Ending, Problem> {
+    let chosen = args.select.resolve(configuration)?;
+    let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
+    if args.cn.is_some() && chosen.len() > 1 {
+        return Err(wrong(&"a common name can be given for one controller only"));
+    }
+    let fields = CsrFields {
+        common_name: args.cn,
+        country: args.country.to_ascii_uppercase(),
+        state: args.state,
+        locality: args.locality,
+        organisation: args.organisation,
+        key_length: KeyLength::try_from(args.bits).map_err(|e| wrong(&e))?,
+    };
+    fields.request("x").subject.check().map_err(|e| wrong(&e))?;
+    let operation = CreateCsr {
+        fields,
+        format: args.format.into(),
+        files: settled.workspace.certificate_files(),
+        backup: configuration.options.backup,
+    };
+    settled.batch(configuration, &chosen, operation, &CSR)
+}
+
+fn self_signed(settled: &Settled, configuration: &Configuration, args: SelfSignedArgs) -> Result<Ending, Problem> {
+    let chosen = args.select.resolve(configuration)?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     if args.cn.is_some() && chosen.len() > 1 {
         return Err(wrong(&"a common name can be given for one controller only"));
@@ -81,5 +321,5 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
     };
     fields.request("x").subject.check().map_err(|e| wrong(&e))?;
     let backup = configuration.options.backup.then(|| settled.workspace.certificate_files());
-    settled.batch(&configuration, &chosen, SelfSigned { fields, backup }, &CERTIFICATE)
+    settled.batch(configuration, &chosen, SelfSigned { fields, backup }, &CERTIFICATE)
 }

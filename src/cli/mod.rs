@@ -90,7 +90,7 @@ enum Command {
     /// List, add and remove the users of OPC UA servers
     #[command(subcommand)]
     Users(users::UsersCommand),
-    /// Make server certificates
+    /// Make, request, import, select and export server certificates
     #[command(subcommand)]
     Cert(cert::CertCommand),
     /// List and add trusted client certificates

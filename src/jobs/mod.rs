@@ -10,24 +10,41 @@
 //! | `settings` | read and change the basic settings |
 //! | `users` | list, add, remove users |
 //! | `self_signed` | make and install a self-signed certificate |
+//! | `create_csr` | make a key and its certificate signing request |
+//! | `import_ca` | check and import what a CA issued for that |
+//! | `import_user` | check and import key and certificate made with another tool |
+//! | `preflight` | what is looked at before such an import |
+//! | `select_certificate` | list the server certificates held, select one |
+//! | `export_self_signed` | save the self-signed certificate on the PC |
 //! | `clients` | list and add trusted client certificates |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod clients;
+mod create_csr;
 mod enroll;
+mod export_self_signed;
 mod get_info;
+mod import_ca;
+mod import_user;
 mod operation;
+mod preflight;
 mod runner;
+mod select_certificate;
 mod self_signed;
 mod server_control;
 mod settings;
 mod users;
 
 pub use clients::{AddClientCertificates, ClientCertificateFile, ListClients};
+pub use create_csr::{CreateCsr, CsrFields};
 pub use enroll::{Enrolled, enroll, probe};
+pub use export_self_signed::ExportSelfSigned;
 pub use get_info::GetInfo;
+pub use import_ca::{CaCertificateSource, CheckCaCertificate, ImportCaCertificate};
+pub use import_user::{CheckUserCertificate, ImportUserCertificate, UserCertificateFiles};
 pub use operation::{Confirmation, Operation, Outcome, Run, Step};
 pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
+pub use select_certificate::{ListCertificates, SelectCertificateType};
 pub use self_signed::{SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};

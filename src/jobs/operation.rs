@@ -1,12 +1,15 @@
+use std::path::PathBuf;
+
 use async_trait::async_trait;
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
 use super::JobController;
 use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, UserName};
-use crate::protocol::{ListedCertificate, Revisioned};
+use crate::pki::Finding;
+use crate::protocol::{HeldCertificates, ListedCertificate, Revisioned};
 use crate::session::ControllerSession;
-use crate::workspace::SavedCertificate;
+use crate::workspace::{SavedCertificate, SavedCsr};
 
 /// What is done to one controller.
 #[async_trait]
@@ -31,6 +34,11 @@ pub struct Confirmation {
     pub replaces_certificate: bool,
     /// Backup files of the same name on the PC are replaced.
     pub overwrites_backup: bool,
+    /// On legacy firmware, the CA-signed certificate in the controller becomes invalid at once, and a server that uses
+    /// it stops.
+    pub invalidates_ca_signed: bool,
+    /// Files of the same name on the PC are replaced.
+    pub overwrites_files: bool,
     /// The server log in the controller is deleted.
     pub deletes_log: bool,
 }
@@ -56,6 +64,27 @@ pub enum Outcome {
     Certificate {
         summary: CertificateSummary,
         saved: Option<SavedCertificate>,
+    },
+    /// A signing request was made and saved.
+    Csr {
+        common_name: String,
+        saved: SavedCsr,
+    },
+    /// A server certificate from elsewhere was installed and selected; what clients may complain about was accepted.
+    Imported {
+        summary: CertificateSummary,
+        findings: Vec<Finding>,
+    },
+    /// A server certificate from elsewhere was looked at.
+    Checked {
+        summary: CertificateSummary,
+        findings: Vec<Finding>,
+    },
+    Certificates(Revisioned<HeldCertificates>),
+    /// A server certificate was saved on the PC.
+    Exported {
+        summary: CertificateSummary,
+        file: PathBuf,
     },
 }
 

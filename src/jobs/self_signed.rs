@@ -52,7 +52,7 @@ pub struct SelfSigned {
     pub backup: Option<CertificateFiles>,
 }
 
-fn bad_request(error: impl std::fmt::Display) -> Problem {
+pub(super) fn bad_request(error: impl std::fmt::Display) -> Problem {
     Problem::with_detail(ErrorCode::BadCertificateRequest, error)
 }
 
@@ -136,7 +136,7 @@ async fn make_and_send(
 
 /// What clients will compare with the certificate: the ApplicationUri the server announces (OPC 10000-6 §6.2.2), and
 /// the names it is reached by, from both sides.
-fn server_names(info: &ControllerInfo, controller: &JobController) -> ServerNames {
+pub(super) fn server_names(info: &ControllerInfo, controller: &JobController) -> ServerNames {
     let announced =
         info.endpoint.strip_prefix("opc.tcp://").and_then(|rest| rest.split('/').next()).unwrap_or_default();
     let announced = announced.rsplit_once(':').map_or(announced, |(host, _)| host).trim_matches(['[', ']']);
@@ -153,7 +153,7 @@ fn server_names(info: &ControllerInfo, controller: &JobController) -> ServerName
 }
 
 /// A password for one transfer, known to nobody but the two ends.
-fn transfer_password() -> Result<SecretString, Problem> {
+pub(super) fn transfer_password() -> Result<SecretString, Problem> {
     let mut bytes = [0u8; 24];
     getrandom::fill(&mut bytes).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
     Ok(SecretString::from(hex::encode(bytes)))

@@ -20,6 +20,15 @@ pub enum CertificateType {
 impl CertificateType {
     pub const ALL: [Self; 3] = [Self::SelfSigned, Self::UserSpecified, Self::CaSigned];
 
+    /// As the protocol and `--json` write it.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::SelfSigned => "self-signed",
+            Self::UserSpecified => "user-specified",
+            Self::CaSigned => "ca-signed",
+        }
+    }
+
     /// 1, 2 or 3: the prefix of this type's files (appendix B-1).
     pub const fn number(self) -> u8 {
         match self {
@@ -188,11 +197,55 @@ pub struct SelfSignedRequest {
 
 impl SelfSignedRequest {
     pub fn check(&self, policies: &BTreeSet<SecurityPolicy>) -> Result<(), SubjectError> {
-        self.subject.check()?;
-        if !offered_key_lengths(policies).contains(&self.key_length) {
-            return Err(SubjectError::KeyLengthNotAllowed(self.key_length.bits()));
+        check_request(&self.subject, self.key_length, policies)
+    }
+}
+
+/// What a certificate signing request is to be made of (manual 2.7.1.5): as a self-signed certificate, but how long the
+/// certificate will be valid is for the CA to say.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CsrRequest {
+    pub subject: Subject,
+    pub key_length: KeyLength,
+}
+
+impl CsrRequest {
+    pub fn check(&self, policies: &BTreeSet<SecurityPolicy>) -> Result<(), SubjectError> {
+        check_request(&self.subject, self.key_length, policies)
+    }
+}
+
+fn check_request(
+    subject: &Subject,
+    key_length: KeyLength,
+    policies: &BTreeSet<SecurityPolicy>,
+) -> Result<(), SubjectError> {
+    subject.check()?;
+    if !offered_key_lengths(policies).contains(&key_length) {
+        return Err(SubjectError::KeyLengthNotAllowed(key_length.bits()));
+    }
+    Ok(())
+}
+
+/// How a certificate or a signing request is written to a file (manual 2.7.1.3, 2.7.1.5).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FileFormat {
+    #[default]
+    Der,
+    Pem,
+}
+
+impl FileFormat {
+    pub const ALL: [Self; 2] = [Self::Der, Self::Pem];
+
+    /// The file name extension, without its dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Der => "der",
+            Self::Pem => "pem",
         }
-        Ok(())
     }
 }
 

@@ -19,8 +19,8 @@ mod user;
 
 pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
 pub use certificate::{
-    CertificateSummary, CertificateType, KeyLength, SelfSignedRequest, Subject, SubjectError, Validity,
-    default_common_name, offered_key_lengths,
+    CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
+    Validity, default_common_name, offered_key_lengths,
 };
 pub use client_list::{ClientList, ListLimits};
 pub use controller::{

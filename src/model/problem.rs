@@ -70,6 +70,21 @@ pub enum ErrorCode {
     UnknownController,
     FileUnreadable,
     NotConfirmed,
+    // server certificates and their files
+    CsrMismatch,
+    NoCsr,
+    CertificateNotStored,
+    CertificateExpired,
+    KeyLengthNotAllowed,
+    KeyMismatch,
+    WrongKeyPassword,
+    FileNotFound,
+    SeveralFiles,
+    BadFileName,
+    FileFormat,
+    OneControllerOnly,
+    Preflight,
+    PreflightWarnings,
     // the PC
     WorkspaceReadOnly,
     WorkspaceFull,
@@ -668,6 +683,157 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("操作未确认", "该操作会更改控制器，且没有可询问的终端。", "请加上 --yes 重新执行命令。"),
     ),
     (
+        ErrorCode::CsrMismatch,
+        text(
+            "The certificate and the CSR do not match",
+            "The certificate was not issued for the CSR that the controller holds.",
+            "Import the certificate that the CA issued for this controller's latest CSR.",
+        ),
+        text(
+            "证书和 CSR 不匹配",
+            "控制器中保存的 CSR 与待导入证书未配对。",
+            "请导入 CA 为该控制器最新的 CSR 签发的证书。",
+        ),
+    ),
+    (
+        ErrorCode::NoCsr,
+        text(
+            "The controller holds no CSR",
+            "A CA-signed certificate can only be imported for a CSR that was made before.",
+            "Create a CSR, have it signed by the CA, then import the certificate.",
+        ),
+        text("控制器中没有 CSR", "只有先创建 CSR，才能导入 CA 签名证书。", "请创建 CSR 并由 CA 签发证书，然后再导入。"),
+    ),
+    (
+        ErrorCode::CertificateNotStored,
+        text(
+            "Update failed: the file does not exist",
+            "The controller holds no certificate of this type.",
+            "Create or import the certificate first.",
+        ),
+        text("更新失败：文件不存在", "控制器中不存在选定的证书文件类型。", "请先创建或导入要用作服务器证书的证书。"),
+    ),
+    (
+        ErrorCode::CertificateExpired,
+        text(
+            "The certificate has expired",
+            "Its validity ended before the date of the controller's clock.",
+            "Have a new certificate issued. If the controller's clock is wrong, set it.",
+        ),
+        text("证书已过期", "证书的有效期早于控制器的当前日期。", "请重新签发证书。若控制器时钟有误，请先校准时钟。"),
+    ),
+    (
+        ErrorCode::KeyLengthNotAllowed,
+        text(
+            "The key length does not fit the security policies",
+            "One of the ticked security policies does not allow keys of this length.",
+            "Use a certificate with another key length, or change the security policies in the basic settings.",
+        ),
+        text(
+            "密钥长度与安全策略不符",
+            "所选的某个安全策略不允许该密钥长度。",
+            "请使用其他密钥长度的证书，或在基本设置中更改安全策略。",
+        ),
+    ),
+    (
+        ErrorCode::KeyMismatch,
+        text(
+            "The certificate and the private key are not a pair",
+            "The certificate was issued for another key.",
+            "Choose the key and the certificate that belong together.",
+        ),
+        text("证书与私钥不匹配", "该证书是为其他私钥签发的。", "请选择配对的证书和私钥。"),
+    ),
+    (
+        ErrorCode::WrongKeyPassword,
+        text(
+            "The password of the private key is wrong",
+            "The file cannot be opened with this password, or none was given. Where the file does not allow to tell, it \
+             may also be damaged.",
+            "Enter the password that was set when the file was made.",
+        ),
+        text(
+            "输入的密码不正确",
+            "无法使用该密码打开文件，或未输入密码。文件也可能已损坏。",
+            "请重新输入创建文件时设置的密码。",
+        ),
+    ),
+    (
+        ErrorCode::FileNotFound,
+        text(
+            "The file to be imported was not found",
+            "There is no such file in the import folder of this controller.",
+            "Put the file into the folder named in the detail.",
+        ),
+        text("找不到导入文件", "在该控制器的导入源文件夹中没有要导入的文件。", "请将文件放入详细信息所示的文件夹。"),
+    ),
+    (
+        ErrorCode::SeveralFiles,
+        text(
+            "More files than can be imported",
+            "The import folder holds several files of this kind; exactly one is expected.",
+            "Leave only the file that is to be imported in the folder.",
+        ),
+        text(
+            "尝试导入超过限制的文件",
+            "导入源文件夹中有多个此类文件，只能有一个。",
+            "请在文件夹中仅保留要导入的文件。",
+        ),
+    ),
+    (
+        ErrorCode::BadFileName,
+        text(
+            "The file name cannot be used",
+            "It contains characters other than half-width letters, digits and underscores.",
+            "Rename the file.",
+        ),
+        text("文件名错误", "文件名中使用了除半角字母数字和下划线以外的字符。", "请更改文件名。"),
+    ),
+    (
+        ErrorCode::FileFormat,
+        text(
+            "The file has the wrong format",
+            "Its content is damaged, or is not what was chosen to be imported.",
+            "See the detail, then convert or export the file again.",
+        ),
+        text("文件格式无效", "文件已损坏，或与所选的文件格式不一致。", "请查看详细信息，然后转换或重新导出文件。"),
+    ),
+    (
+        ErrorCode::OneControllerOnly,
+        text(
+            "This works on one controller at a time",
+            "Each controller needs a certificate of its own.",
+            "Choose one controller only.",
+        ),
+        text("此功能一次只能用于一台控制器", "每台控制器需要各自的证书。", "请只选择一台控制器。"),
+    ),
+    (
+        ErrorCode::Preflight,
+        text(
+            "OPC UA clients would refuse the certificate",
+            "It does not fit the controller it is meant for. Nothing was sent.",
+            "See the detail for what is wrong, then have the certificate issued again.",
+        ),
+        text(
+            "OPC UA 客户端将拒绝该证书",
+            "证书与目标控制器不相符。未发送任何内容。",
+            "请查看详细信息，然后重新签发证书。",
+        ),
+    ),
+    (
+        ErrorCode::PreflightWarnings,
+        text(
+            "Some OPC UA clients may complain about the certificate",
+            "It can be used, but not everything about it is as it should be. Nothing was sent.",
+            "See the detail, then have the certificate issued again, or import it all the same.",
+        ),
+        text(
+            "部分 OPC UA 客户端可能对该证书发出警告",
+            "证书可以使用，但并非完全符合要求。未发送任何内容。",
+            "请查看详细信息，然后重新签发证书，或确认后继续导入。",
+        ),
+    ),
+    (
         ErrorCode::WorkspaceReadOnly,
         text(
             "The workspace cannot be written",
@@ -794,6 +960,9 @@ mod tests {
             | UnknownController
             | FileUnreadable
             | NotConfirmed => 13,
+            CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
+            | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
+            | Preflight | PreflightWarnings => 14,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
             | NoDisplay | Cancelled | Internal => 8,
         }
@@ -802,10 +971,10 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 8);
+        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 14 + 8);
         codes.sort();
         codes.dedup();
-        assert_eq!(codes.len(), 54);
+        assert_eq!(codes.len(), 68);
         for code in ErrorCode::all() {
             assert!(counted(code) > 0);
             let (en, zh) = (code.explain(Language::En), code.explain(Language::Zh));

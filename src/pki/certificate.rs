@@ -4,7 +4,7 @@ use chrono::{DateTime, Utc};
 use rsa::pkcs8::PrivateKeyInfo;
 use sha1::{Digest as _, Sha1};
 use x509_parser::asn1_rs::oid;
-use x509_parser::prelude::{ASN1Time, FromDer, GeneralName, X509Certificate};
+use x509_parser::prelude::{ASN1Time, FromDer, GeneralName, SubjectPublicKeyInfo, X509Certificate};
 use x509_parser::public_key::PublicKey;
 
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
@@ -148,7 +148,7 @@ impl Facts {
             return Err(PkiError::SignatureAlgorithms);
         }
         parsed.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;
-        let (key_bits, rsa_public_key) = public_key(parsed)?;
+        let (key_bits, rsa_public_key) = public_key(parsed.public_key())?;
         Ok(Self {
             common_name: name::common_name(parsed.subject()),
             issued_to: name::title(parsed.subject()),
@@ -164,7 +164,7 @@ impl Facts {
     }
 }
 
-fn check_size(bytes: &[u8], max: usize) -> Result<(), PkiError> {
+pub(super) fn check_size(bytes: &[u8], max: usize) -> Result<(), PkiError> {
     match bytes.len() {
         0 => Err(PkiError::Empty),
         bytes if bytes > max => Err(PkiError::TooLarge { bytes, max }),
@@ -172,8 +172,8 @@ fn check_size(bytes: &[u8], max: usize) -> Result<(), PkiError> {
     }
 }
 
-fn public_key(parsed: &X509Certificate<'_>) -> Result<(u16, Option<Vec<u8>>), PkiError> {
-    let info = parsed.public_key();
+/// The length of a public key, 0 if its kind is not known; and in PKCS#1, if it is an RSA key.
+pub(super) fn public_key(info: &SubjectPublicKeyInfo<'_>) -> Result<(u16, Option<Vec<u8>>), PkiError> {
     let key = info.parsed().map_err(|_| PkiError::NotACertificate)?;
     let bits = match &key {
         PublicKey::RSA(rsa) => bit_length(rsa.modulus),

@@ -1,3 +1,4 @@
+use chrono::{DateTime, Utc};
 use thiserror::Error;
 
 use crate::model::{ErrorCode, Problem, SubjectError};
@@ -29,8 +30,16 @@ pub enum PkiError {
     #[error("there is a private key in it; a file with only the certificate is expected")]
     PrivateKeyInside,
 
+    // a certificate signing request
+    #[error("not a certificate signing request (PKCS#10) for an RSA key, or a damaged one")]
+    NotACsr,
+    #[error("the signature of the certificate signing request is wrong")]
+    CsrSignature,
+    #[error("there are {0} certificate signing requests in it; exactly one is expected")]
+    SeveralCsrs(usize),
+
     // a key
-    #[error("not an RSA private key in PKCS#8, or a damaged one")]
+    #[error("not an RSA private key, or a damaged one")]
     NotAPrivateKey,
     #[error("RSA keys of {0} bits are not used; only 1024, 2048 and 4096 are")]
     KeyLength(u16),
@@ -55,6 +64,27 @@ pub enum PkiError {
     NotAPair,
     #[error("the PKCS#12 could not be written")]
     Pkcs12Encoding,
+    #[error("the file is damaged")]
+    Damaged,
+
+    // a key file
+    #[error("the private key is encrypted, and no password was given")]
+    PasswordNeeded,
+    #[error(
+        "the private key is encrypted in the old PEM way (\"DEK-Info\"), which is not supported; convert it with \
+         `openssl pkcs8 -topk8 -in old.key -out new.key`"
+    )]
+    TraditionalEncryption,
+    #[error("the private key is in {0}; convert it to PKCS#8 with `{1}`")]
+    UnsupportedKeyFile(&'static str, &'static str),
+    #[error("this kind of encryption of a private key is not supported; encrypt it again with `openssl pkcs8 -topk8`")]
+    UnsupportedKeyEncryption,
+
+    // a certificate to be used
+    #[error("the certificate was valid until {0}")]
+    Expired(DateTime<Utc>),
+    #[error("the security policies do not allow {0}-bit keys")]
+    KeyLengthNotAllowed(u16),
 
     // a certificate to be made
     #[error(transparent)]
@@ -81,6 +111,23 @@ impl From<PkiError> for Problem {
             PkiError::Subject(_) | PkiError::ApplicationUri(_) | PkiError::DnsName(_) | PkiError::NoHostName => {
                 ErrorCode::BadCertificateRequest
             }
+            PkiError::NotAPair => ErrorCode::KeyMismatch,
+            PkiError::WrongPasswordOrDamaged | PkiError::PasswordNeeded => ErrorCode::WrongKeyPassword,
+            PkiError::Expired(_) => ErrorCode::CertificateExpired,
+            PkiError::KeyLengthNotAllowed(_) => ErrorCode::KeyLengthNotAllowed,
+            PkiError::NotAPrivateKey
+            | PkiError::KeyLength(_)
+            | PkiError::NotACsr
+            | PkiError::CsrSignature
+            | PkiError::SeveralCsrs(_)
+            | PkiError::NotPkcs12
+            | PkiError::UnsupportedPkcs12(_)
+            | PkiError::NoKey
+            | PkiError::SeveralKeys(_)
+            | PkiError::Damaged
+            | PkiError::TraditionalEncryption
+            | PkiError::UnsupportedKeyFile(..)
+            | PkiError::UnsupportedKeyEncryption => ErrorCode::FileFormat,
             PkiError::KeyGeneration
             | PkiError::KeyEncoding
             | PkiError::Pkcs12Encoding
@@ -97,15 +144,7 @@ impl From<PkiError> for Problem {
             | PkiError::BadPem
             | PkiError::NoCertificate
             | PkiError::SeveralCertificates(_)
-            | PkiError::PrivateKeyInside
-            | PkiError::NotAPrivateKey
-            | PkiError::KeyLength(_)
-            | PkiError::NotPkcs12
-            | PkiError::UnsupportedPkcs12(_)
-            | PkiError::WrongPasswordOrDamaged
-            | PkiError::NoKey
-            | PkiError::SeveralKeys(_)
-            | PkiError::NotAPair => ErrorCode::BadCertificate,
+            | PkiError::PrivateKeyInside => ErrorCode::BadCertificate,
         };
         Self::with_detail(code, error)
     }

@@ -87,6 +87,11 @@ impl PrivateKey {
         certificate.rsa_public_key() == Some(self.public_key.as_slice())
     }
 
+    /// The public key in PKCS#1.
+    pub(super) fn public_key(&self) -> &[u8] {
+        &self.public_key
+    }
+
     fn new(material: Material, length: KeyLength) -> Result<Self, PkiError> {
         let public_key = match &material {
             Material::Current(pair) => pair.public_key().as_ref().to_vec(),

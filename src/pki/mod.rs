@@ -5,9 +5,13 @@
 //! | `certificate` | [`Certificate`]: one X.509 certificate that was parsed and found whole |
 //! | `pem` | the text armour around DER, both ways |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
+//! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
 //! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
+//! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
+//! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
+//! | `tlv` | just enough DER to see from outside what a file is |
 //! | `fingerprint` | [`Fingerprint`]: what a configurator pins of that |
 //! | `name` | the text of an X.509 name |
 //! | `error` | [`PkiError`]: everything that can be wrong, each with its cause |
@@ -16,25 +20,32 @@
 //! workers.
 //!
 //! What comes from outside is bounded before it is parsed: [`MAX_CERTIFICATE_BYTES`],
-//! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
+//! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
 
 mod certificate;
+mod csr;
 mod error;
 mod fingerprint;
 mod identity;
 mod key;
+mod key_file;
 mod name;
 mod pem;
 mod pkcs12;
+mod preflight;
 #[cfg(test)]
 mod samples;
 mod self_signed;
+mod tlv;
 
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
+pub use csr::{Csr, make_csr};
 pub use error::PkiError;
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
 pub use key::PrivateKey;
+pub use key_file::{MAX_KEY_FILE_BYTES, read_key_file, read_pair};
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
-pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_write};
+pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_key, pkcs12_write, pkcs12_write_key};
+pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use self_signed::{ServerNames, self_signed};

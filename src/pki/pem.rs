@@ -7,6 +7,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use rustls_pemfile::Item;
+use zeroize::Zeroizing;
 
 use super::PkiError;
 
@@ -40,11 +41,77 @@ pub(super) fn single_certificate(text: &[u8]) -> Result<Vec<u8>, PkiError> {
     }
 }
 
+/// The DER of the only certificate signing request in a PEM text.
+pub(super) fn single_csr(text: &[u8]) -> Result<Vec<u8>, PkiError> {
+    let mut requests = Vec::new();
+    let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    while let Some((item, after)) = rustls_pemfile::read_one_from_slice(rest).map_err(|_| PkiError::BadPem)? {
+        if let Item::Csr(der) = item {
+            requests.push(der);
+        }
+        rest = after;
+    }
+    match requests.as_slice() {
+        [] => Err(PkiError::NotACsr),
+        [der] => Ok(der.to_vec()),
+        several => Err(PkiError::SeveralCsrs(several.len())),
+    }
+}
+
+/// A private key in a PEM text.
+pub(super) struct KeyBlock {
+    /// What stands after `BEGIN`.
+    pub label: String,
+    /// In the traditional way, outside of the DER.
+    pub encrypted: bool,
+    pub der: Zeroizing<Vec<u8>>,
+}
+
+/// Every private key in a PEM text, of whatever kind. Other text and other blocks are passed over.
+///
+/// Written by hand, because the parser does not know encrypted keys.
+pub(super) fn private_keys(text: &[u8]) -> Result<Vec<KeyBlock>, PkiError> {
+    let mut keys = Vec::new();
+    let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
+    while let Some(line) = lines.next() {
+        let line = line.strip_prefix(BYTE_ORDER_MARK).unwrap_or(line);
+        let Some(label) = line.strip_prefix(BEGIN).and_then(|rest| rest.strip_suffix(b"-----")) else { continue };
+        if !label.ends_with(PRIVATE_KEY) {
+            continue;
+        }
+        let label = String::from_utf8_lossy(label).into_owned();
+        let end = format!("-----END {label}-----");
+        let (mut encrypted, mut body) = (false, Zeroizing::new(Vec::new()));
+        loop {
+            let line = lines.next().ok_or(PkiError::BadPem)?;
+            if line == end.as_bytes() {
+                break;
+            } else if line.contains(&b':') {
+                encrypted |= line.starts_with(b"Proc-Type:") && line.ends_with(b"ENCRYPTED");
+            } else {
+                body.extend_from_slice(line);
+            }
+        }
+        let der = Zeroizing::new(STANDARD.decode(&*body).map_err(|_| PkiError::BadPem)?);
+        keys.push(KeyBlock { label, encrypted, der });
+    }
+    Ok(keys)
+}
+
 /// The PEM form of a certificate.
 pub(super) fn certificate(der: &[u8]) -> String {
+    armour("CERTIFICATE", der)
+}
+
+/// The PEM form of a certificate signing request.
+pub(super) fn csr(der: &[u8]) -> String {
+    armour("CERTIFICATE REQUEST", der)
+}
+
+fn armour(label: &str, der: &[u8]) -> String {
     let body = STANDARD.encode(der);
-    let mut text = String::with_capacity(body.len() + body.len() / 64 + 64);
-    text.push_str("-----BEGIN CERTIFICATE-----\n");
+    let mut text = format!("-----BEGIN {label}-----\n");
+    text.reserve(body.len() + body.len() / 64 + 64);
     let mut rest = body.as_str();
     while !rest.is_empty() {
         let (line, after) = rest.split_at(rest.len().min(64));
@@ -52,7 +119,7 @@ pub(super) fn certificate(der: &[u8]) -> String {
         text.push('\n');
         rest = after;
     }
-    text.push_str("-----END CERTIFICATE-----\n");
+    text.push_str(&format!("-----END {label}-----\n"));
     text
 }
 

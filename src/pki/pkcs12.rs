@@ -2,7 +2,7 @@ use p12_keystore::error::Error;
 use p12_keystore::{EncryptionAlgorithm, KeyStore, KeyStoreEntry, MacAlgorithm, Pkcs12Archive, PrivateKeyChain};
 use sha1::{Digest as _, Sha1};
 
-use super::{Certificate, PkiError, PrivateKey};
+use super::{Certificate, PkiError, PrivateKey, tlv};
 
 /// The largest PKCS#12 that is read.
 pub const MAX_PKCS12_BYTES: usize = 256 * 1024;
@@ -29,6 +29,22 @@ pub fn pkcs12_write(
     if !key.matches(leaf) {
         return Err(PkiError::NotAPair);
     }
+    // Other tools find the key's certificate by this id, and choose the thumbprint for it.
+    write(alias, key, certificates, &Sha1::digest(leaf.der()), password)
+}
+
+/// Writes a key without a certificate, as long as the CA has not issued one; otherwise as [`pkcs12_write`] does.
+pub fn pkcs12_write_key(alias: &str, key: &PrivateKey, password: &str) -> Result<Vec<u8>, PkiError> {
+    write(alias, key, &[], &Sha1::digest(key.public_key()), password)
+}
+
+fn write(
+    alias: &str,
+    key: &PrivateKey,
+    certificates: &[&Certificate],
+    id: &[u8],
+    password: &str,
+) -> Result<Vec<u8>, PkiError> {
     let encoding = |_: Error| PkiError::Pkcs12Encoding;
     let pkcs8 = key.to_pkcs8_der()?;
     let private_key = p12_keystore::PrivateKey::from_der(&pkcs8).map_err(encoding)?;
@@ -36,10 +52,8 @@ pub fn pkcs12_write(
         .iter()
         .map(|certificate| p12_keystore::Certificate::from_der(certificate.der()).map_err(encoding))
         .collect::<Result<_, _>>()?;
-    // Other tools find the key's certificate by this id, and choose the thumbprint for it.
-    let id = Sha1::digest(leaf.der()).to_vec();
     let mut store = KeyStore::new();
-    store.add_entry(alias, KeyStoreEntry::PrivateKeyChain(PrivateKeyChain::new(id, private_key, chain)));
+    store.add_entry(alias, KeyStoreEntry::PrivateKeyChain(PrivateKeyChain::new(id.to_vec(), private_key, chain)));
     store
         .writer(password)
         .encryption_algorithm(EncryptionAlgorithm::PbeWithHmacSha256AndAes256)
@@ -56,13 +70,8 @@ pub fn pkcs12_write(
 /// how long is up to whoever wrote
 /// the file, within a million hashings of the password for each of its parts.
 pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Certificate>), PkiError> {
-    check_outside(bytes)?;
-    let archive = Pkcs12Archive::from_pkcs12(bytes, password).map_err(reading)?;
-    let key = match archive.keys.as_slice() {
-        [] => return Err(PkiError::NoKey),
-        [bag] => PrivateKey::from_pkcs8_der(bag.key.as_der())?,
-        several => return Err(PkiError::SeveralKeys(several.len())),
-    };
+    let archive = open(bytes, password)?;
+    let key = single_key(&archive)?;
     let mut certificates: Vec<_> =
         archive.certs.iter().map(|bag| Certificate::from_der(bag.cert.as_der())).collect::<Result<_, _>>()?;
     if certificates.is_empty() {
@@ -73,8 +82,39 @@ pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Cert
     Ok((key, certificates))
 }
 
-/// Whether this is a PKCS#12 at all, seen from outside, so that everything found wrong later is damage or a password.
-fn check_outside(bytes: &[u8]) -> Result<(), PkiError> {
+/// Reads the only key of a PKCS#12, whatever certificates are beside it; otherwise as [`pkcs12_read`] does.
+pub fn pkcs12_read_key(bytes: &[u8], password: &str) -> Result<PrivateKey, PkiError> {
+    single_key(&open(bytes, password)?)
+}
+
+fn open(bytes: &[u8], password: &str) -> Result<Pkcs12Archive, PkiError> {
+    let has_mac = check_outside(bytes)?;
+    Pkcs12Archive::from_pkcs12(bytes, password).map_err(|error| reading(&error, has_mac))
+}
+
+/// A PKCS#12 without a MAC around one encrypted private key (EncryptedPrivateKeyInfo).
+pub(super) fn around(encrypted_key: &[u8]) -> Vec<u8> {
+    let content = |inside: &[u8]| {
+        let octets = tlv::write(tlv::OCTET_STRING, &[inside]);
+        tlv::write(tlv::SEQUENCE, &[DATA, &tlv::write(tlv::CONTEXT_0, &[&octets])])
+    };
+    let bag = tlv::write(tlv::SEQUENCE, &[SHROUDED_KEY_BAG, &tlv::write(tlv::CONTEXT_0, &[encrypted_key])]);
+    let bags = tlv::write(tlv::SEQUENCE, &[&bag]);
+    let safes = tlv::write(tlv::SEQUENCE, &[&content(&bags)]);
+    tlv::write(tlv::SEQUENCE, &[VERSION_3, &content(&safes)])
+}
+
+fn single_key(archive: &Pkcs12Archive) -> Result<PrivateKey, PkiError> {
+    match archive.keys.as_slice() {
+        [] => Err(PkiError::NoKey),
+        [bag] => PrivateKey::from_pkcs8_der(bag.key.as_der()),
+        several => Err(PkiError::SeveralKeys(several.len())),
+    }
+}
+
+/// Whether this is a PKCS#12 at all, seen from outside, so that everything found wrong later is damage or a password;
+/// and whether it has a MAC, which tells the two apart but for damage within what the MAC is about.
+fn check_outside(bytes: &[u8]) -> Result<bool, PkiError> {
     if bytes.is_empty() {
         return Err(PkiError::Empty);
     }
@@ -89,10 +129,17 @@ fn check_outside(bytes: &[u8]) -> Result<(), PkiError> {
         | [SEQUENCE, 0x83, _, _, _, inside @ ..] => inside,
         _ => return Err(PkiError::NotPkcs12),
     };
-    if inside.starts_with(VERSION_3) { Ok(()) } else { Err(PkiError::NotPkcs12) }
+    if !inside.starts_with(VERSION_3) {
+        return Err(PkiError::NotPkcs12);
+    }
+    let parts = match tlv::all(bytes).as_deref() {
+        Some([whole]) => tlv::all(whole.content),
+        _ => None,
+    };
+    Ok(parts.ok_or(PkiError::Damaged)?.len() == 3)
 }
 
-fn reading(error: Error) -> PkiError {
+fn reading(error: &Error, has_mac: bool) -> PkiError {
     match error {
         Error::UnsupportedEncryptionScheme | Error::UnsupportedMacAlgorithm => {
             PkiError::UnsupportedPkcs12("unknown encryption")
@@ -100,12 +147,19 @@ fn reading(error: Error) -> PkiError {
         Error::UnsupportedContentType => PkiError::UnsupportedPkcs12("it is not protected by a password"),
         Error::UnsupportedCertificateType => PkiError::UnsupportedPkcs12("it holds a certificate that is not X.509"),
         Error::InvalidParameters => PkiError::UnsupportedPkcs12("the password is to be hashed too often"),
+        Error::MacError(_) => PkiError::WrongPasswordOrDamaged,
+        // The MAC was right, or not even reached.
+        _ if has_mac => PkiError::Damaged,
         _ => PkiError::WrongPasswordOrDamaged,
     }
 }
 
-const SEQUENCE: u8 = 0x30;
+const SEQUENCE: u8 = tlv::SEQUENCE;
 const VERSION_3: &[u8] = &[0x02, 0x01, 0x03];
+/// 1.2.840.113549.1.7.1
+const DATA: &[u8] = &[0x06, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 7, 1];
+/// 1.2.840.113549.1.12.10.1.2
+const SHROUDED_KEY_BAG: &[u8] = &[0x06, 11, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 12, 10, 1, 2];
 
 #[cfg(test)]
 mod tests {
@@ -176,7 +230,7 @@ mod tests {
         let bytes = written();
         assert_eq!(pkcs12_read(&bytes, "wrong").err(), Some(PkiError::WrongPasswordOrDamaged));
         assert_eq!(pkcs12_read(&bytes, "").err(), Some(PkiError::WrongPasswordOrDamaged));
-        assert_eq!(pkcs12_read(&bytes[..bytes.len() - 1], PASSWORD).err(), Some(PkiError::WrongPasswordOrDamaged));
+        assert_eq!(pkcs12_read(&bytes[..bytes.len() - 1], PASSWORD).err(), Some(PkiError::Damaged));
         let mut damaged = bytes.clone();
         damaged[bytes.len() / 2] ^= 1;
         assert_eq!(pkcs12_read(&damaged, PASSWORD).err(), Some(PkiError::WrongPasswordOrDamaged));
@@ -192,6 +246,17 @@ mod tests {
         assert!(matches!(pkcs12_read(&large, PASSWORD), Err(PkiError::TooLarge { .. })));
         let ber = [0x30, 0x80, 0x02, 0x01, 0x03];
         assert!(matches!(pkcs12_read(&ber, PASSWORD), Err(PkiError::UnsupportedPkcs12(_))));
+    }
+
+    #[test]
+    fn a_key_can_travel_alone() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let bytes = pkcs12_write_key("server", key, PASSWORD).unwrap();
+            assert!(pkcs12_read_key(&bytes, PASSWORD).unwrap().matches(&samples::certificate_for(key)));
+            assert_eq!(pkcs12_read_key(&bytes, "wrong").err(), Some(PkiError::WrongPasswordOrDamaged));
+            assert_eq!(pkcs12_read(&bytes, PASSWORD).err(), Some(PkiError::NoCertificate));
+        }
+        assert!(pkcs12_read_key(&written(), PASSWORD).is_ok(), "whatever is beside it");
     }
 
     #[test]

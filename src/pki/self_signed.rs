@@ -76,7 +76,7 @@ pub(super) fn date(when: Option<DateTime<Utc>>) -> Result<OffsetDateTime, PkiErr
     date.ok_or(PkiError::Dates)
 }
 
-fn distinguished_name(subject: &Subject) -> Result<DistinguishedName, PkiError> {
+pub(super) fn distinguished_name(subject: &Subject) -> Result<DistinguishedName, PkiError> {
     subject.check()?;
     let mut name = DistinguishedName::new();
     if !subject.country.is_empty() {
@@ -98,7 +98,7 @@ fn distinguished_name(subject: &Subject) -> Result<DistinguishedName, PkiError> 
 }
 
 /// The URI comes first: some peers look only there.
-fn alternative_names(names: &ServerNames) -> Result<Vec<SanType>, PkiError> {
+pub(super) fn alternative_names(names: &ServerNames) -> Result<Vec<SanType>, PkiError> {
     if names.ips.is_empty() && names.dns.is_empty() {
         return Err(PkiError::NoHostName);
     }

@@ -105,7 +105,8 @@ pub struct MakeSelfSigned {
     pub request: SelfSignedRequest,
 }
 
-/// Legacy firmware: key and certificate made on the PC, sent as PKCS#12.
+/// Legacy firmware: key and certificate made on the PC, sent as PKCS#12. Not for [`CertificateType::CaSigned`], which
+/// is for the key of a CSR ([`super::ImportCaSigned`]).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCertificate {

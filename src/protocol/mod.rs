@@ -37,6 +37,11 @@
 //! | `POST` [`SERVER_STOP`] | – | [`Changed`] |
 //! | `POST` [`SELF_SIGNED`] | [`MakeSelfSigned`] | [`Installed`], current firmware |
 //! | `POST` [`CERTIFICATE_IMPORT`] | [`ImportCertificate`] | [`Installed`], legacy firmware |
+//! | `GET` [`CERTIFICATES`] | – | [`Revisioned`]`<`[`HeldCertificates`]`>` |
+//! | `POST` [`CERTIFICATE_SELECT`] | [`SelectCertificate`] | [`Changed`] |
+//! | `POST` [`CSR`] | [`MakeCsr`] | [`CsrMade`], current firmware |
+//! | `POST` [`CSR_IMPORT`] | [`ImportCsr`] | [`CsrMade`], legacy firmware |
+//! | `POST` [`CA_SIGNED`] | [`ImportCaSigned`] | [`Installed`] |
 //! | `GET` [`CLIENTS`]`/trusted`, `/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
 //! | `POST` [`CLIENTS`]`/trusted`, `/issuers` | [`AddClients`] | [`Changed`] |
 //!
@@ -68,8 +73,12 @@
 //! | 507 | the controller's storage is full |
 
 mod base64_bytes;
+mod certificates;
 mod messages;
 
+pub use certificates::{
+    CsrMade, HeldCertificate, HeldCertificates, ImportCaSigned, ImportCsr, MakeCsr, SelectCertificate,
+};
 pub use messages::{
     AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
     MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
@@ -93,6 +102,11 @@ pub const SERVER_START: &str = "/v1/server/start";
 pub const SERVER_STOP: &str = "/v1/server/stop";
 pub const SELF_SIGNED: &str = "/v1/certificates/self-signed";
 pub const CERTIFICATE_IMPORT: &str = "/v1/certificates/import";
+pub const CERTIFICATES: &str = "/v1/certificates";
+pub const CERTIFICATE_SELECT: &str = "/v1/certificates/select";
+pub const CSR: &str = "/v1/certificates/csr";
+pub const CSR_IMPORT: &str = "/v1/certificates/csr/import";
+pub const CA_SIGNED: &str = "/v1/certificates/ca-signed";
 pub const CLIENTS: &str = "/v1/clients";
 
 /// What [`Hello::product`] says, so that another HTTPS server is not taken for a controller.

@@ -16,8 +16,9 @@ use super::{Connector, ControllerSession};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    self, AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
-    MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
+    self, AddClients, AddUser, Changed, CsrMade, Failure, HeldCertificates, Hello, ImportCaSigned, ImportCertificate,
+    ImportCsr, Installed, ListedCertificate, Login, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned,
+    SelectCertificate, Session, SetSettings, WireSecret,
 };
 
 /// How long the driver waits.
@@ -267,6 +268,26 @@ impl ControllerSession for Link {
 
     async fn import_certificate(&mut self, change: ImportCertificate) -> Result<Installed, Problem> {
         self.change(protocol::CERTIFICATE_IMPORT, &change).await
+    }
+
+    async fn certificates(&mut self) -> Result<Revisioned<HeldCertificates>, Problem> {
+        self.get(protocol::CERTIFICATES).await
+    }
+
+    async fn select_certificate(&mut self, change: SelectCertificate) -> Result<Changed, Problem> {
+        self.change(protocol::CERTIFICATE_SELECT, &change).await
+    }
+
+    async fn make_csr(&mut self, change: MakeCsr) -> Result<CsrMade, Problem> {
+        self.change(protocol::CSR, &change).await
+    }
+
+    async fn import_csr(&mut self, change: ImportCsr) -> Result<CsrMade, Problem> {
+        self.change(protocol::CSR_IMPORT, &change).await
+    }
+
+    async fn import_ca_signed(&mut self, change: ImportCaSigned) -> Result<Installed, Problem> {
+        self.change(protocol::CA_SIGNED, &change).await
     }
 
     async fn clients(&mut self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {

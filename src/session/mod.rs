@@ -14,8 +14,8 @@ pub use management::{ManagementConnector, Timeouts};
 use crate::model::{Address, ClientList, ControllerInfo, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    AddClients, AddUser, Changed, ImportCertificate, Installed, ListedCertificate, MakeSelfSigned, RemoveUsers,
-    Revisioned, SetSettings,
+    AddClients, AddUser, Changed, CsrMade, HeldCertificates, ImportCaSigned, ImportCertificate, ImportCsr, Installed,
+    ListedCertificate, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, SetSettings,
 };
 
 /// Opens sessions.
@@ -49,6 +49,13 @@ pub trait ControllerSession: Send + Sync {
     async fn make_self_signed(&mut self, change: MakeSelfSigned) -> Result<Installed, Problem>;
     /// Legacy firmware only.
     async fn import_certificate(&mut self, change: ImportCertificate) -> Result<Installed, Problem>;
+    async fn certificates(&mut self) -> Result<Revisioned<HeldCertificates>, Problem>;
+    async fn select_certificate(&mut self, change: SelectCertificate) -> Result<Changed, Problem>;
+    /// Current firmware only.
+    async fn make_csr(&mut self, change: MakeCsr) -> Result<CsrMade, Problem>;
+    /// Legacy firmware only.
+    async fn import_csr(&mut self, change: ImportCsr) -> Result<CsrMade, Problem>;
+    async fn import_ca_signed(&mut self, change: ImportCaSigned) -> Result<Installed, Problem>;
     async fn clients(&mut self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem>;
     async fn add_clients(&mut self, list: ClientList, change: AddClients) -> Result<Changed, Problem>;
     /// Ends the session in the controller. Failing to do so is harmless: it expires there.

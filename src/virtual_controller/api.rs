@@ -19,14 +19,16 @@ use serde::de::DeserializeOwned;
 use tokio::sync::Mutex as AsyncMutex;
 use tokio_util::sync::CancellationToken;
 
+use super::certificate_changes;
 use super::changes;
 use super::controller::{Controller, Effect, Outcome};
 use super::login::{Sessions, Throttle};
 use super::password::is_password;
 use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
-    self, AddClients, AddUser, Base64Bytes, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate,
-    Login, MakeSelfSigned, RemoveUsers, Revisioned, SESSION_IDLE_SECS, Session, SetSettings, WireSecret,
+    self, AddClients, AddUser, Base64Bytes, Changed, CsrMade, Failure, HeldCertificates, Hello, ImportCaSigned,
+    ImportCertificate, ImportCsr, Installed, ListedCertificate, Login, MakeCsr, MakeSelfSigned, RemoveUsers,
+    Revisioned, SESSION_IDLE_SECS, SelectCertificate, Session, SetSettings, WireSecret,
 };
 
 /// How long a wrong password waits for its answer.
@@ -49,6 +51,11 @@ pub static ROUTER: LazyLock<Router> = LazyLock::new(|| {
         .route(protocol::SERVER_STOP, post(stop))
         .route(protocol::SELF_SIGNED, post(self_signed))
         .route(protocol::CERTIFICATE_IMPORT, post(import_certificate))
+        .route(protocol::CERTIFICATES, get(certificates))
+        .route(protocol::CERTIFICATE_SELECT, post(select_certificate))
+        .route(protocol::CSR, post(make_csr))
+        .route(protocol::CSR_IMPORT, post(import_csr))
+        .route(protocol::CA_SIGNED, post(import_ca_signed))
         .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients).post(add_clients))
         .fallback(unknown_path)
         .method_not_allowed_fallback(unknown_method)
@@ -259,6 +266,54 @@ async fn import_certificate(caller: Caller, body: Body) -> Answer<Installed> {
         .controller()
         .change(revision, Effect::Restart, move |state, around| {
             changes::import_certificate(state, around, kind, &pkcs12.0, password.expose())
+        })
+        .await;
+    let (changed, certificate) = caller.settle(outcome).await?;
+    Ok(Json(Installed { changed, certificate: Base64Bytes(certificate) }))
+}
+
+async fn certificates(caller: Caller) -> Json<Revisioned<HeldCertificates>> {
+    Json(caller.controller().certificates())
+}
+
+async fn select_certificate(caller: Caller, body: Body) -> Answer<Changed> {
+    let SelectCertificate { revision, kind } = read(body, Malformed::plain(ErrorCode::Refused)).await?;
+    let outcome = caller
+        .controller()
+        .change(revision, Effect::Restart, move |state, _| certificate_changes::select_certificate(state, kind))
+        .await;
+    let (changed, ()) = caller.settle(outcome).await?;
+    Ok(Json(changed))
+}
+
+async fn make_csr(caller: Caller, body: Body) -> Answer<CsrMade> {
+    let MakeCsr { revision, request } = read(body, Malformed::plain(ErrorCode::BadCertificateRequest)).await?;
+    let outcome = caller
+        .controller()
+        .change(revision, Effect::Nothing, move |state, around| certificate_changes::make_csr(state, around, &request))
+        .await;
+    let (changed, csr) = caller.settle(outcome).await?;
+    Ok(Json(CsrMade { changed, csr: Base64Bytes(csr) }))
+}
+
+async fn import_csr(caller: Caller, body: Body) -> Answer<CsrMade> {
+    let ImportCsr { revision, csr, pkcs12, password } = read(body, Malformed::secret(ErrorCode::FileFormat)).await?;
+    let outcome = caller
+        .controller()
+        .change(revision, Effect::CertificateLost, move |state, _| {
+            certificate_changes::import_csr(state, &csr.0, &pkcs12.0, password.expose())
+        })
+        .await;
+    let (changed, csr) = caller.settle(outcome).await?;
+    Ok(Json(CsrMade { changed, csr: Base64Bytes(csr) }))
+}
+
+async fn import_ca_signed(caller: Caller, body: Body) -> Answer<Installed> {
+    let ImportCaSigned { revision, certificate } = read(body, Malformed::plain(ErrorCode::BadCertificate)).await?;
+    let outcome = caller
+        .controller()
+        .change(revision, Effect::Restart, move |state, around| {
+            certificate_changes::import_ca_signed(state, around, &certificate.0)
         })
         .await;
     let (changed, certificate) = caller.settle(outcome).await?;

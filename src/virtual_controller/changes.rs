@@ -12,7 +12,7 @@ use crate::model::{
     CertificateType, ClientList, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings,
     UserName, UserPassword,
 };
-use crate::pki::{Certificate, PkiError, PrivateKey, pkcs12_read, self_signed};
+use crate::pki::{Certificate, PkiError, PrivateKey, check_usable, pkcs12_read, self_signed};
 use crate::protocol::Base64Bytes;
 
 /// The longest file name a client list keeps.
@@ -101,18 +101,14 @@ pub fn import_certificate(
     if state.generation() == FirmwareGeneration::Current {
         return Err(ErrorCode::FirmwareTooNew.into());
     }
-    let bad = |detail: &str| Problem::with_detail(ErrorCode::BadCertificate, detail);
+    if kind == CertificateType::CaSigned {
+        return Err(Problem::with_detail(ErrorCode::Refused, "a CA-signed certificate is for the key of a CSR"));
+    }
     let (key, chain) = pkcs12_read(pkcs12, password)?;
     let certificate = chain.iter().find(|c| key.matches(c)).ok_or(PkiError::NotAPair)?;
-    if certificate.not_after() <= around.now {
-        return Err(bad("the certificate has expired"));
-    }
+    check_usable(certificate, &state.settings.security_policies, around.now)?;
     if kind == CertificateType::SelfSigned && !certificate.is_self_signed() {
-        return Err(bad("the certificate is not self-signed"));
-    }
-    if !state.key_length_fits(certificate.key_bits()) {
-        let detail = format!("the security policies do not allow {}-bit keys", certificate.key_bits());
-        return Err(Problem::with_detail(ErrorCode::BadCertificateRequest, detail));
+        return Err(Problem::with_detail(ErrorCode::BadCertificate, "the certificate is not self-signed"));
     }
     install(state, kind, certificate, &key)
 }
@@ -154,7 +150,7 @@ pub fn add_clients(
     Ok(())
 }
 
-fn install(
+pub(super) fn install(
     state: &mut State,
     kind: CertificateType,
     certificate: &Certificate,

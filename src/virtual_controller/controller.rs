@@ -21,7 +21,7 @@ use crate::model::{
     Problem, SerialNumber, ServerSettings, ServerStatus, StartupMode, UserName,
 };
 use crate::pki::Fingerprint;
-use crate::protocol::{Changed, ListedCertificate, Revisioned};
+use crate::protocol::{Changed, HeldCertificate, HeldCertificates, ListedCertificate, Revisioned};
 
 /// Where a virtual controller lives and answers, and what it is if its folder holds none yet.
 #[derive(Debug, Clone)]
@@ -217,6 +217,8 @@ pub(super) enum Effect {
     Restart,
     /// It takes over the list of trusted clients as it runs.
     TrustedClients,
+    /// Its certificate may be gone. Without one it stops for good; otherwise it does not notice.
+    CertificateLost,
     /// It does not notice.
     Nothing,
 }
@@ -283,6 +285,17 @@ impl Controller {
     pub(super) fn users(&self) -> Revisioned<Vec<UserName>> {
         let state = self.state();
         Revisioned { revision: state.revision, value: state.users.iter().map(|user| user.name.clone()).collect() }
+    }
+
+    pub(super) fn certificates(&self) -> Revisioned<HeldCertificates> {
+        let state = self.state();
+        let held = state
+            .certificates
+            .iter()
+            .map(|(kind, pair)| HeldCertificate { kind: *kind, certificate: pair.certificate.clone() })
+            .collect();
+        let csr = state.csr.as_ref().map(|pending| pending.csr.clone());
+        Revisioned { revision: state.revision, value: HeldCertificates { selected: state.selected, held, csr } }
     }
 
     pub(super) fn clients(&self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
@@ -383,12 +396,17 @@ impl Controller {
                     plant.stop().await;
                     self.restore(&mut plant, &old).await;
                 }
+                Effect::CertificateLost if !plant.is_running() => self.restore(&mut plant, &old).await,
+                Effect::CertificateLost => {}
                 Effect::TrustedClients => self.trust_again(&plant, &old),
                 Effect::Nothing => {}
             }
             return Err(error.into());
         }
         *self.state.write() = Arc::new(new);
+        if effect == Effect::CertificateLost && !plant.is_running() {
+            *self.standing.lock() = Standing::Stopped;
+        }
         let changed = self.changed();
         drop(plant);
         if self.faults.take_drop(DropPoint::AfterApply) {
@@ -424,6 +442,12 @@ impl Controller {
         match effect {
             Effect::Restart => self.restart(plant, old, new).await,
             Effect::TrustedClients => plant.trust(new).inspect_err(|_| self.trust_again(plant, old)),
+            Effect::CertificateLost => {
+                if new.selected_certificate().is_none() {
+                    plant.stop().await;
+                }
+                Ok(())
+            }
             Effect::Nothing => Ok(()),
         }
     }

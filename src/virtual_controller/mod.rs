@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `state` | [`State`]: everything a controller remembers, and what follows from it |
 //! | `changes` | every change a controller accepts, as a function on a copy of its state |
+//! | `certificate_changes` | those about server certificates |
 //! | `store` | [`Store`]: the state on disk, replaced whole |
 //! | `secret_bytes` | [`SecretBytes`]: key material that shows nowhere |
 //! | `new_controller` | [`NewController`]: what a controller is when it is first switched on |
@@ -34,11 +35,14 @@
 //! # Decisions
 //! - A running task or a connected teach pendant refuses changes, start and stop, while questions are answered.
 //! - Certificates added to a list do not restart the server.
+//! - A CSR made in current firmware does not touch the certificate in use. Legacy firmware has room for one key of a
+//!   CA-signed certificate only: a new CSR takes the old certificate away, and a server that used it stops.
 //! - A change on a server in error leaves it in error; the next start or stop that succeeds ends that.
 //! - A running server refuses settings and certificates it could not run with (7932, 7933); a stopped one takes any
 //!   settings that are complete, and says so when it is started.
 
 mod api;
+mod certificate_changes;
 mod changes;
 mod controller;
 mod demo;
@@ -66,5 +70,5 @@ pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyL
 pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
 pub use password::hash_connection_password;
 pub use secret_bytes::SecretBytes;
-pub use state::{Identity, KeyPair, Listed, State, Surroundings, User};
+pub use state::{Identity, KeyPair, Listed, PendingCsr, State, Surroundings, User};
 pub use store::{Staged, Store, StoreError};

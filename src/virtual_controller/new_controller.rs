@@ -62,6 +62,7 @@ impl NewController {
             users: Vec::new(),
             activated: self.activated || current,
             certificates: Default::default(),
+            csr: None,
             selected: CertificateType::SelfSigned,
             trusted: Vec::new(),
             issuers: Vec::new(),

@@ -38,6 +38,15 @@ impl KeyPair {
     }
 }
 
+/// A certificate signing request with the key a CA-signed certificate will be for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PendingCsr {
+    /// DER.
+    pub csr: Base64Bytes,
+    /// PKCS#8, DER.
+    pub private_key: SecretBytes,
+}
+
 /// A user of the OPC UA server.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct User {
@@ -69,6 +78,9 @@ pub struct State {
     pub activated: bool,
     /// The server certificates held, at most one of each type.
     pub certificates: BTreeMap<CertificateType, KeyPair>,
+    /// The CSR made last. It stays after its certificate was imported, so that the CA can renew that.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub csr: Option<PendingCsr>,
     /// The type the server uses, whether one is held or not.
     pub selected: CertificateType,
     pub trusted: Vec<Listed>,

@@ -13,6 +13,7 @@
 mod atomic;
 mod certificate_files;
 mod configuration;
+mod import_files;
 mod passwords;
 
 use std::fs::{self, File, TryLockError};
@@ -23,10 +24,11 @@ use chrono::Utc;
 use thiserror::Error;
 
 pub use atomic::write_atomic;
-pub use certificate_files::{CertificateFiles, SavedCertificate};
+pub use certificate_files::{CertificateFiles, SavedCertificate, SavedCsr};
 pub use configuration::{
     Configuration, ControllerEntry, MAX_PARALLELISM, Options, Retrieved, ThemeChoice, WindowState,
 };
+pub use import_files::read_import_file;
 pub use passwords::{KeyringPasswords, MemoryPasswords, Passwords};
 
 use crate::model::{ErrorCode, Problem};

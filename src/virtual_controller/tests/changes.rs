@@ -153,9 +153,10 @@ async fn legacy_firmware_takes_a_key_and_makes_none() {
             client.post::<Installed>(protocol::CERTIFICATE_IMPORT, &body).await
         };
         let good = certificate("robot", Utc::now());
-        assert_eq!(code(import("self-signed", &good, "wrong").await), ErrorCode::BadCertificate);
+        assert_eq!(code(import("self-signed", &good, "wrong").await), ErrorCode::WrongKeyPassword);
         let expired = certificate("robot", Utc::now() - TimeDelta::days(400));
-        assert_eq!(code(import("self-signed", &expired, "transfer").await), ErrorCode::BadCertificate);
+        assert_eq!(code(import("self-signed", &expired, "transfer").await), ErrorCode::CertificateExpired);
+        assert_eq!(code(import("ca-signed", &good, "transfer").await), ErrorCode::Refused);
         assert_eq!(bench.revision(), 1);
 
         let installed = import("user-specified", &good, "transfer").await.unwrap();

@@ -1,0 +1,112 @@
+use async_trait::async_trait;
+use secrecy::ExposeSecret as _;
+
+use super::self_signed::{bad_request, server_names, transfer_password};
+use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use crate::model::{ControllerInfo, CsrRequest, FileFormat, FirmwareGeneration, KeyLength, Problem, Subject};
+use crate::pki::{self, Csr, PkiError, PrivateKey};
+use crate::protocol::{Base64Bytes, CsrMade, ImportCsr, MakeCsr, WireSecret};
+use crate::workspace::CertificateFiles;
+
+/// The fields of the CSR dialog (manual 2.7.1.5).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CsrFields {
+    /// `None`: each controller's own ApplicationName. The only choice for several controllers.
+    pub common_name: Option<String>,
+    pub country: String,
+    pub state: String,
+    pub locality: String,
+    pub organisation: String,
+    pub key_length: KeyLength,
+}
+
+impl CsrFields {
+    /// The request for a controller that calls itself `application_name`.
+    pub fn request(&self, application_name: &str) -> CsrRequest {
+        CsrRequest {
+            subject: Subject {
+                common_name: self.common_name.clone().unwrap_or_else(|| application_name.to_owned()),
+                country: self.country.clone(),
+                state: self.state.clone(),
+                locality: self.locality.clone(),
+                organisation: self.organisation.clone(),
+            },
+            key_length: self.key_length,
+        }
+    }
+}
+
+/// Makes a new key and its certificate signing request, and saves the request on the PC.
+///
+/// Current firmware makes the key itself and goes on using its CA-signed certificate until a new one is imported.
+/// Legacy firmware gets the key from the PC in place of the old one: its CA-signed certificate is invalid at once.
+#[derive(Debug, Clone)]
+pub struct CreateCsr {
+    pub fields: CsrFields,
+    pub format: FileFormat,
+    pub files: CertificateFiles,
+    /// Whether to keep a copy of the key of a legacy controller (manual 2.8.1).
+    pub backup: bool,
+}
+
+#[async_trait]
+impl Operation for CreateCsr {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { invalidates_ca_signed: true, overwrites_files: true, ..Confirmation::default() })
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        let application_name = controller.known.as_ref().map_or("x", |info| &info.application_name);
+        self.fields.request(application_name).subject.check().map_err(bad_request)
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let info = run.session.info().await?;
+        let settings = run.session.settings().await?;
+        let request = self.fields.request(&info.application_name);
+        request.check(&settings.value.security_policies).map_err(bad_request)?;
+        let legacy = info.generation() == FirmwareGeneration::Legacy;
+        self.files.check_csr_writable(&info.serial, self.backup && legacy)?;
+        let (made, key) = if legacy {
+            let (made, key) = make_and_send(run, &info, request).await?;
+            (made, Some(key))
+        } else {
+            run.begin(Step::Apply)?;
+            (run.session.make_csr(MakeCsr { revision: info.revision, request }).await?, None)
+        };
+        let csr = Csr::from_der(&made.csr.0)?;
+        // Saved also after a cancel: the controller holds it by now.
+        (run.on_step)(Step::SaveBackup);
+        let key = key.as_ref().filter(|_| self.backup).map(|key| (key, run.password));
+        let saved = self.files.save_csr(&info.serial, &csr, self.format, key)?;
+        Ok(Outcome::Csr { common_name: csr.common_name().unwrap_or_default().to_owned(), saved })
+    }
+}
+
+async fn make_and_send(
+    run: &mut Run<'_>,
+    info: &ControllerInfo,
+    request: CsrRequest,
+) -> Result<(CsrMade, PrivateKey), Problem> {
+    run.begin(Step::MakeKey)?;
+    let names = server_names(info, run.controller);
+    let password = transfer_password()?;
+    let alias = info.serial.to_string();
+    let (key, csr, pkcs12, password) = run
+        .on_a_core(move || -> Result<_, PkiError> {
+            let key = PrivateKey::generate(request.key_length)?;
+            let csr = pki::make_csr(&request, &names, &key)?;
+            let pkcs12 = pki::pkcs12_write_key(&alias, &key, password.expose_secret())?;
+            Ok((key, csr, pkcs12, password))
+        })
+        .await??;
+    run.begin(Step::Apply)?;
+    let change = ImportCsr {
+        revision: info.revision,
+        csr: Base64Bytes(csr.der().to_vec()),
+        pkcs12: Base64Bytes(pkcs12),
+        password: WireSecret(password),
+    };
+    Ok((run.session.import_csr(change).await?, key))
+}

@@ -1,0 +1,31 @@
+use async_trait::async_trait;
+
+use super::{Confirmation, Operation, Outcome, Run, Step};
+use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
+use crate::pki::Certificate;
+use crate::workspace::CertificateFiles;
+
+/// Saves a controller's self-signed certificate, in use or not, into its folder on the PC (manual 2.7.1.3).
+#[derive(Debug, Clone)]
+pub struct ExportSelfSigned {
+    pub format: FileFormat,
+    pub files: CertificateFiles,
+}
+
+#[async_trait]
+impl Operation for ExportSelfSigned {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { overwrites_files: true, ..Confirmation::default() })
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let info = run.session.info().await?;
+        let held = run.session.certificates().await?;
+        let missing = || Problem::with_detail(ErrorCode::CertificateNotStored, CertificateType::SelfSigned.as_str());
+        let certificate = Certificate::from_der(held.value.of(CertificateType::SelfSigned).ok_or_else(missing)?)?;
+        run.begin(Step::SaveBackup)?;
+        let file = self.files.export_self_signed(&info.serial, &certificate, self.format)?;
+        Ok(Outcome::Exported { summary: certificate.summary(), file })
+    }
+}

@@ -1,0 +1,52 @@
+use async_trait::async_trait;
+
+use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use crate::model::{CertificateType, ErrorCode, FirmwareGeneration, Problem};
+use crate::protocol;
+
+/// Reads which server certificates a controller holds, and whether a CSR is waiting for its certificate.
+#[derive(Debug, Clone, Copy)]
+pub struct ListCertificates;
+
+#[async_trait]
+impl Operation for ListCertificates {
+    fn confirmation(&self) -> Option<Confirmation> {
+        None
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        Ok(Outcome::Certificates(run.session.certificates().await?))
+    }
+}
+
+/// Selects the type of the server certificate (manual 2.7.2). A type that is not held is
+/// [`ErrorCode::CertificateNotStored`].
+#[derive(Debug, Clone, Copy)]
+pub struct SelectCertificateType(pub CertificateType);
+
+#[async_trait]
+impl Operation for SelectCertificateType {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        let current = controller.known.as_ref().is_some_and(|i| i.generation() == FirmwareGeneration::Current);
+        if self.0 == CertificateType::UserSpecified && current {
+            return Err(ErrorCode::FirmwareTooNew.into());
+        }
+        Ok(())
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let held = run.session.certificates().await?;
+        if self.0 != CertificateType::UserSpecified && held.value.of(self.0).is_none() {
+            return Err(Problem::with_detail(ErrorCode::CertificateNotStored, self.0.as_str()));
+        }
+        run.begin(Step::Apply)?;
+        run.session.select_certificate(protocol::SelectCertificate { revision: held.revision, kind: self.0 }).await?;
+        Ok(Outcome::Done)
+    }
+}

@@ -1,0 +1,210 @@
+use std::fmt;
+
+use aws_lc_rs::signature::{
+    RSA_PKCS1_1024_8192_SHA1_FOR_LEGACY_USE_ONLY, RSA_PKCS1_1024_8192_SHA256_FOR_LEGACY_USE_ONLY,
+    RSA_PKCS1_1024_8192_SHA512_FOR_LEGACY_USE_ONLY, RSA_PKCS1_2048_8192_SHA384, RsaParameters, UnparsedPublicKey,
+};
+use rcgen::{CertificateParams, ExtendedKeyUsagePurpose, IsCa, KeyUsagePurpose};
+use x509_parser::certification_request::X509CertificationRequest;
+use x509_parser::prelude::FromDer;
+
+use super::certificate::{check_size, public_key};
+use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
+use super::self_signed::{alternative_names, distinguished_name};
+use super::{Certificate, MAX_CERTIFICATE_BYTES, PkiError, PrivateKey, ServerNames, name};
+use crate::model::CsrRequest;
+
+/// A certificate signing request (PKCS#10) for an RSA key, found whole, with a signature that proves that whoever made
+/// it holds the key.
+#[derive(Clone, PartialEq, Eq)]
+pub struct Csr {
+    der: Vec<u8>,
+    common_name: Option<String>,
+    key_bits: u16,
+    /// In PKCS#1.
+    public_key: Vec<u8>,
+}
+
+impl Csr {
+    /// From DER and nothing but DER, of at most [`MAX_CERTIFICATE_BYTES`].
+    pub fn from_der(der: &[u8]) -> Result<Self, PkiError> {
+        check_size(der, MAX_CERTIFICATE_BYTES)?;
+        let (rest, parsed) = X509CertificationRequest::from_der(der).map_err(|_| PkiError::NotACsr)?;
+        if !rest.is_empty() {
+            return Err(PkiError::TrailingBytes(rest.len()));
+        }
+        let info = &parsed.certification_request_info;
+        let (key_bits, public_key) = public_key(&info.subject_pki).map_err(|_| PkiError::NotACsr)?;
+        let public_key = public_key.ok_or(PkiError::NotACsr)?;
+        let algorithm = algorithm(&parsed.signature_algorithm.algorithm.to_id_string())?;
+        UnparsedPublicKey::new(algorithm, &public_key)
+            .verify(info.raw, &parsed.signature_value.data)
+            .map_err(|_| PkiError::CsrSignature)?;
+        Ok(Self { der: der.to_vec(), common_name: name::common_name(&info.subject), key_bits, public_key })
+    }
+
+    /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one request, in DER or PEM.
+    pub fn from_any(bytes: &[u8]) -> Result<Self, PkiError> {
+        check_size(bytes, MAX_CERTIFICATE_FILE_BYTES)?;
+        if pem::is_pem(bytes) { Self::from_der(&pem::single_csr(bytes)?) } else { Self::from_der(bytes) }
+    }
+
+    /// The request itself, as it was read.
+    pub fn der(&self) -> &[u8] {
+        &self.der
+    }
+
+    /// As PEM, ending with a line feed.
+    pub fn to_pem(&self) -> String {
+        pem::csr(&self.der)
+    }
+
+    /// The subject's common name, without control characters.
+    pub fn common_name(&self) -> Option<&str> {
+        self.common_name.as_deref()
+    }
+
+    /// The length of the key.
+    pub const fn key_bits(&self) -> u16 {
+        self.key_bits
+    }
+
+    /// Whether the certificate is for the key of this request. What else the CA changed is its own affair.
+    pub fn matches(&self, certificate: &Certificate) -> bool {
+        certificate.rsa_public_key() == Some(self.public_key.as_slice())
+    }
+
+    /// Whether the request was made with this key.
+    pub fn is_of(&self, key: &PrivateKey) -> bool {
+        key.public_key() == self.public_key
+    }
+}
+
+impl fmt::Debug for Csr {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Csr({:?}, {} bits)", self.common_name.as_deref().unwrap_or_default(), self.key_bits)
+    }
+}
+
+/// Makes the request for the certificate of an OPC UA server (manual 2.7.1.5; OPC 10000-6 §6.2.2), signed with SHA-256
+/// whatever the length of the key.
+///
+/// It asks for everything the certificate should have: names, key usages, server and client authentication, and not to
+/// be a CA.
+pub fn make_csr(request: &CsrRequest, names: &ServerNames, key: &PrivateKey) -> Result<Csr, PkiError> {
+    let (asked, got) = (request.key_length.bits(), key.bits());
+    if asked != got {
+        return Err(PkiError::OtherKeyLength { asked, got });
+    }
+    let mut params = CertificateParams::default();
+    params.distinguished_name = distinguished_name(&request.subject)?;
+    params.subject_alt_names = alternative_names(names)?;
+    params.key_usages = vec![
+        KeyUsagePurpose::DigitalSignature,
+        KeyUsagePurpose::ContentCommitment,
+        KeyUsagePurpose::KeyEncipherment,
+        KeyUsagePurpose::DataEncipherment,
+    ];
+    params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth, ExtendedKeyUsagePurpose::ClientAuth];
+    params.is_ca = IsCa::ExplicitNoCa;
+    let csr = params.serialize_request(key).map_err(|_| PkiError::Signing)?;
+    Csr::from_der(csr.der())
+}
+
+/// RSA with PKCS#1 v1.5: what every tool signs requests with.
+fn algorithm(oid: &str) -> Result<&'static RsaParameters, PkiError> {
+    match oid {
+        "1.2.840.113549.1.1.5" => Ok(&RSA_PKCS1_1024_8192_SHA1_FOR_LEGACY_USE_ONLY),
+        "1.2.840.113549.1.1.11" => Ok(&RSA_PKCS1_1024_8192_SHA256_FOR_LEGACY_USE_ONLY),
+        "1.2.840.113549.1.1.12" => Ok(&RSA_PKCS1_2048_8192_SHA384),
+        "1.2.840.113549.1.1.13" => Ok(&RSA_PKCS1_1024_8192_SHA512_FOR_LEGACY_USE_ONLY),
+        _ => Err(PkiError::NotACsr),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use x509_parser::prelude::ParsedExtension;
+
+    use crate::model::{KeyLength, SubjectError};
+    use crate::pki::samples;
+
+    fn request(key_length: KeyLength) -> CsrRequest {
+        CsrRequest { subject: samples::request(key_length).subject, key_length }
+    }
+
+    fn csr_of(key: &PrivateKey) -> Csr {
+        make_csr(&request(KeyLength::try_from(key.bits()).unwrap()), &samples::names(), key).unwrap()
+    }
+
+    #[test]
+    fn it_asks_for_what_opc_ua_needs_at_every_key_length() {
+        for key in [samples::legacy_key(), samples::key()] {
+            let csr = csr_of(key);
+            assert_eq!((csr.key_bits(), csr.common_name()), (key.bits(), Some("EpsonRC.SN0000123.192.168.010.001")));
+            let (_, parsed) = X509CertificationRequest::from_der(csr.der()).unwrap();
+            assert_eq!(
+                parsed.certification_request_info.subject.to_string(),
+                "C=JP, ST=Nagano, L=Suwa, O=Example & Sons, CN=EpsonRC.SN0000123.192.168.010.001"
+            );
+            let (mut names, mut usage, mut extended, mut constraints) = (0, 0, false, true);
+            for extension in parsed.requested_extensions().unwrap() {
+                match extension {
+                    ParsedExtension::SubjectAlternativeName(san) => names = san.general_names.len(),
+                    ParsedExtension::KeyUsage(asked) => usage = asked.flags,
+                    ParsedExtension::ExtendedKeyUsage(asked) => extended = asked.server_auth && asked.client_auth,
+                    ParsedExtension::BasicConstraints(asked) => constraints = asked.ca,
+                    _ => {}
+                }
+            }
+            assert_eq!((names, usage, extended, constraints), (4, 0b1111, true, false));
+        }
+    }
+
+    #[test]
+    fn it_belongs_to_one_key_and_its_certificates() {
+        let csr = csr_of(samples::key());
+        assert!(csr.is_of(samples::key()) && !csr.is_of(samples::other_key()));
+        assert!(csr.matches(samples::certificate()));
+        assert!(!csr.matches(&samples::certificate_for(samples::other_key())));
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_in_both_forms() {
+        let csr = csr_of(samples::key());
+        assert_eq!(Csr::from_any(csr.der()).as_ref(), Ok(&csr));
+        assert_eq!(Csr::from_any(csr.to_pem().as_bytes()).as_ref(), Ok(&csr));
+        assert_eq!(Csr::from_any((csr.to_pem() + &csr.to_pem()).as_bytes()), Err(PkiError::SeveralCsrs(2)));
+        assert_eq!(Csr::from_any(samples::certificate().to_pem().as_bytes()), Err(PkiError::NotACsr));
+        assert_eq!(Csr::from_any(samples::certificate().der()), Err(PkiError::NotACsr));
+        assert_eq!(Csr::from_any(b""), Err(PkiError::Empty));
+        assert_eq!(Csr::from_der(&[csr.der(), b"\0"].concat()), Err(PkiError::TrailingBytes(1)));
+    }
+
+    #[test]
+    fn every_damaged_byte_and_every_missing_end_is_noticed() {
+        let csr = csr_of(samples::legacy_key());
+        for at in 0..csr.der().len() {
+            let mut damaged = csr.der().to_vec();
+            damaged[at] ^= 0x04;
+            if let Ok(read) = Csr::from_der(&damaged) {
+                // The parameters of the signature algorithm mean nothing and are not signed.
+                assert!(read == Csr { der: damaged, ..csr.clone() }, "byte {at}");
+            }
+            assert!(Csr::from_der(&csr.der()[..at]).is_err(), "first {at} bytes");
+        }
+    }
+
+    #[test]
+    fn a_wish_that_cannot_be_granted_is_refused() {
+        let mut nameless = request(KeyLength::Rsa2048);
+        nameless.subject.common_name.clear();
+        let made = make_csr(&nameless, &samples::names(), samples::key());
+        assert_eq!(made, Err(PkiError::Subject(SubjectError::Empty("common name"))));
+        let made = make_csr(&request(KeyLength::Rsa4096), &samples::names(), samples::key());
+        assert_eq!(made, Err(PkiError::OtherKeyLength { asked: 4096, got: 2048 }));
+        let nowhere = ServerNames { ips: vec![], dns: vec![], ..samples::names() };
+        assert_eq!(make_csr(&request(KeyLength::Rsa2048), &nowhere, samples::key()), Err(PkiError::NoHostName));
+    }
+}

@@ -1,0 +1,71 @@
+//! The changes that are about server certificates beyond making or importing one with its key (manual 2.7.1.5, 2.7.2).
+//! The rules of `changes` hold here too.
+
+use super::changes::install;
+use super::secret_bytes::SecretBytes;
+use super::state::{PendingCsr, State, Surroundings};
+use crate::model::{CertificateType, CsrRequest, ErrorCode, FirmwareGeneration, Problem};
+use crate::pki::{Certificate, Csr, PkiError, PrivateKey, check_usable, make_csr as csr_for, pkcs12_read_key};
+use crate::protocol::Base64Bytes;
+
+/// Manual 2.7.1.5 on current firmware: the key is made here and stays here, beside the one of the certificate in use.
+/// Gives the CSR's DER.
+pub fn make_csr(state: &mut State, around: &Surroundings, request: &CsrRequest) -> Result<Vec<u8>, Problem> {
+    if state.generation() == FirmwareGeneration::Legacy {
+        return Err(ErrorCode::FirmwareTooOld.into());
+    }
+    request
+        .check(&state.settings.security_policies)
+        .map_err(|error| Problem::with_detail(ErrorCode::BadCertificateRequest, error))?;
+    let key = PrivateKey::generate(request.key_length)?;
+    let csr = csr_for(request, &state.server_names(around), &key)?;
+    keep(state, &csr, &key)
+}
+
+/// Manual 2.7.1.5 on legacy firmware: key and CSR come from the PC, and the CA-signed certificate held so far is gone.
+/// Gives the CSR's DER.
+pub fn import_csr(state: &mut State, csr: &[u8], pkcs12: &[u8], password: &str) -> Result<Vec<u8>, Problem> {
+    if state.generation() == FirmwareGeneration::Current {
+        return Err(ErrorCode::FirmwareTooNew.into());
+    }
+    let csr = Csr::from_der(csr)?;
+    let key = pkcs12_read_key(pkcs12, password)?;
+    if !csr.is_of(&key) {
+        return Err(PkiError::NotAPair.into());
+    }
+    if !state.key_length_fits(key.bits()) {
+        return Err(PkiError::KeyLengthNotAllowed(key.bits()).into());
+    }
+    state.certificates.remove(&CertificateType::CaSigned);
+    keep(state, &csr, &key)
+}
+
+/// Manual 2.7.1.5: installs and selects what the CA issued for the CSR held here. Gives the certificate's DER.
+pub fn import_ca_signed(state: &mut State, around: &Surroundings, certificate: &[u8]) -> Result<Vec<u8>, Problem> {
+    let pending = state.csr.as_ref().ok_or(ErrorCode::NoCsr)?;
+    let certificate = Certificate::from_der(certificate)?;
+    if !Csr::from_der(&pending.csr.0)?.matches(&certificate) {
+        return Err(ErrorCode::CsrMismatch.into());
+    }
+    check_usable(&certificate, &state.settings.security_policies, around.now)?;
+    let key = PrivateKey::from_pkcs8_der(&pending.private_key.0)?;
+    install(state, CertificateType::CaSigned, &certificate, &key)
+}
+
+/// Manual 2.7.2: only a type that is held can be selected.
+pub fn select_certificate(state: &mut State, kind: CertificateType) -> Result<(), Problem> {
+    if kind == CertificateType::UserSpecified && state.generation() == FirmwareGeneration::Current {
+        return Err(ErrorCode::FirmwareTooNew.into());
+    }
+    if !state.certificates.contains_key(&kind) {
+        return Err(Problem::with_detail(ErrorCode::CertificateNotStored, kind.as_str()));
+    }
+    state.selected = kind;
+    Ok(())
+}
+
+fn keep(state: &mut State, csr: &Csr, key: &PrivateKey) -> Result<Vec<u8>, Problem> {
+    let der = csr.der().to_vec();
+    state.csr = Some(PendingCsr { csr: Base64Bytes(der.clone()), private_key: SecretBytes(key.to_pkcs8_der()?) });
+    Ok(der)
+}

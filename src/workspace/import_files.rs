@@ -1,0 +1,136 @@
+//! Finding and reading the files an engineer puts into a controller's folders for import (manual 2.7.1.4, 2.7.1.5).
+
+use std::fs::{self, File};
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+use super::CertificateFiles;
+use crate::model::{ErrorCode, Problem, SerialNumber};
+
+impl CertificateFiles {
+    /// The only `.der` in `CASigned`.
+    pub fn find_ca_signed(&self, serial: &SerialNumber) -> Result<PathBuf, Problem> {
+        single(&self.ca_signed_folder(serial), "der")
+    }
+
+    /// The only `.pfx` in `UserSpecified`.
+    pub fn find_user_pfx(&self, serial: &SerialNumber) -> Result<PathBuf, Problem> {
+        single(&self.user_specified_folder(serial), "pfx")
+    }
+
+    /// The only `.der` and the only `.key` in `UserSpecified`.
+    pub fn find_user_pair(&self, serial: &SerialNumber) -> Result<(PathBuf, PathBuf), Problem> {
+        let folder = self.user_specified_folder(serial);
+        Ok((single(&folder, "der")?, single(&folder, "key")?))
+    }
+}
+
+/// Reads a file of at most `max` bytes that somebody chose; a larger one is not what it should be.
+pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, Problem> {
+    let unreadable = |e: io::Error| {
+        let code = match e.kind() {
+            io::ErrorKind::NotFound => ErrorCode::FileNotFound,
+            _ => ErrorCode::FileUnreadable,
+        };
+        Problem::with_detail(code, format!("{}: {e}", path.display()))
+    };
+    let file = File::open(path).map_err(unreadable)?;
+    let mut bytes = Vec::new();
+    file.take(max as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    if bytes.len() > max {
+        let detail = format!("{}: more than {max} bytes", path.display());
+        return Err(Problem::with_detail(ErrorCode::FileFormat, detail));
+    }
+    Ok(bytes)
+}
+
+/// The only file with this extension in a folder, with a name as the manual wants it (6.2). Other files do not matter.
+fn single(folder: &Path, extension: &str) -> Result<PathBuf, Problem> {
+    let missing = || {
+        let detail = format!("{}: no .{extension}", folder.display());
+        Problem::with_detail(ErrorCode::FileNotFound, detail)
+    };
+    let unreadable = |e: io::Error| match e.kind() {
+        io::ErrorKind::NotFound => missing(),
+        _ => Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", folder.display())),
+    };
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let path = entry.map_err(unreadable)?.path();
+        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case(extension)) && path.is_file() {
+            found.push(path);
+        }
+    }
+    match found.as_slice() {
+        [] => Err(missing()),
+        [path] if has_plain_name(path) => Ok(path.clone()),
+        [path] => Err(Problem::with_detail(ErrorCode::BadFileName, path.display())),
+        several => {
+            let detail = format!("{}: {} .{extension} files", folder.display(), several.len());
+            Err(Problem::with_detail(ErrorCode::SeveralFiles, detail))
+        }
+    }
+}
+
+/// Half-width letters, digits and underscores before the extension.
+fn has_plain_name(path: &Path) -> bool {
+    path.file_stem()
+        .and_then(|stem| stem.to_str())
+        .is_some_and(|stem| !stem.is_empty() && stem.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::workspace::Workspace;
+
+    #[test]
+    fn exactly_one_file_with_a_plain_name_is_found() {
+        let root = tempfile::tempdir().unwrap();
+        let files = Workspace::new(root.path().join("my workspace")).certificate_files();
+        let serial: SerialNumber = "SN0000123".parse().unwrap();
+        let code = || files.find_ca_signed(&serial).map_err(|p| p.code);
+        assert_eq!(code(), Err(ErrorCode::FileNotFound), "no folder");
+        let folder = files.ca_signed_folder(&serial);
+        fs::create_dir_all(folder.join("folder.der")).unwrap();
+        fs::write(folder.join("3_key.pfx"), "x").unwrap();
+        assert_eq!(code(), Err(ErrorCode::FileNotFound), "something else");
+        for name in ["robot 7.der", "robot-7.der", "机器人.der", "robot.7.der"] {
+            fs::write(folder.join(name), "x").unwrap();
+            assert_eq!(code(), Err(ErrorCode::BadFileName), "{name}");
+            fs::remove_file(folder.join(name)).unwrap();
+        }
+        fs::write(folder.join("Robot_7.DER"), "x").unwrap();
+        assert_eq!(code(), Ok(folder.join("Robot_7.DER")));
+        fs::write(folder.join("other.der"), "x").unwrap();
+        assert_eq!(code(), Err(ErrorCode::SeveralFiles));
+    }
+
+    #[test]
+    fn a_pair_is_two_files_and_a_pfx_is_one() {
+        let root = tempfile::tempdir().unwrap();
+        let files = Workspace::new(root.path()).certificate_files();
+        let serial: SerialNumber = "SN0000123".parse().unwrap();
+        let folder = files.user_specified_folder(&serial);
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join("ccc.der"), "x").unwrap();
+        assert_eq!(files.find_user_pair(&serial).unwrap_err().code, ErrorCode::FileNotFound);
+        fs::write(folder.join("ddd.key"), "x").unwrap();
+        assert_eq!(files.find_user_pair(&serial), Ok((folder.join("ccc.der"), folder.join("ddd.key"))));
+        assert_eq!(files.find_user_pfx(&serial).unwrap_err().code, ErrorCode::FileNotFound);
+        fs::write(folder.join("eee.pfx"), "x").unwrap();
+        assert_eq!(files.find_user_pfx(&serial), Ok(folder.join("eee.pfx")));
+    }
+
+    #[test]
+    fn a_file_is_read_within_its_limit() {
+        let root = tempfile::tempdir().unwrap();
+        let path = root.path().join("x");
+        let code = |max| read_import_file(&path, max).map_err(|p| p.code);
+        assert_eq!(code(3), Err(ErrorCode::FileNotFound));
+        fs::write(&path, "abc").unwrap();
+        assert_eq!(code(3), Ok(b"abc".to_vec()));
+        assert_eq!(code(2), Err(ErrorCode::FileFormat));
+        assert_eq!(read_import_file(root.path(), 2).unwrap_err().code, ErrorCode::FileUnreadable);
+    }
+}
