@@ -11,8 +11,10 @@
 //! | `users` | list, add, remove users |
 //! | `self_signed` | make and install a self-signed certificate |
 //! | `clients` | list and add trusted client certificates |
+//! | `activate` | activate legacy controllers by their keys |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
+mod activate;
 mod clients;
 mod enroll;
 mod get_info;
@@ -23,6 +25,7 @@ mod server_control;
 mod settings;
 mod users;
 
+pub use activate::{Activate, KeySource};
 pub use clients::{AddClientCertificates, ClientCertificateFile, ListClients};
 pub use enroll::{Enrolled, enroll, probe};
 pub use get_info::GetInfo;

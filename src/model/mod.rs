@@ -3,6 +3,7 @@
 //! No I/O, no async, no egui. Text becomes one of these types once, at the edge (a dialog, the command line, a
 //! message), and is trusted from there on. Section numbers in the docs are those of the controller's OPC UA manual.
 
+pub mod activation;
 mod address;
 mod certificate;
 mod client_list;

@@ -39,6 +39,7 @@
 //! | `POST` [`CERTIFICATE_IMPORT`] | [`ImportCertificate`] | [`Installed`], legacy firmware |
 //! | `GET` [`CLIENTS`]`/trusted`, `/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
 //! | `POST` [`CLIENTS`]`/trusted`, `/issuers` | [`AddClients`] | [`Changed`] |
+//! | `POST` [`ACTIVATION`] | [`Activate`] | [`Changed`], legacy firmware |
 //!
 //! # Changes
 //! Every change names the revision of the configuration it was based on. If the controller's is another, it answers
@@ -67,9 +68,11 @@
 //! | 500 | the controller failed |
 //! | 507 | the controller's storage is full |
 
+mod activation;
 mod base64_bytes;
 mod messages;
 
+pub use activation::Activate;
 pub use messages::{
     AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
     MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
@@ -94,6 +97,7 @@ pub const SERVER_STOP: &str = "/v1/server/stop";
 pub const SELF_SIGNED: &str = "/v1/certificates/self-signed";
 pub const CERTIFICATE_IMPORT: &str = "/v1/certificates/import";
 pub const CLIENTS: &str = "/v1/clients";
+pub const ACTIVATION: &str = "/v1/activation";
 
 /// What [`Hello::product`] says, so that another HTTPS server is not taken for a controller.
 pub const PRODUCT: &str = "opcua-controller-management";

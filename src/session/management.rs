@@ -16,8 +16,8 @@ use super::{Connector, ControllerSession};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    self, AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
-    MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
+    self, Activate, AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate,
+    Login, MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
 };
 
 /// How long the driver waits.
@@ -253,6 +253,10 @@ impl ControllerSession for Link {
 
     async fn add_clients(&mut self, list: ClientList, change: AddClients) -> Result<Changed, Problem> {
         self.change(&protocol::clients_path(list), &change).await
+    }
+
+    async fn activate(&mut self, change: Activate) -> Result<Changed, Problem> {
+        self.change(protocol::ACTIVATION, &change).await
     }
 
     async fn close(&mut self) {
