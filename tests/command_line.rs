@@ -1,98 +1,17 @@
 //! The main job through the real command line, and what it says when something is wrong.
 
+#[path = "common/desk.rs"]
+mod desk;
 #[path = "common/process.rs"]
 mod process;
 
 use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-use process::{Finished, Running};
+use desk::{DONE, Desk, assert_error, program, walk};
+use process::Running;
 use serde_json::Value;
-
-const DONE: Duration = Duration::from_secs(120);
-
-fn program() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_opcua-configurator"));
-    command.env_remove("OPCUA_CONFIGURATOR_CONNECTION_PASSWORD_FILE").env_remove("RUST_LOG");
-    // No keyring of the person who runs the tests.
-    command.env_remove("DBUS_SESSION_BUS_ADDRESS").env("RUST_BACKTRACE", "0");
-    command
-}
-
-/// Three virtual controllers in a process of their own, and an empty workspace.
-struct Desk {
-    folder: tempfile::TempDir,
-    ready: Vec<Value>,
-    _controllers: Running,
-}
-
-impl Desk {
-    fn start(count: usize) -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("password"), "plant-password\r\n").unwrap();
-        fs::write(folder.path().join("user-password"), "Passw0rd1\n").unwrap();
-        let mut controllers = Running::start(
-            program()
-                .args(["virtual", "--count", &count.to_string(), "--seed", "3", "--password-file"])
-                .arg(folder.path().join("password")),
-        )
-        .unwrap();
-        let ready = (0..count).map(|_| serde_json::from_str(&controllers.next_line(DONE)).unwrap()).collect();
-        Self { folder, ready, _controllers: controllers }
-    }
-
-    fn workspace(&self) -> PathBuf {
-        self.folder.path().join("workspace")
-    }
-
-    fn command(&self) -> Command {
-        let mut command = program();
-        command.arg("--workspace").arg(self.workspace());
-        command.arg("--connection-password-file").arg(self.folder.path().join("password"));
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Finished {
-        Running::start(self.command().args(arguments)).unwrap().finish(DONE)
-    }
-
-    /// Runs with `--json`; one value a line.
-    fn json(&self, arguments: &[&str]) -> (Option<i32>, Vec<Value>) {
-        let finished = Running::start(self.command().arg("--json").args(arguments)).unwrap().finish(DONE);
-        let mut lines: Vec<Value> = finished.stdout.lines().map(|l| serde_json::from_str(l).unwrap()).collect();
-        lines.sort_by_key(|line| line["controller"].to_string());
-        (finished.code, lines)
-    }
-
-    fn file(&self, name: &str) -> String {
-        self.folder.path().join(name).display().to_string()
-    }
-
-    fn add(&self, index: usize, name: &str) -> (Option<i32>, Vec<Value>) {
-        let ready = &self.ready[index];
-        let word = |key: &str| ready[key].as_str().unwrap();
-        self.json(&[
-            "controllers",
-            "add",
-            name,
-            word("management"),
-            "--series",
-            word("series"),
-            "--fingerprint",
-            word("fingerprint"),
-        ])
-    }
-}
-
-fn assert_error(lines: &[Value], code: &str) {
-    let error = &lines[0]["error"];
-    assert_eq!(error["code"], code, "{lines:?}");
-    for part in ["message", "cause", "remedy"] {
-        assert!(error[part].as_str().is_some_and(|text| !text.is_empty()), "{error}");
-    }
-}
 
 #[test]
 fn from_an_empty_workspace_to_three_running_servers() {
@@ -220,15 +139,6 @@ fn a_password_is_read_from_standard_input_and_shown_nowhere() {
         let text = String::from_utf8_lossy(&fs::read(&entry).unwrap()).into_owned();
         assert!(!text.contains("plant-password"), "{}", entry.display());
     }
-}
-
-fn walk(folder: &Path) -> Vec<PathBuf> {
-    let mut found = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() { found.extend(walk(&path)) } else { found.push(path) }
-    }
-    found
 }
 
 #[test]

@@ -7,10 +7,10 @@ use serde_json::json;
 use super::passwords::read_secret;
 use super::table::table;
 use super::{Ending, Settled, runtime};
-use crate::jobs;
+use crate::jobs::{self, Enrolled};
 use crate::model::{Address, ControllerName, ControllerSeries, ErrorCode, Problem};
 use crate::pki::Fingerprint;
-use crate::workspace::{ControllerEntry, Retrieved};
+use crate::workspace::{ConnectionList, ControllerEntry, MAX_CONNECTION_LIST_BYTES, PlannedConnection, Retrieved};
 
 #[derive(Debug, Subcommand)]
 pub enum ControllersCommand {
@@ -23,6 +23,17 @@ pub enum ControllersCommand {
         #[arg(required = true, value_name = "NAME")]
         names: Vec<String>,
     },
+    /// Add the controllers of a connection list; each has to be trusted before anything is sent to it
+    Import {
+        /// UTF-8 CSV with the columns Name,Type,Address [default: connections.csv in the workspace]
+        #[arg(value_name = "FILE.csv")]
+        file: Option<PathBuf>,
+        /// Series to show until a controller was reached: RC90, RC700, T/VT or RC800
+        #[arg(long, default_value = "RC700")]
+        series: String,
+    },
+    /// Accept the fingerprint of a controller that was imported
+    Trust(TrustArgs),
 }
 
 #[derive(Debug, Args)]
@@ -46,11 +57,28 @@ pub struct AddArgs {
     password_file: Option<PathBuf>,
 }
 
+#[derive(Debug, Args)]
+pub struct TrustArgs {
+    /// As it stands in the list
+    name: String,
+    /// SHA-256 of the controller's management identity, as the controller shows it
+    #[arg(long, value_name = "HEX", required_unless_present = "trust_on_first_use")]
+    fingerprint: Option<String>,
+    /// Accept whatever fingerprint the controller presents now: safe only on a network where nobody can pretend to be it
+    #[arg(long, conflicts_with = "fingerprint")]
+    trust_on_first_use: bool,
+    /// File with the connection password, "-" for standard input; kept in the operating system's keyring
+    #[arg(long, value_name = "FILE")]
+    password_file: Option<PathBuf>,
+}
+
 pub fn run(settled: &Settled, command: ControllersCommand) -> Result<Ending, Problem> {
     match command {
         ControllersCommand::List => list(settled),
         ControllersCommand::Add(args) => add(settled, &args),
         ControllersCommand::Remove { names } => remove(settled, &names),
+        ControllersCommand::Import { file, series } => import(settled, file, &series),
+        ControllersCommand::Trust(args) => trust(settled, &args),
     }
 }
 
@@ -83,34 +111,14 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
     let address: Address = args.address.parse().map_err(|e| bad(ErrorCode::BadAddress, &e))?;
     let series: ControllerSeries = args.series.parse().map_err(|e| bad(ErrorCode::BadName, &e))?;
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
-    let password_file = args.password_file.as_ref().or(settled.connection_password_file.as_ref());
-    let password = password_file.map(|f| read_secret(f)).transpose()?.unwrap_or_else(|| SecretString::from(""));
+    let password = password(settled, args.password_file.as_ref())?;
     // Held from the check to the save, so that two commands cannot add the same name.
     let lock = settled.workspace.lock()?;
     let mut configuration = settled.configuration()?;
     configuration.check_new(&name, &address)?;
-    let context = settled.context(1)?;
-    let enrolled = runtime()?.block_on(async {
-        let fingerprint = match given {
-            Some(fingerprint) => fingerprint,
-            None => jobs::probe(&address, &context).await?,
-        };
-        jobs::enroll(&address, fingerprint, password, &context).await
-    });
-    let enrolled = match enrolled {
-        Ok(enrolled) => enrolled,
-        Err(problem) => {
-            if settled.output.is_json() {
-                settled.output.failed(name.as_str(), &problem);
-            } else {
-                settled.output.explain(Some(name.as_str()), &problem);
-            }
-            return Ok(Ending::SomeFailed);
-        }
+    let Some(enrolled) = meet(settled, &name, &address, given, password)? else {
+        return Ok(Ending::SomeFailed);
     };
-    if let Some(problem) = &enrolled.password_not_kept {
-        tracing::warn!(%problem, "the password has to be given with --connection-password-file each time");
-    }
     if enrolled.info.series != series {
         eprintln!("{name}: the controller says that it is {} {}", enrolled.info.series, enrolled.info.serial);
     }
@@ -126,6 +134,119 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
     settled.workspace.save(&configuration, &lock)?;
     if settled.output.is_json() {
         settled.output.done(name.as_str(), &shown);
+    } else {
+        settled.output.text(&text);
+    }
+    Ok(Ending::AllDone)
+}
+
+fn password(settled: &Settled, file: Option<&PathBuf>) -> Result<SecretString, Problem> {
+    let file = file.or(settled.connection_password_file.as_ref());
+    Ok(file.map(|f| read_secret(f)).transpose()?.unwrap_or_else(|| SecretString::from("")))
+}
+
+/// Logs in for the first time, under the fingerprint given or else the one that is found. `None`: it failed, and that
+/// was said.
+fn meet(
+    settled: &Settled,
+    name: &ControllerName,
+    address: &Address,
+    given: Option<Fingerprint>,
+    password: SecretString,
+) -> Result<Option<Enrolled>, Problem> {
+    let context = settled.context(1)?;
+    let enrolled = runtime()?.block_on(async {
+        let fingerprint = match given {
+            Some(fingerprint) => fingerprint,
+            None => jobs::probe(address, &context).await?,
+        };
+        jobs::enroll(address, fingerprint, password, &context).await
+    });
+    match enrolled {
+        Ok(enrolled) => {
+            if let Some(problem) = &enrolled.password_not_kept {
+                tracing::warn!(%problem, "the password has to be given with --connection-password-file each time");
+            }
+            Ok(Some(enrolled))
+        }
+        Err(problem) => {
+            failed(settled, name.as_str(), &problem);
+            Ok(None)
+        }
+    }
+}
+
+fn failed(settled: &Settled, name: &str, problem: &Problem) {
+    if settled.output.is_json() {
+        settled.output.failed(name, problem);
+    } else {
+        settled.output.explain(Some(name), problem);
+    }
+}
+
+fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Ending, Problem> {
+    let series: ControllerSeries = series.parse().map_err(|e| Problem::with_detail(ErrorCode::BadName, e))?;
+    let path = file.unwrap_or_else(|| settled.workspace.connection_list_path());
+    let list = ConnectionList::parse(&super::read_bounded(&path, MAX_CONNECTION_LIST_BYTES)?)?;
+    let lock = settled.workspace.lock()?;
+    let mut configuration = settled.configuration()?;
+    let plan = list.plan(&configuration);
+    let new = plan.iter().filter_map(|planned| planned.verdict.clone().ok());
+    configuration.controllers.extend(new.map(|new| new.entry(series)));
+    settled.workspace.save(&configuration, &lock)?;
+
+    let mut ending = Ending::AllDone;
+    for PlannedConnection { line, name, verdict, .. } in &plan {
+        let said = match verdict {
+            Ok(new) => (json!({ "line": line, "address": new.address }), format!("Added {name}: {}", new.address)),
+            Err(skipped) => match skipped.problem(*line) {
+                None => (
+                    json!({ "line": line, "skipped": skipped.to_string() }),
+                    format!("Left out {name}, line {line}: {skipped}"),
+                ),
+                Some(problem) => {
+                    failed(settled, name, &problem);
+                    ending = Ending::SomeFailed;
+                    continue;
+                }
+            },
+        };
+        if settled.output.is_json() {
+            settled.output.done(name, &said.0);
+        } else {
+            settled.output.text(&said.1);
+        }
+    }
+    Ok(ending)
+}
+
+/// An entry whose fingerprint was accepted already keeps it: a controller that comes with another one has to be
+/// removed and added again, on purpose.
+fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
+    let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
+    let password = password(settled, args.password_file.as_ref())?;
+    let lock = settled.workspace.lock()?;
+    let mut configuration = settled.configuration()?;
+    let unknown = || Problem::with_detail(ErrorCode::UnknownController, &args.name);
+    let entry = configuration.controllers.iter_mut().find(|c| c.name.as_str() == args.name).ok_or_else(unknown)?;
+    if let (Some(known), Some(given)) = (entry.fingerprint, given)
+        && known != given
+    {
+        let detail = format!("expected {}, given {}", known.grouped(), given.grouped());
+        return Err(Problem::with_detail(ErrorCode::FingerprintChanged, detail));
+    }
+    let Some(enrolled) = meet(settled, &entry.name, &entry.address, given.or(entry.fingerprint), password)? else {
+        return Ok(Ending::SomeFailed);
+    };
+    let shown = json!({ "fingerprint": enrolled.fingerprint, "info": enrolled.info });
+    let Enrolled { fingerprint, info, .. } = enrolled;
+    let text = format!("Trusted {}: {} {} {fingerprint}", entry.name, info.series, info.serial);
+    entry.series = info.series;
+    entry.fingerprint = Some(fingerprint);
+    entry.last = Some(Retrieved { at: chrono::Utc::now(), info });
+    settled.workspace.save(&configuration, &lock)?;
+    if settled.output.is_json() {
+        settled.output.done(&args.name, &shown);
     } else {
         settled.output.text(&text);
     }

@@ -3,6 +3,7 @@
 //! One file a subcommand. Results go to standard output, logs and progress to standard error. Exit code 0: all done;
 //! 1: some or all controllers failed; 2: the request itself was wrong and nothing was sent.
 
+mod activate;
 mod backup;
 mod batch;
 mod cert;
@@ -20,7 +21,7 @@ mod virtual_fleet;
 mod virtual_plant;
 mod window;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
@@ -75,7 +76,7 @@ enum Command {
     Demo(demo::DemoArgs),
     /// Run virtual controllers without a window until Ctrl-C; one line of JSON each when it is ready
     Virtual(virtual_fleet::VirtualArgs),
-    /// List, add and remove controllers
+    /// List, add, import, trust and remove controllers
     #[command(subcommand)]
     Controllers(controllers::ControllersCommand),
     /// Read and show the information of controllers
@@ -91,6 +92,9 @@ enum Command {
     #[command(subcommand)]
     Users(users::UsersCommand),
     /// Make, request, import, select and export server certificates
+    /// Activate legacy controllers by their keys
+    Activate(activate::ActivateArgs),
+    /// Make server certificates
     #[command(subcommand)]
     Cert(cert::CertCommand),
     /// List and add trusted client certificates
@@ -143,6 +147,7 @@ pub fn main() -> ExitCode {
         None => window::run(&settled, cli.lang),
         Some(Command::Demo(args)) => demo::run(&settled, &args, cli.lang),
         Some(Command::Virtual(args)) => virtual_fleet::run(&args),
+        Some(Command::Activate(args)) => activate::run(&settled, &args),
         Some(Command::Controllers(command)) => controllers::run(&settled, command),
         Some(Command::Info(select)) => server::info(&settled, &select),
         Some(Command::Start(select)) => server::start(&settled, &select),
@@ -182,6 +187,16 @@ fn init_log(verbose: u8) {
     };
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(default));
     tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+}
+
+/// Reads a file that is given on the command line, up to one byte more than `limit`.
+fn read_bounded(path: &Path, limit: usize) -> Result<Vec<u8>, Problem> {
+    use std::io::Read as _;
+    let mut bytes = Vec::new();
+    std::fs::File::open(path).and_then(|file| file.take(limit as u64 + 1).read_to_end(&mut bytes)).map_err(|e| {
+        Problem::with_detail(crate::model::ErrorCode::FileUnreadable, format!("{}: {e}", path.display()))
+    })?;
+    Ok(bytes)
 }
 
 /// The runtime commands run their jobs on.

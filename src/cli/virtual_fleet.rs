@@ -1,16 +1,35 @@
 use std::net::{IpAddr, Ipv4Addr};
 use std::path::PathBuf;
 
-use clap::{Args, ValueEnum};
+use clap::{Args, Subcommand, ValueEnum};
 use secrecy::SecretString;
 
 use super::passwords::read_secret;
 use super::{Ending, runtime};
-use crate::model::{ErrorCode, Problem};
-use crate::virtual_controller::{Fleet, FleetConfig, FleetFirmware};
+use crate::model::activation::{ActivationKeys, FIRST_LINE};
+use crate::model::{ErrorCode, Problem, SerialNumber};
+use crate::virtual_controller::{Fleet, FleetConfig, FleetFirmware, demo_keys};
 
 #[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = true)]
 pub struct VirtualArgs {
+    #[command(subcommand)]
+    command: Option<VirtualCommand>,
+    #[command(flatten)]
+    fleet: FleetArgs,
+}
+
+#[derive(Debug, Subcommand)]
+enum VirtualCommand {
+    /// Print an activation file with the keys that virtual controllers with these serial numbers accept
+    Keys {
+        #[arg(required = true, value_name = "SERIAL")]
+        serials: Vec<String>,
+    },
+}
+
+#[derive(Debug, Args)]
+struct FleetArgs {
     /// How many controllers
     #[arg(long, value_name = "N", default_value_t = 1)]
     count: usize,
@@ -25,6 +44,9 @@ pub struct VirtualArgs {
     opcua_port: u16,
     #[arg(long, value_enum, default_value_t = Firmware::Mixed)]
     firmware: Firmware,
+    /// Legacy controllers come without keys, to be activated by those that "virtual keys" prints
+    #[arg(long)]
+    not_activated: bool,
     /// File with the connection password of all of them, "-" for standard input; empty without it
     #[arg(long, value_name = "FILE")]
     password_file: Option<PathBuf>,
@@ -57,6 +79,24 @@ impl From<Firmware> for FleetFirmware {
 }
 
 pub fn run(args: &VirtualArgs) -> Result<Ending, Problem> {
+    match &args.command {
+        Some(VirtualCommand::Keys { serials }) => keys(serials),
+        None => fleet(&args.fleet),
+    }
+}
+
+fn keys(serials: &[String]) -> Result<Ending, Problem> {
+    let bad = |error| Problem::with_detail(ErrorCode::BadName, error);
+    let serials = serials.iter().map(|s| s.parse()).collect::<Result<Vec<SerialNumber>, _>>().map_err(bad)?;
+    super::output::line(FIRST_LINE);
+    for serial in serials {
+        let ActivationKeys { licence, activation } = demo_keys(&serial);
+        super::output::line(&format!("{serial},{licence},{activation}"));
+    }
+    Ok(Ending::AllDone)
+}
+
+fn fleet(args: &FleetArgs) -> Result<Ending, Problem> {
     let password = args.password_file.as_ref().map(|f| read_secret(f)).transpose()?;
     // Removed when this function ends.
     let temporary = match args.data {
@@ -74,6 +114,7 @@ pub fn run(args: &VirtualArgs) -> Result<Ending, Problem> {
         management_port: args.management_port,
         opcua_port: args.opcua_port,
         firmware: args.firmware.into(),
+        activated: !args.not_activated,
         password: password.unwrap_or_else(|| SecretString::from("")),
         data,
         seed: args.seed,

@@ -17,8 +17,10 @@
 //! | `select_certificate` | list the server certificates held, select one |
 //! | `export_self_signed` | save the self-signed certificate on the PC |
 //! | `clients` | list and add trusted client certificates |
+//! | `activate` | activate legacy controllers by their keys |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
+mod activate;
 mod clients;
 mod create_csr;
 mod enroll;
@@ -35,6 +37,7 @@ mod server_control;
 mod settings;
 mod users;
 
+pub use activate::{Activate, KeySource};
 pub use clients::{AddClientCertificates, ClientCertificateFile, ListClients};
 pub use create_csr::{CreateCsr, CsrFields};
 pub use enroll::{Enrolled, enroll, probe};

@@ -6,6 +6,7 @@
 #[macro_use]
 mod text_in_messages;
 
+pub mod activation;
 mod address;
 mod certificate;
 mod client_list;

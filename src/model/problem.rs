@@ -85,6 +85,13 @@ pub enum ErrorCode {
     OneControllerOnly,
     Preflight,
     PreflightWarnings,
+    // activation (2.6.3)
+    WrongKeys,
+    NotInFile,
+    BadActivationKey,
+    BadActivationFile,
+    // connection list (2.5.3)
+    BadConnectionList,
     // the PC
     WorkspaceReadOnly,
     WorkspaceFull,
@@ -834,6 +841,71 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ),
     ),
     (
+        ErrorCode::WrongKeys,
+        text(
+            "The controller does not accept the keys",
+            "The licence key or the activation key was made for another serial number, or has a typing mistake.",
+            "Compare both keys with what the supplier sent for this serial number.",
+        ),
+        text(
+            "控制器不接受该密钥",
+            "许可密钥或激活密钥属于其他序列号，或输入有误。",
+            "请与供应商针对该序列号提供的密钥核对。",
+        ),
+    ),
+    (
+        ErrorCode::NotInFile,
+        text(
+            "The activation file has no keys for this controller",
+            "No good line of the file carries the controller's serial number.",
+            "Add the line or correct it, or choose the file that belongs to this controller.",
+        ),
+        text(
+            "激活文件中没有该控制器的信息",
+            "文件中没有包含该控制器序列号的有效行。",
+            "请在文件中添加或更正该行，或选择对应的文件。",
+        ),
+    ),
+    (
+        ErrorCode::BadActivationKey,
+        text(
+            "The licence key or the activation key is incomplete",
+            "A licence key has 16 half-width letters and digits, an activation key 24.",
+            "Enter the keys as the supplier sent them.",
+        ),
+        text(
+            "许可密钥或激活密钥不完整",
+            "许可密钥为 16 个半角字母或数字，激活密钥为 24 个。",
+            "请按供应商提供的内容输入密钥。",
+        ),
+    ),
+    (
+        ErrorCode::BadActivationFile,
+        text(
+            "The file is not an activation file",
+            "It is not UTF-8 text, or its first line is not OPCUA.Activation.Ver.1.0.",
+            "Choose another file, or save it again as CSV in UTF-8 with that first line.",
+        ),
+        text(
+            "文件格式无效，不是激活文件",
+            "文件不是 UTF-8 文本，或第一行不是 OPCUA.Activation.Ver.1.0。",
+            "请选择其他文件，或以该内容为第一行，重新保存为 UTF-8 编码的 CSV。",
+        ),
+    ),
+    (
+        ErrorCode::BadConnectionList,
+        text(
+            "This is not a connection list, or not a line of one",
+            "A connection list is a CSV file in UTF-8 with the columns Name, Type and Address.",
+            "Choose another file, or correct the line.",
+        ),
+        text(
+            "文件或其中一行不是有效的连接列表",
+            "连接列表是 UTF-8 编码的 CSV 文件，包含 Name、Type、Address 三列。",
+            "请选择其他文件，或更正该行。",
+        ),
+    ),
+    (
         ErrorCode::WorkspaceReadOnly,
         text(
             "The workspace cannot be written",
@@ -963,6 +1035,8 @@ mod tests {
             CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,
+            WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
+            BadConnectionList => 1,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
             | NoDisplay | Cancelled | Internal => 8,
         }
@@ -975,6 +1049,10 @@ mod tests {
         codes.sort();
         codes.dedup();
         assert_eq!(codes.len(), 68);
+        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 4 + 1 + 7);
+        codes.sort();
+        codes.dedup();
+        assert_eq!(codes.len(), 58);
         for code in ErrorCode::all() {
             assert!(counted(code) > 0);
             let (en, zh) = (code.explain(Language::En), code.explain(Language::Zh));

@@ -44,6 +44,7 @@
 //! | `POST` [`CA_SIGNED`] | [`ImportCaSigned`] | [`Installed`] |
 //! | `GET` [`CLIENTS`]`/trusted`, `/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
 //! | `POST` [`CLIENTS`]`/trusted`, `/issuers` | [`AddClients`] | [`Changed`] |
+//! | `POST` [`ACTIVATION`] | [`Activate`] | [`Changed`], legacy firmware |
 //!
 //! # Changes
 //! Every change names the revision of the configuration it was based on. If the controller's is another, it answers
@@ -72,10 +73,12 @@
 //! | 500 | the controller failed |
 //! | 507 | the controller's storage is full |
 
+mod activation;
 mod base64_bytes;
 mod certificates;
 mod messages;
 
+pub use activation::Activate;
 pub use certificates::{
     CsrMade, HeldCertificate, HeldCertificates, ImportCaSigned, ImportCsr, MakeCsr, SelectCertificate,
 };
@@ -108,6 +111,7 @@ pub const CSR: &str = "/v1/certificates/csr";
 pub const CSR_IMPORT: &str = "/v1/certificates/csr/import";
 pub const CA_SIGNED: &str = "/v1/certificates/ca-signed";
 pub const CLIENTS: &str = "/v1/clients";
+pub const ACTIVATION: &str = "/v1/activation";
 
 /// What [`Hello::product`] says, so that another HTTPS server is not taken for a controller.
 pub const PRODUCT: &str = "opcua-controller-management";

@@ -16,9 +16,9 @@ use super::{Connector, ControllerSession};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    self, AddClients, AddUser, Changed, CsrMade, Failure, HeldCertificates, Hello, ImportCaSigned, ImportCertificate,
-    ImportCsr, Installed, ListedCertificate, Login, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned,
-    SelectCertificate, Session, SetSettings, WireSecret,
+    self, Activate, AddClients, AddUser, Changed, CsrMade, Failure, HeldCertificates, Hello, ImportCaSigned,
+    ImportCertificate, ImportCsr, Installed, ListedCertificate, Login, MakeCsr, MakeSelfSigned, RemoveUsers,
+    Revisioned, SelectCertificate, Session, SetSettings, WireSecret,
 };
 
 /// How long the driver waits.
@@ -296,6 +296,10 @@ impl ControllerSession for Link {
 
     async fn add_clients(&mut self, list: ClientList, change: AddClients) -> Result<Changed, Problem> {
         self.change(&protocol::clients_path(list), &change).await
+    }
+
+    async fn activate(&mut self, change: Activate) -> Result<Changed, Problem> {
+        self.change(protocol::ACTIVATION, &change).await
     }
 
     async fn close(&mut self) {

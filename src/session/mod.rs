@@ -14,8 +14,8 @@ pub use management::{ManagementConnector, Timeouts};
 use crate::model::{Address, ClientList, ControllerInfo, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    AddClients, AddUser, Changed, CsrMade, HeldCertificates, ImportCaSigned, ImportCertificate, ImportCsr, Installed,
-    ListedCertificate, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, SetSettings,
+    Activate, AddClients, AddUser, Changed, CsrMade, HeldCertificates, ImportCaSigned, ImportCertificate, ImportCsr,
+    Installed, ListedCertificate, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, SetSettings,
 };
 
 /// Opens sessions.
@@ -58,6 +58,8 @@ pub trait ControllerSession: Send + Sync {
     async fn import_ca_signed(&mut self, change: ImportCaSigned) -> Result<Installed, Problem>;
     async fn clients(&mut self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem>;
     async fn add_clients(&mut self, list: ClientList, change: AddClients) -> Result<Changed, Problem>;
+    /// Legacy firmware only.
+    async fn activate(&mut self, change: Activate) -> Result<Changed, Problem>;
     /// Ends the session in the controller. Failing to do so is harmless: it expires there.
     async fn close(&mut self);
 }

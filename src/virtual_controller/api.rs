@@ -24,11 +24,12 @@ use super::changes;
 use super::controller::{Controller, Effect, Outcome};
 use super::login::{Sessions, Throttle};
 use super::password::is_password;
+use crate::model::activation::ActivationKeys;
 use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
-    self, AddClients, AddUser, Base64Bytes, Changed, CsrMade, Failure, HeldCertificates, Hello, ImportCaSigned,
-    ImportCertificate, ImportCsr, Installed, ListedCertificate, Login, MakeCsr, MakeSelfSigned, RemoveUsers,
-    Revisioned, SESSION_IDLE_SECS, SelectCertificate, Session, SetSettings, WireSecret,
+    self, Activate, AddClients, AddUser, Base64Bytes, Changed, CsrMade, Failure, HeldCertificates, Hello,
+    ImportCaSigned, ImportCertificate, ImportCsr, Installed, ListedCertificate, Login, MakeCsr, MakeSelfSigned,
+    RemoveUsers, Revisioned, SESSION_IDLE_SECS, SelectCertificate, Session, SetSettings, WireSecret,
 };
 
 /// How long a wrong password waits for its answer.
@@ -57,6 +58,7 @@ pub static ROUTER: LazyLock<Router> = LazyLock::new(|| {
         .route(protocol::CSR_IMPORT, post(import_csr))
         .route(protocol::CA_SIGNED, post(import_ca_signed))
         .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients).post(add_clients))
+        .route(protocol::ACTIVATION, post(activate))
         .fallback(unknown_path)
         .method_not_allowed_fallback(unknown_method)
 });
@@ -332,6 +334,15 @@ async fn add_clients(caller: Caller, Path(list): Path<String>, body: Body) -> An
         .controller()
         .change(revision, effect, move |state, around| changes::add_clients(state, around, list, certificates))
         .await;
+    let (changed, ()) = caller.settle(outcome).await?;
+    Ok(Json(changed))
+}
+
+async fn activate(caller: Caller, body: Body) -> Answer<Changed> {
+    let Activate { revision, licence, activation } = read(body, Malformed::secret(ErrorCode::BadActivationKey)).await?;
+    let keys = ActivationKeys { licence, activation };
+    let outcome =
+        caller.controller().change(revision, Effect::Restart, move |state, _| changes::activate(state, keys)).await;
     let (changed, ()) = caller.settle(outcome).await?;
     Ok(Json(changed))
 }

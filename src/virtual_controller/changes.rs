@@ -5,9 +5,11 @@
 
 use chrono::{DateTime, Utc};
 
+use super::activation_keys::demo_keys;
 use super::opcua::hash_password;
 use super::secret_bytes::SecretBytes;
 use super::state::{KeyPair, Listed, State, Surroundings, User};
+use crate::model::activation::ActivationKeys;
 use crate::model::{
     CertificateType, ClientList, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings,
     UserName, UserPassword,
@@ -147,6 +149,19 @@ pub fn add_clients(
             ClientList::Trusted | ClientList::Rejected => state.trusted.push(listed),
         }
     }
+    Ok(())
+}
+
+/// Manual 2.6.3.
+pub fn activate(state: &mut State, keys: ActivationKeys) -> Result<(), Problem> {
+    if state.generation() == FirmwareGeneration::Current {
+        return Err(ErrorCode::FirmwareTooNew.into());
+    }
+    if keys != demo_keys(&state.identity.serial) {
+        return Err(Problem::with_detail(ErrorCode::WrongKeys, &state.identity.serial));
+    }
+    state.activated = true;
+    state.activation_keys = Some(keys);
     Ok(())
 }
 

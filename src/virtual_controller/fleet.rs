@@ -30,6 +30,8 @@ pub struct FleetConfig {
     /// exists already keeps its own.
     pub opcua_port: u16,
     pub firmware: FleetFirmware,
+    /// Whether legacy controllers that do not exist yet come activated; current ones always do.
+    pub activated: bool,
     /// The connection password of controllers that do not exist yet. All of them share its hash.
     pub password: SecretString,
     /// Each controller lives in a folder here, named by its serial number. One process at a time.
@@ -146,6 +148,7 @@ impl FleetConfig {
         let ports = |first: u16| nth(first).ok_or(FleetError::Ports { first, count: self.count });
         let folder = self.data.join(identity.serial.as_str());
         let mut initial = NewController::new(identity, hash.to_owned());
+        initial.activated = self.activated;
         let opcua = match self.opcua_port {
             0 => free_port(self.bind).map_err(FleetError::NoFreePort)?,
             first => ports(first)?,

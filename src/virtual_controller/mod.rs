@@ -11,6 +11,7 @@
 //! | `store` | [`Store`]: the state on disk, replaced whole |
 //! | `secret_bytes` | [`SecretBytes`]: key material that shows nowhere |
 //! | `new_controller` | [`NewController`]: what a controller is when it is first switched on |
+//! | `activation_keys` | [`demo_keys`]: the keys a virtual controller accepts |
 //! | `faults` | [`Faults`]: the switches for what goes wrong |
 //! | `controller` | [`VirtualController`]: state, store and OPC UA server together; changes whole or not at all |
 //! | `password` | the connection password: Argon2id once, then a memory of this process |
@@ -41,6 +42,7 @@
 //! - A running server refuses settings and certificates it could not run with (7932, 7933); a stopped one takes any
 //!   settings that are complete, and says so when it is started.
 
+mod activation_keys;
 mod api;
 mod certificate_changes;
 mod changes;
@@ -63,6 +65,7 @@ mod store;
 mod tests;
 mod tls;
 
+pub use activation_keys::demo_keys;
 pub use controller::{ControllerSpec, SwitchOnError, VirtualController};
 pub use demo::{DEMO_COUNT, DEMO_PASSWORD, DemoEntry, DemoFleet, demo_fleet};
 pub use faults::{DropPoint, Faults, Switches};

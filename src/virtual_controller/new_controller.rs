@@ -1,5 +1,6 @@
 use chrono::{DateTime, Utc};
 
+use super::activation_keys::demo_keys;
 use super::changes::install_self_signed;
 use super::secret_bytes::SecretBytes;
 use super::state::{Identity, KeyPair, State, Surroundings};
@@ -54,13 +55,16 @@ impl NewController {
         let management =
             KeyPair { certificate: Base64Bytes(tls.certificate_der), private_key: SecretBytes(tls.private_key_pkcs8) };
         let current = self.identity.firmware.generation() == FirmwareGeneration::Current;
+        let activated = self.activated || current;
+        let activation_keys = (activated && !current).then(|| demo_keys(&self.identity.serial));
         let mut state = State {
             identity: self.identity,
             management,
             connection_password_hash: self.connection_password_hash,
             settings: self.settings,
             users: Vec::new(),
-            activated: self.activated || current,
+            activated,
+            activation_keys,
             certificates: Default::default(),
             csr: None,
             selected: CertificateType::SelfSigned,

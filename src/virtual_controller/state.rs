@@ -5,6 +5,7 @@ use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
 use super::secret_bytes::SecretBytes;
+use crate::model::activation::ActivationKeys;
 use crate::model::{
     CertificateType, ClientList, ControllerName, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion,
     ListLimits, MAX_USERS, Problem, SerialNumber, ServerCertificate, ServerSettings, UserName, default_common_name,
@@ -76,6 +77,9 @@ pub struct State {
     pub users: Vec<User>,
     /// Always true on current firmware, where activation is a controller option.
     pub activated: bool,
+    /// The keys it was activated with, where that was done by keys.
+    #[serde(default)]
+    pub activation_keys: Option<ActivationKeys>,
     /// The server certificates held, at most one of each type.
     pub certificates: BTreeMap<CertificateType, KeyPair>,
     /// The CSR made last. It stays after its certificate was imported, so that the CA can renew that.

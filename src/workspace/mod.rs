@@ -3,6 +3,7 @@
 //! ```text
 //! <workspace>/
 //!   epson_opcua_config.json          controllers and options
+//!   connections.csv                  a connection list to import, if somebody put one there (manual 2.5.3)
 //!   .lock                            held by whoever may write the configuration
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
 //! ```
@@ -13,6 +14,7 @@
 mod atomic;
 mod certificate_files;
 mod configuration;
+mod connection_list;
 mod import_files;
 mod passwords;
 
@@ -28,12 +30,17 @@ pub use certificate_files::{CertificateFiles, SavedCertificate, SavedCsr};
 pub use configuration::{
     Configuration, ControllerEntry, MAX_PARALLELISM, Options, Retrieved, ThemeChoice, WindowState,
 };
+pub use connection_list::{
+    CONNECTION_LIST_COLUMNS, ConnectionList, ConnectionListError, MAX_CONNECTION_LIST_BYTES, MAX_CONNECTIONS,
+    NewConnection, PlannedConnection, Skipped,
+};
 pub use import_files::read_import_file;
 pub use passwords::{KeyringPasswords, MemoryPasswords, Passwords};
 
 use crate::model::{ErrorCode, Problem};
 
 const CONFIGURATION: &str = "epson_opcua_config.json";
+const CONNECTION_LIST: &str = "connections.csv";
 const LOCK: &str = ".lock";
 
 /// A configuration larger than this is not one (10,000 controllers take about 12 MB).
@@ -120,6 +127,11 @@ impl Workspace {
 
     pub fn root(&self) -> &Path {
         &self.root
+    }
+
+    /// Where a connection list is looked for when none is picked by hand (manual 2.5.3).
+    pub fn connection_list_path(&self) -> PathBuf {
+        self.root.join(CONNECTION_LIST)
     }
 
     pub fn certificate_files(&self) -> CertificateFiles {

@@ -25,6 +25,16 @@ pub struct Plant {
 
 impl Plant {
     pub async fn start(count: usize, firmware: FleetFirmware) -> Self {
+        Self::made(count, firmware, true).await
+    }
+
+    /// Legacy controllers whose OPC UA function nobody has paid for yet.
+    #[allow(dead_code, reason = "not every story needs them")]
+    pub async fn not_activated(count: usize) -> Self {
+        Self::made(count, FleetFirmware::Legacy, false).await
+    }
+
+    async fn made(count: usize, firmware: FleetFirmware, activated: bool) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let fleet = Fleet::start(FleetConfig {
             count,
@@ -32,6 +42,7 @@ impl Plant {
             management_port: 0,
             opcua_port: 0,
             firmware,
+            activated,
             password: SecretString::from(PASSWORD),
             data: folder.path().to_owned(),
             seed: 7,
@@ -96,6 +107,7 @@ pub async fn run(
     (reports, summary)
 }
 
+#[allow(dead_code, reason = "not every story needs a stranger")]
 /// Somebody who is not a controller of this plant.
 pub fn nobody() -> Fingerprint {
     Fingerprint::of(b"nobody")

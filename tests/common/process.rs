@@ -19,6 +19,7 @@ pub struct Finished {
     /// `None` if a signal ended it.
     pub code: Option<i32>,
     pub stdout: String,
+    #[allow(dead_code, reason = "not every story reads it")]
     pub stderr: String,
 }
 

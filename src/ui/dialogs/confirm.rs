@@ -12,13 +12,22 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
     let buttons = Buttons { submit: Some((text(T::Ok), None)), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, task.title(), names);
     dialog(ui, "confirm", &title, theme::DIALOG, buttons, |ui| {
-        let Confirmation { stops_server, replaces_certificate, overwrites_backup, deletes_log } = confirmation;
+        let Confirmation {
+            stops_server,
+            replaces_certificate,
+            overwrites_backup,
+            deletes_log,
+            invalidates_ca_signed,
+            overwrites_files,
+        } = confirmation;
         let stops = if matches!(task, Task::Stop) { T::ConfirmStop } else { T::ConfirmStops };
         let remarks = [
             (stops_server, stops),
             (replaces_certificate, T::ConfirmReplaces),
             (overwrites_backup, T::ConfirmBackup),
             (deletes_log, T::ConfirmDeletesLog),
+            (invalidates_ca_signed, T::ConfirmInvalidatesCaSigned),
+            (overwrites_files, T::ConfirmOverwrites),
         ];
         note(ui, palette(ui).warning, |ui| {
             for (_, remark) in remarks.into_iter().filter(|(applies, _)| *applies) {

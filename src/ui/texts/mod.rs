@@ -184,6 +184,8 @@ texts! {
     ConfirmStop: "The OPC UA server is stopped. Connected clients are cut off.", "将停止 OPC UA 服务器。已连接的客户端将断开。";
     ConfirmReplaces: "The self-signed certificate in the controller is replaced. Clients have to trust the new one.", "将覆盖控制器中的自签名证书。客户端需要重新信任新证书。";
     ConfirmBackup: "Backup files of the same name in the workspace are overwritten.", "工作区中的同名备份文件将被覆盖。";
+    ConfirmInvalidatesCaSigned: "The present CA-signed certificate becomes invalid. Firmware 8.0.0 and later goes on using it until the new one is imported.", "当前的 CA 签名证书将失效。固件 8.0.0 及以上版本在导入新证书之前仍使用原证书。";
+    ConfirmOverwrites: "Files of the same name on this computer are overwritten.", "本机上的同名文件将被覆盖。";
     ConfirmDeletesLog: "The server log in the controller is deleted.", "将删除控制器中的服务器日志。";
 
     // processing

@@ -12,6 +12,7 @@ fn config(data: &std::path::Path, count: usize) -> FleetConfig {
         management_port: 0,
         opcua_port: 0,
         firmware: FleetFirmware::Mixed,
+        activated: true,
         password: "fleet".into(),
         data: data.to_owned(),
         seed: 7,

@@ -1,0 +1,77 @@
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use clap::Args;
+
+use super::batch::{Presentation, Shown};
+use super::select::Select;
+use super::{Ending, Settled};
+use crate::jobs::{Activate, KeySource};
+use crate::model::activation::{self, ActivationFile, ActivationKeys, KeyError, MAX_ACTIVATION_FILE_BYTES};
+use crate::model::{ErrorCode, Problem};
+
+#[derive(Debug, Args)]
+pub struct ActivateArgs {
+    /// Activation file: UTF-8 CSV, first line OPCUA.Activation.Ver.1.0, then SERIAL,LICENCE,ACTIVATION a line
+    #[arg(long, value_name = "FILE", required_unless_present = "license", conflicts_with_all = ["license", "activation"])]
+    file: Option<PathBuf>,
+    /// Licence key, xxxx-xxxx-xxxx-xxxx, for one controller
+    #[arg(long, visible_alias = "licence", value_name = "KEY", requires = "activation")]
+    license: Option<String>,
+    /// Activation key, XXXX-XXXX-XXXX-XXXX-XXXX-XXXX, for one controller
+    #[arg(long, value_name = "KEY", requires = "license")]
+    activation: Option<String>,
+    #[command(flatten)]
+    select: Select,
+}
+
+const ACTIVATED: Presentation = Presentation {
+    header: &["SERIAL", "ACTIVATED", "STATUS"],
+    show: |_, info| Shown {
+        json: serde_json::json!({
+            "serial": info.serial,
+            "activated": info.activated,
+            "status": info.status,
+            "revision": info.revision,
+        }),
+        cells: vec![
+            info.serial.to_string(),
+            if info.activated { "Yes" } else { "No" }.to_owned(),
+            info.status.as_str().to_owned(),
+        ],
+    },
+};
+
+pub fn run(settled: &Settled, args: &ActivateArgs) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    let chosen = args.select.resolve(&configuration)?;
+    let keys = match (&args.file, &args.license, &args.activation) {
+        (Some(file), ..) => KeySource::File(Arc::new(read(file)?)),
+        (None, Some(licence), Some(activation)) => {
+            if chosen.len() > 1 {
+                let detail = "keys can be given for one controller only; use a file for several";
+                return Err(Problem::with_detail(ErrorCode::BadActivationKey, detail));
+            }
+            let bad = |which: &str, error: KeyError| {
+                Problem::with_detail(ErrorCode::BadActivationKey, format!("{which} key: {error}"))
+            };
+            KeySource::Typed(ActivationKeys {
+                licence: licence.parse().map_err(|error| bad("licence", error))?,
+                activation: activation.parse().map_err(|error| bad("activation", error))?,
+            })
+        }
+        _ => return Err(ErrorCode::BadActivationKey.into()),
+    };
+    if let KeySource::File(file) = &keys {
+        for mistake in file.mistakes() {
+            eprintln!("{mistake}");
+        }
+    }
+    settled.batch(&configuration, &chosen, Activate { keys }, &ACTIVATED)
+}
+
+fn read(path: &Path) -> Result<ActivationFile, Problem> {
+    let bytes = super::read_bounded(path, MAX_ACTIVATION_FILE_BYTES)?;
+    activation::parse(&bytes)
+        .map_err(|e| Problem::with_detail(ErrorCode::BadActivationFile, format!("{}: {e}", path.display())))
+}

@@ -1,0 +1,69 @@
+use std::sync::Arc;
+
+use async_trait::async_trait;
+
+use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use crate::model::activation::{ActivationFile, ActivationKeys, Entry};
+use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem, SerialNumber};
+use crate::protocol;
+
+/// Activates legacy controllers by their keys (manual 2.6.3). A controller without keys fails alone, and nothing is
+/// sent to it.
+#[derive(Debug, Clone)]
+pub struct Activate {
+    pub keys: KeySource,
+}
+
+/// Where a controller's keys come from.
+#[derive(Debug, Clone)]
+pub enum KeySource {
+    /// Typed in, for one controller.
+    Typed(ActivationKeys),
+    /// From an activation file, by serial number.
+    File(Arc<ActivationFile>),
+}
+
+impl KeySource {
+    fn keys(&self, serial: &SerialNumber) -> Result<&ActivationKeys, Problem> {
+        match self {
+            Self::Typed(keys) => Ok(keys),
+            Self::File(file) => match file.find(serial) {
+                Entry::Line(line) => Ok(&line.keys),
+                Entry::Mistake(mistake) => {
+                    Err(Problem::with_detail(ErrorCode::NotInFile, format!("{serial}, {mistake}")))
+                }
+                Entry::Missing => Err(Problem::with_detail(ErrorCode::NotInFile, serial)),
+            },
+        }
+    }
+}
+
+fn legacy(firmware: FirmwareVersion) -> Result<(), Problem> {
+    match firmware.generation() {
+        FirmwareGeneration::Legacy => Ok(()),
+        FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
+    }
+}
+
+#[async_trait]
+impl Operation for Activate {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        let Some(known) = &controller.known else { return Ok(()) };
+        legacy(known.firmware)?;
+        self.keys.keys(&known.serial).map(|_| ())
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let info = run.session.info().await?;
+        legacy(info.firmware)?;
+        let ActivationKeys { licence, activation } = self.keys.keys(&info.serial)?.clone();
+        run.begin(Step::Apply)?;
+        run.session.activate(protocol::Activate { revision: info.revision, licence, activation }).await?;
+        Ok(Outcome::Done)
+    }
+}
