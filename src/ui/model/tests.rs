@@ -146,7 +146,7 @@ fn a_failure_stays_until_it_was_read() {
     event(&mut model, id, finished(0, Ok(Outcome::Done)));
     event(&mut model, id, finished(1, Err(ErrorCode::Unreachable.into())));
     ended(&mut model, id, 1, 1);
-    assert!(matches!(model.dialogs[..], [Dialog::Processing(ProcessingView { selected: Some(1) })]));
+    assert!(matches!(model.dialogs[..], [Dialog::Processing(ProcessingView { selected: Some(1), .. })]));
     reduce(&mut model, Message::Submit);
     assert!(model.dialogs.is_empty() && model.job.is_none());
 }
