@@ -14,11 +14,10 @@ use opcua_configurator::jobs::{
     SelfSignedFields, SetSettings, SettingsChange, StartServer, Step, StopServer, Summary,
 };
 use opcua_configurator::model::{
-    Address, ClientList, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, SecurityPolicy, ServerSettings,
-    ServerStatus, UserName, UserPassword, UserTokenPolicy, Validity,
+    Address, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, SecurityPolicy, ServerStatus, UserPassword,
+    UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::protocol::{self, Changed, Installed, ListedCertificate, Revisioned};
 use opcua_configurator::session::{Connector, ControllerSession};
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{MemoryPasswords, Passwords, Workspace};
@@ -341,40 +340,6 @@ impl ControllerSession for StandIn {
         }
         tokio::time::sleep(Duration::from_millis(5)).await;
         self.0.closing.fetch_sub(1, Ordering::SeqCst);
-    }
-
-    async fn start_server(&mut self) -> Result<Changed, Problem> {
-        unimplemented!()
-    }
-    async fn stop_server(&mut self) -> Result<Changed, Problem> {
-        unimplemented!()
-    }
-    async fn settings(&mut self) -> Result<Revisioned<ServerSettings>, Problem> {
-        unimplemented!()
-    }
-    async fn set_settings(&mut self, _: protocol::SetSettings) -> Result<Changed, Problem> {
-        unimplemented!()
-    }
-    async fn users(&mut self) -> Result<Revisioned<Vec<UserName>>, Problem> {
-        unimplemented!()
-    }
-    async fn add_user(&mut self, _: protocol::AddUser) -> Result<Changed, Problem> {
-        unimplemented!()
-    }
-    async fn remove_users(&mut self, _: protocol::RemoveUsers) -> Result<Changed, Problem> {
-        unimplemented!()
-    }
-    async fn make_self_signed(&mut self, _: protocol::MakeSelfSigned) -> Result<Installed, Problem> {
-        unimplemented!()
-    }
-    async fn import_certificate(&mut self, _: protocol::ImportCertificate) -> Result<Installed, Problem> {
-        unimplemented!()
-    }
-    async fn clients(&mut self, _: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
-        unimplemented!()
-    }
-    async fn add_clients(&mut self, _: ClientList, _: protocol::AddClients) -> Result<Changed, Problem> {
-        unimplemented!()
     }
 }
 

@@ -11,7 +11,7 @@ use secrecy::SecretString;
 
 pub use management::{ManagementConnector, Timeouts};
 
-use crate::model::{Address, ClientList, ControllerInfo, Problem, ServerSettings, UserName};
+use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
     Activate, AddClients, AddUser, Changed, CsrMade, HeldCertificates, ImportCaSigned, ImportCertificate, ImportCsr,
@@ -34,32 +34,70 @@ pub trait Connector: Send + Sync {
 }
 
 /// A logged-in session. Every call is one request, bounded in time; an error leaves the session usable unless it says
-/// that the connection or the session is over.
+/// that the connection or the session is over. What a driver cannot do it refuses.
 #[async_trait]
 pub trait ControllerSession: Send + Sync {
     async fn info(&mut self) -> Result<ControllerInfo, Problem>;
-    async fn start_server(&mut self) -> Result<Changed, Problem>;
-    async fn stop_server(&mut self) -> Result<Changed, Problem>;
-    async fn settings(&mut self) -> Result<Revisioned<ServerSettings>, Problem>;
-    async fn set_settings(&mut self, change: SetSettings) -> Result<Changed, Problem>;
-    async fn users(&mut self) -> Result<Revisioned<Vec<UserName>>, Problem>;
-    async fn add_user(&mut self, change: AddUser) -> Result<Changed, Problem>;
-    async fn remove_users(&mut self, change: RemoveUsers) -> Result<Changed, Problem>;
+    async fn start_server(&mut self) -> Result<Changed, Problem> {
+        not_offered()
+    }
+    async fn stop_server(&mut self) -> Result<Changed, Problem> {
+        not_offered()
+    }
+    async fn settings(&mut self) -> Result<Revisioned<ServerSettings>, Problem> {
+        not_offered()
+    }
+    async fn set_settings(&mut self, _change: SetSettings) -> Result<Changed, Problem> {
+        not_offered()
+    }
+    async fn users(&mut self) -> Result<Revisioned<Vec<UserName>>, Problem> {
+        not_offered()
+    }
+    async fn add_user(&mut self, _change: AddUser) -> Result<Changed, Problem> {
+        not_offered()
+    }
+    async fn remove_users(&mut self, _change: RemoveUsers) -> Result<Changed, Problem> {
+        not_offered()
+    }
     /// Current firmware only.
-    async fn make_self_signed(&mut self, change: MakeSelfSigned) -> Result<Installed, Problem>;
+    async fn make_self_signed(&mut self, _change: MakeSelfSigned) -> Result<Installed, Problem> {
+        not_offered()
+    }
     /// Legacy firmware only.
-    async fn import_certificate(&mut self, change: ImportCertificate) -> Result<Installed, Problem>;
-    async fn certificates(&mut self) -> Result<Revisioned<HeldCertificates>, Problem>;
-    async fn select_certificate(&mut self, change: SelectCertificate) -> Result<Changed, Problem>;
+    async fn import_certificate(&mut self, _change: ImportCertificate) -> Result<Installed, Problem> {
+        not_offered()
+    }
+    async fn certificates(&mut self) -> Result<Revisioned<HeldCertificates>, Problem> {
+        not_offered()
+    }
+    async fn select_certificate(&mut self, _change: SelectCertificate) -> Result<Changed, Problem> {
+        not_offered()
+    }
     /// Current firmware only.
-    async fn make_csr(&mut self, change: MakeCsr) -> Result<CsrMade, Problem>;
+    async fn make_csr(&mut self, _change: MakeCsr) -> Result<CsrMade, Problem> {
+        not_offered()
+    }
     /// Legacy firmware only.
-    async fn import_csr(&mut self, change: ImportCsr) -> Result<CsrMade, Problem>;
-    async fn import_ca_signed(&mut self, change: ImportCaSigned) -> Result<Installed, Problem>;
-    async fn clients(&mut self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem>;
-    async fn add_clients(&mut self, list: ClientList, change: AddClients) -> Result<Changed, Problem>;
+    async fn import_csr(&mut self, _change: ImportCsr) -> Result<CsrMade, Problem> {
+        not_offered()
+    }
+    async fn import_ca_signed(&mut self, _change: ImportCaSigned) -> Result<Installed, Problem> {
+        not_offered()
+    }
+    async fn clients(&mut self, _list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
+        not_offered()
+    }
+    async fn add_clients(&mut self, _list: ClientList, _change: AddClients) -> Result<Changed, Problem> {
+        not_offered()
+    }
     /// Legacy firmware only.
-    async fn activate(&mut self, change: Activate) -> Result<Changed, Problem>;
+    async fn activate(&mut self, _change: Activate) -> Result<Changed, Problem> {
+        not_offered()
+    }
     /// Ends the session in the controller. Failing to do so is harmless: it expires there.
     async fn close(&mut self);
+}
+
+fn not_offered<T>() -> Result<T, Problem> {
+    Err(Problem::with_detail(ErrorCode::Refused, "this way of reaching the controller does not offer it"))
 }
