@@ -166,7 +166,7 @@ async fn a_csr_is_saved_in_the_format_asked_for_and_the_key_only_for_legacy_firm
     for (index, report) in plant.run(pem).await.iter().enumerate() {
         let Ok(Outcome::Csr { saved, .. }) = &report.result else { panic!("{report:?}") };
         let in_folder: Vec<_> = fs::read_dir(saved.csr.parent().unwrap()).unwrap().map(|e| e.unwrap().path()).collect();
-        assert_eq!(in_folder, [saved.csr.clone()], "the older request is gone");
+        assert_eq!(in_folder, std::slice::from_ref(&saved.csr), "the older request is gone");
         assert!(fs::read_to_string(&saved.csr).unwrap().starts_with("-----BEGIN CERTIFICATE REQUEST-----\n"));
         let legacy = plant.controller(index).firmware().to_string().starts_with('7');
         assert_eq!(saved.key.is_some(), legacy);
