@@ -5,6 +5,9 @@
 //!   epson_opcua_config.json          controllers and options
 //!   .lock                            held by whoever may write the configuration
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
+//!   <serial>/Cert/CSR/…              the signing request made last
+//!   <serial>/Cert/CASigned/…         where what the CA issued for it is put
+//!   <serial>/Cert/UserSpecified/…    where what other tools made is put
 //! ```
 //!
 //! Every file is written under a temporary name, flushed and renamed, readable by its owner only: a reader sees the
