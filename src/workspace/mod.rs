@@ -6,6 +6,9 @@
 //!   connections.csv                  a connection list to import, if somebody put one there (manual 2.5.3)
 //!   .lock                            held by whoever may write the configuration
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
+//!   <serial>/Cert/CSR/…              the signing request made last
+//!   <serial>/Cert/CASigned/…         where what the CA issued for it is put
+//!   <serial>/Cert/UserSpecified/…    where what other tools made is put
 //! ```
 //!
 //! Every file is written under a temporary name, flushed and renamed, readable by its owner only: a reader sees the

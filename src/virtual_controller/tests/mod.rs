@@ -1,6 +1,7 @@
 //! Stories about whole controllers, told over their management protocol.
 
 mod bench;
+mod certificates;
 mod changes;
 mod crowd;
 mod persistence;
