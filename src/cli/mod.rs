@@ -10,6 +10,7 @@ mod cert;
 mod clients;
 mod controllers;
 // mod demo;
+mod log;
 mod output;
 mod passwords;
 mod select;
@@ -96,6 +97,9 @@ enum Command {
     /// List and add trusted client certificates
     #[command(subcommand)]
     Clients(clients::ClientsCommand),
+    /// Show or delete the log of OPC UA servers
+    #[command(subcommand)]
+    Log(log::LogCommand),
     /// Switch the backup of what is made on or off
     #[command(subcommand)]
     Backup(backup::BackupCommand),
@@ -151,6 +155,7 @@ pub fn main() -> ExitCode {
         Some(Command::Users(command)) => users::run(&settled, command),
         Some(Command::Cert(command)) => cert::run(&settled, command),
         Some(Command::Clients(command)) => clients::run(&settled, command),
+        Some(Command::Log(command)) => log::run(&settled, command),
         Some(Command::Backup(command)) => backup::run(&settled, command),
         Some(Command::Completions { shell }) => {
             clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut std::io::stdout());

@@ -12,6 +12,7 @@
 //! | `self_signed` | make and install a self-signed certificate |
 //! | `clients` | list and add trusted client certificates |
 //! | `activate` | activate legacy controllers by their keys |
+//! | `server_log` | read the server log |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activate;
@@ -22,6 +23,7 @@ mod operation;
 mod runner;
 mod self_signed;
 mod server_control;
+mod server_log;
 mod settings;
 mod users;
 
@@ -33,5 +35,6 @@ pub use operation::{Confirmation, Operation, Outcome, Run, Step};
 pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
 pub use self_signed::{SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};
+pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use users::{AddUser, ListUsers, RemoveUsers};

@@ -4,7 +4,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::JobController;
 use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, UserName};
-use crate::protocol::{ListedCertificate, Revisioned};
+use crate::protocol::{ListedCertificate, LogChunk, Revisioned};
 use crate::session::ControllerSession;
 use crate::workspace::SavedCertificate;
 
@@ -53,6 +53,8 @@ pub enum Outcome {
     Settings(Revisioned<ServerSettings>),
     Users(Revisioned<Vec<UserName>>),
     Clients(Revisioned<Vec<ListedCertificate>>),
+    /// [`LogChunk::text`] is what was asked for, however many requests that took.
+    Log(LogChunk),
     Certificate {
         summary: CertificateSummary,
         saved: Option<SavedCertificate>,

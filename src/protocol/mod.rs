@@ -39,6 +39,7 @@
 //! | `POST` [`CERTIFICATE_IMPORT`] | [`ImportCertificate`] | [`Installed`], legacy firmware |
 //! | `GET` [`CLIENTS`]`/trusted`, `/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
 //! | `POST` [`CLIENTS`]`/trusted`, `/issuers` | [`AddClients`] | [`Changed`] |
+//! | `GET` [`LOG`], with `?from=` a byte | – | [`LogChunk`] |
 //! | `POST` [`ACTIVATION`] | [`Activate`] | [`Changed`], legacy firmware |
 //!
 //! # Changes
@@ -70,9 +71,11 @@
 
 mod activation;
 mod base64_bytes;
+mod log;
 mod messages;
 
 pub use activation::Activate;
+pub use log::{LogChunk, MAX_LOG_CHUNK_BYTES};
 pub use messages::{
     AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
     MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
@@ -98,6 +101,7 @@ pub const SELF_SIGNED: &str = "/v1/certificates/self-signed";
 pub const CERTIFICATE_IMPORT: &str = "/v1/certificates/import";
 pub const CLIENTS: &str = "/v1/clients";
 pub const ACTIVATION: &str = "/v1/activation";
+pub const LOG: &str = "/v1/log";
 
 /// What [`Hello::product`] says, so that another HTTPS server is not taken for a controller.
 pub const PRODUCT: &str = "opcua-controller-management";

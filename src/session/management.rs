@@ -17,7 +17,7 @@ use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, Serv
 use crate::pki::Fingerprint;
 use crate::protocol::{
     self, Activate, AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate,
-    Login, MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
+    LogChunk, Login, MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
 };
 
 /// How long the driver waits.
@@ -257,6 +257,13 @@ impl ControllerSession for Link {
 
     async fn activate(&mut self, change: Activate) -> Result<Changed, Problem> {
         self.change(protocol::ACTIVATION, &change).await
+    }
+
+    async fn log(&mut self, from: Option<u64>) -> Result<LogChunk, Problem> {
+        match from {
+            None => self.get(protocol::LOG).await,
+            Some(from) => self.get(&format!("{}?from={from}", protocol::LOG)).await,
+        }
     }
 
     async fn close(&mut self) {

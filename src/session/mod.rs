@@ -14,7 +14,7 @@ pub use management::{ManagementConnector, Timeouts};
 use crate::model::{Address, ClientList, ControllerInfo, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    Activate, AddClients, AddUser, Changed, ImportCertificate, Installed, ListedCertificate, MakeSelfSigned,
+    Activate, AddClients, AddUser, Changed, ImportCertificate, Installed, ListedCertificate, LogChunk, MakeSelfSigned,
     RemoveUsers, Revisioned, SetSettings,
 };
 
@@ -53,6 +53,8 @@ pub trait ControllerSession: Send + Sync {
     async fn add_clients(&mut self, list: ClientList, change: AddClients) -> Result<Changed, Problem>;
     /// Legacy firmware only.
     async fn activate(&mut self, change: Activate) -> Result<Changed, Problem>;
+    /// The server log from this byte on, or its end.
+    async fn log(&mut self, from: Option<u64>) -> Result<LogChunk, Problem>;
     /// Ends the session in the controller. Failing to do so is harmless: it expires there.
     async fn close(&mut self);
 }

@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes, HttpBody as _};
-use axum::extract::{Extension, FromRequestParts, Path};
+use axum::extract::{Extension, FromRequestParts, Path, RawQuery};
 use axum::http::request::Parts;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -27,8 +27,8 @@ use crate::model::activation::ActivationKeys;
 use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
     self, Activate, AddClients, AddUser, Base64Bytes, Changed, Failure, Hello, ImportCertificate, Installed,
-    ListedCertificate, Login, MakeSelfSigned, RemoveUsers, Revisioned, SESSION_IDLE_SECS, Session, SetSettings,
-    WireSecret,
+    ListedCertificate, LogChunk, Login, MakeSelfSigned, RemoveUsers, Revisioned, SESSION_IDLE_SECS, Session,
+    SetSettings, WireSecret,
 };
 
 /// How long a wrong password waits for its answer.
@@ -53,6 +53,7 @@ pub static ROUTER: LazyLock<Router> = LazyLock::new(|| {
         .route(protocol::CERTIFICATE_IMPORT, post(import_certificate))
         .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients).post(add_clients))
         .route(protocol::ACTIVATION, post(activate))
+        .route(protocol::LOG, get(log))
         .fallback(unknown_path)
         .method_not_allowed_fallback(unknown_method)
 });
@@ -291,6 +292,19 @@ async fn activate(caller: Caller, body: Body) -> Answer<Changed> {
         caller.controller().change(revision, Effect::Restart, move |state, _| changes::activate(state, keys)).await;
     let (changed, ()) = caller.settle(outcome).await?;
     Ok(Json(changed))
+}
+
+async fn log(caller: Caller, RawQuery(query): RawQuery) -> Answer<LogChunk> {
+    let from = match query.as_deref() {
+        None | Some("") => None,
+        Some(query) => Some(
+            query
+                .strip_prefix("from=")
+                .and_then(|from| from.parse().ok())
+                .ok_or_else(|| Problem::with_detail(ErrorCode::Refused, "from=BYTE is all that can be asked for"))?,
+        ),
+    };
+    Ok(Json(caller.controller().log(from).await?))
 }
 
 async fn unknown_path() -> Failed {

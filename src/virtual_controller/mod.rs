@@ -18,6 +18,7 @@
 //! | `api` | the paths of [`crate::protocol`], and bodies within bounds |
 //! | `listener` | connections: accepted, bounded in number and time, encrypted |
 //! | `tls` | the management identity as a TLS server |
+//! | `server_log` | the log of the OPC UA server, and what happens when it is full |
 //! | `opcua` | the OPC UA server |
 //! | `ports` | TCP ports nobody uses |
 //! | `file_limit` | room for a listener of each controller of a fleet |
@@ -35,6 +36,9 @@
 //! - A running task or a connected teach pendant refuses changes, start and stop, while questions are answered.
 //! - Certificates added to a list do not restart the server.
 //! - A change on a server in error leaves it in error; the next start or stop that succeeds ends that.
+//! - While the server log is on, the controller says so with 581 beside a status that is not Error: a notice, since
+//!   everything works. When the log is full the server stops by itself with 582, and does not start again until the log
+//!   is deleted or switched off.
 //! - A running server refuses settings and certificates it could not run with (7932, 7933); a stopped one takes any
 //!   settings that are complete, and says so when it is started.
 
@@ -53,6 +57,7 @@ pub mod opcua;
 mod password;
 mod ports;
 mod secret_bytes;
+mod server_log;
 mod state;
 mod store;
 #[cfg(test)]
@@ -67,5 +72,6 @@ pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyL
 pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
 pub use password::hash_connection_password;
 pub use secret_bytes::SecretBytes;
+pub use server_log::LOG_LIMIT;
 pub use state::{Identity, KeyPair, Listed, State, Surroundings, User};
 pub use store::{Staged, Store, StoreError};
