@@ -197,6 +197,7 @@ impl Settled {
             (confirmation.replaces_certificate, "the server certificate of the same type is replaced"),
             (confirmation.overwrites_backup, "backup files of the same name are replaced"),
             (confirmation.deletes_log, "the server log is deleted"),
+            (confirmation.replaces_settings, "settings and users are replaced by those that were exported"),
         ] {
             if applies {
                 eprintln!("  - {says}");

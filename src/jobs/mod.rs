@@ -13,6 +13,7 @@
 //! | `clients` | list and add trusted client certificates |
 //! | `activate` | activate legacy controllers by their keys |
 //! | `server_log` | read the server log |
+//! | `settings_transfer` | export settings to the PC and import them again |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activate;
@@ -25,6 +26,7 @@ mod self_signed;
 mod server_control;
 mod server_log;
 mod settings;
+mod settings_transfer;
 mod users;
 
 pub use activate::{Activate, KeySource};
@@ -37,4 +39,5 @@ pub use self_signed::{SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};
 pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
+pub use settings_transfer::{ExportSettings, ImportSettings, MIN_PASSPHRASE_CHARS};
 pub use users::{AddUser, ListUsers, RemoveUsers};

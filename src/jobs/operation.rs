@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use async_trait::async_trait;
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
@@ -33,6 +35,8 @@ pub struct Confirmation {
     pub overwrites_backup: bool,
     /// The server log in the controller is deleted.
     pub deletes_log: bool,
+    /// Settings and users in the controller are replaced by those of a file.
+    pub replaces_settings: bool,
 }
 
 /// The step a controller is at.
@@ -55,6 +59,10 @@ pub enum Outcome {
     Clients(Revisioned<Vec<ListedCertificate>>),
     /// [`LogChunk::text`] is what was asked for, however many requests that took.
     Log(LogChunk),
+    /// The settings of the controller are in this file.
+    Exported {
+        path: PathBuf,
+    },
     Certificate {
         summary: CertificateSummary,
         saved: Option<SavedCertificate>,

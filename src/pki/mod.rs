@@ -28,6 +28,7 @@ mod pem;
 mod pkcs12;
 #[cfg(test)]
 mod samples;
+mod sealed;
 mod self_signed;
 
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
@@ -37,4 +38,5 @@ pub use identity::{TlsIdentity, tls_identity};
 pub use key::PrivateKey;
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
 pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_write};
+pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 pub use self_signed::{ServerNames, self_signed};

@@ -39,6 +39,8 @@
 //! | `POST` [`CERTIFICATE_IMPORT`] | [`ImportCertificate`] | [`Installed`], legacy firmware |
 //! | `GET` [`CLIENTS`]`/trusted`, `/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
 //! | `POST` [`CLIENTS`]`/trusted`, `/issuers` | [`AddClients`] | [`Changed`] |
+//! | `POST` [`SETTINGS_EXPORT`] | [`ExportSettings`] | [`SettingsExport`], legacy firmware |
+//! | `POST` [`SETTINGS_IMPORT`] | [`ImportSettings`] | [`Changed`], legacy firmware |
 //! | `GET` [`LOG`], with `?from=` a byte | – | [`LogChunk`] |
 //! | `POST` [`ACTIVATION`] | [`Activate`] | [`Changed`], legacy firmware |
 //!
@@ -73,12 +75,18 @@ mod activation;
 mod base64_bytes;
 mod log;
 mod messages;
+mod settings_export;
 
 pub use activation::Activate;
 pub use log::{LogChunk, MAX_LOG_CHUNK_BYTES};
 pub use messages::{
     AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
     MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
+};
+
+pub use settings_export::{
+    EXPORT_FORMAT, EXPORT_VERSION, ExportContent, ExportError, ExportSettings, ExportedUser, ImportSettings,
+    MAX_EXPORT_BYTES, SettingsExport,
 };
 
 use crate::model::{ClientList, ErrorCode};
@@ -102,6 +110,8 @@ pub const CERTIFICATE_IMPORT: &str = "/v1/certificates/import";
 pub const CLIENTS: &str = "/v1/clients";
 pub const ACTIVATION: &str = "/v1/activation";
 pub const LOG: &str = "/v1/log";
+pub const SETTINGS_EXPORT: &str = "/v1/settings/export";
+pub const SETTINGS_IMPORT: &str = "/v1/settings/import";
 
 /// What [`Hello::product`] says, so that another HTTPS server is not taken for a controller.
 pub const PRODUCT: &str = "opcua-controller-management";

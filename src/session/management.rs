@@ -16,8 +16,9 @@ use super::{Connector, ControllerSession};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    self, Activate, AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate,
-    LogChunk, Login, MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
+    self, Activate, AddClients, AddUser, Changed, ExportSettings, Failure, Hello, ImportCertificate, ImportSettings,
+    Installed, ListedCertificate, LogChunk, Login, MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings,
+    SettingsExport, WireSecret,
 };
 
 /// How long the driver waits.
@@ -264,6 +265,14 @@ impl ControllerSession for Link {
             None => self.get(protocol::LOG).await,
             Some(from) => self.get(&format!("{}?from={from}", protocol::LOG)).await,
         }
+    }
+
+    async fn export_settings(&mut self, request: ExportSettings) -> Result<SettingsExport, Problem> {
+        self.change(protocol::SETTINGS_EXPORT, &request).await
+    }
+
+    async fn import_settings(&mut self, change: ImportSettings) -> Result<Changed, Problem> {
+        self.change(protocol::SETTINGS_IMPORT, &change).await
     }
 
     async fn close(&mut self) {

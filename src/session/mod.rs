@@ -14,8 +14,8 @@ pub use management::{ManagementConnector, Timeouts};
 use crate::model::{Address, ClientList, ControllerInfo, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    Activate, AddClients, AddUser, Changed, ImportCertificate, Installed, ListedCertificate, LogChunk, MakeSelfSigned,
-    RemoveUsers, Revisioned, SetSettings,
+    Activate, AddClients, AddUser, Changed, ExportSettings, ImportCertificate, ImportSettings, Installed,
+    ListedCertificate, LogChunk, MakeSelfSigned, RemoveUsers, Revisioned, SetSettings, SettingsExport,
 };
 
 /// Opens sessions.
@@ -55,6 +55,10 @@ pub trait ControllerSession: Send + Sync {
     async fn activate(&mut self, change: Activate) -> Result<Changed, Problem>;
     /// The server log from this byte on, or its end.
     async fn log(&mut self, from: Option<u64>) -> Result<LogChunk, Problem>;
+    /// Legacy firmware only.
+    async fn export_settings(&mut self, request: ExportSettings) -> Result<SettingsExport, Problem>;
+    /// Legacy firmware only.
+    async fn import_settings(&mut self, change: ImportSettings) -> Result<Changed, Problem>;
     /// Ends the session in the controller. Failing to do so is harmless: it expires there.
     async fn close(&mut self);
 }

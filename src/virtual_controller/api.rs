@@ -23,12 +23,13 @@ use super::changes;
 use super::controller::{Controller, Effect, Outcome};
 use super::login::{Sessions, Throttle};
 use super::password::is_password;
+use super::settings_transfer;
 use crate::model::activation::ActivationKeys;
 use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
-    self, Activate, AddClients, AddUser, Base64Bytes, Changed, Failure, Hello, ImportCertificate, Installed,
-    ListedCertificate, LogChunk, Login, MakeSelfSigned, RemoveUsers, Revisioned, SESSION_IDLE_SECS, Session,
-    SetSettings, WireSecret,
+    self, Activate, AddClients, AddUser, Base64Bytes, Changed, ExportSettings, Failure, Hello, ImportCertificate,
+    ImportSettings, Installed, ListedCertificate, LogChunk, Login, MakeSelfSigned, RemoveUsers, Revisioned,
+    SESSION_IDLE_SECS, Session, SetSettings, SettingsExport, WireSecret,
 };
 
 /// How long a wrong password waits for its answer.
@@ -54,6 +55,8 @@ pub static ROUTER: LazyLock<Router> = LazyLock::new(|| {
         .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients).post(add_clients))
         .route(protocol::ACTIVATION, post(activate))
         .route(protocol::LOG, get(log))
+        .route(protocol::SETTINGS_EXPORT, post(export_settings))
+        .route(protocol::SETTINGS_IMPORT, post(import_settings))
         .fallback(unknown_path)
         .method_not_allowed_fallback(unknown_method)
 });
@@ -305,6 +308,24 @@ async fn log(caller: Caller, RawQuery(query): RawQuery) -> Answer<LogChunk> {
         ),
     };
     Ok(Json(caller.controller().log(from).await?))
+}
+
+async fn export_settings(caller: Caller, body: Body) -> Answer<SettingsExport> {
+    let ExportSettings { passphrase } = read(body, Malformed::secret(ErrorCode::Refused)).await?;
+    Ok(Json(caller.controller().export(passphrase).await?))
+}
+
+async fn import_settings(caller: Caller, body: Body) -> Answer<Changed> {
+    let ImportSettings { revision, export, passphrase } =
+        read(body, Malformed::secret(ErrorCode::ExportDamaged)).await?;
+    let outcome = caller
+        .controller()
+        .change(revision, Effect::Restart, move |state, around| {
+            settings_transfer::import(state, around, &export, &passphrase.0)
+        })
+        .await;
+    let (changed, ()) = caller.settle(outcome).await?;
+    Ok(Json(changed))
 }
 
 async fn unknown_path() -> Failed {

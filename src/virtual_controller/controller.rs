@@ -14,6 +14,7 @@ use super::faults::{DropPoint, Faults};
 use super::new_controller::NewController;
 use super::opcua::{DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser, StartError};
 use super::server_log::ServerLog;
+use super::settings_transfer;
 use super::state::{State, Surroundings};
 use super::store::{Store, StoreError};
 use super::{listener as management, tls};
@@ -22,7 +23,7 @@ use crate::model::{
     Problem, SerialNumber, ServerSettings, ServerStatus, StartupMode, UserName,
 };
 use crate::pki::Fingerprint;
-use crate::protocol::{Changed, ListedCertificate, LogChunk, Revisioned};
+use crate::protocol::{Changed, ListedCertificate, LogChunk, Revisioned, SettingsExport, WireSecret};
 
 /// Where a virtual controller lives and answers, and what it is if its folder holds none yet.
 #[derive(Debug, Clone)]
@@ -355,6 +356,14 @@ impl Controller {
         let log = Arc::clone(&self.log);
         let read = spawn_blocking(move || log.read(from)).await.map_err(std::io::Error::other).flatten();
         read.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))
+    }
+
+    /// Settings, users and keys, sealed.
+    pub(super) async fn export(&self, passphrase: WireSecret) -> Result<SettingsExport, Problem> {
+        let (state, around) = (self.state(), self.surroundings());
+        spawn_blocking(move || settings_transfer::export(&state, &around, &passphrase.0))
+            .await
+            .unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error)))
     }
 
     /// What a server does by itself whose log is full.

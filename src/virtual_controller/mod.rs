@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `state` | [`State`]: everything a controller remembers, and what follows from it |
 //! | `changes` | every change a controller accepts, as a function on a copy of its state |
+//! | `settings_transfer` | settings sealed for the PC, and put back |
 //! | `store` | [`Store`]: the state on disk, replaced whole |
 //! | `secret_bytes` | [`SecretBytes`]: key material that shows nowhere |
 //! | `new_controller` | [`NewController`]: what a controller is when it is first switched on |
@@ -58,6 +59,7 @@ mod password;
 mod ports;
 mod secret_bytes;
 mod server_log;
+mod settings_transfer;
 mod state;
 mod store;
 #[cfg(test)]

@@ -6,7 +6,9 @@ use std::sync::Arc;
 ///
 /// Told on the server's own tasks: whoever listens must not take long.
 #[derive(Clone, Default)]
-pub struct Events(Option<Arc<dyn Fn(Event<'_>) + Send + Sync>>);
+pub struct Events(Option<Arc<Listener>>);
+
+type Listener = dyn Fn(Event<'_>) + Send + Sync;
 
 /// One thing that happened. `Display` is one line of English without a secret: an unknown user's name, which may be a
 /// password typed into the wrong field, is not part of it.
