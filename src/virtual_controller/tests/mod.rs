@@ -3,6 +3,7 @@
 mod bench;
 mod changes;
 mod crowd;
+mod keys_log_and_settings;
 mod persistence;
 mod sessions;
 mod starting;
