@@ -93,10 +93,9 @@ enum Command {
     /// List, add and remove the users of OPC UA servers
     #[command(subcommand)]
     Users(users::UsersCommand),
-    /// Make, request, import, select and export server certificates
     /// Activate legacy controllers by their keys
     Activate(activate::ActivateArgs),
-    /// Make server certificates
+    /// Make, request, import, select and export server certificates
     #[command(subcommand)]
     Cert(cert::CertCommand),
     /// List and add trusted client certificates
