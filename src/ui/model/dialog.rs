@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use super::{Purpose, RowId, Task};
+use super::{FileForm, Purpose, RowId, Task};
 use crate::jobs::Confirmation;
 use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
 use crate::pki::Fingerprint;
@@ -28,6 +28,11 @@ impl Dialog {
     /// A form that may wait for what is in a controller. At most one is open.
     pub(super) fn is_form(&self) -> bool {
         matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_))
+    }
+
+    /// The file it asks for, if it does.
+    pub(super) fn file(&mut self) -> Option<&mut FileForm> {
+        None
     }
 }
 

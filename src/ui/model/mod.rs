@@ -1,6 +1,7 @@
 //! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
 
 mod dialog;
+mod files;
 mod forms;
 mod job;
 mod reduce;
@@ -18,6 +19,7 @@ pub use dialog::{
     AddController, AddStage, AddUserForm, Dialog, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm, Typed,
     UsersForm,
 };
+pub use files::FileForm;
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
@@ -79,6 +81,10 @@ pub enum Message {
     DeleteUsers,
     /// Open the dialog for one more user.
     NewUser,
+    /// Let the desktop's dialog find the file the dialog on top asks for.
+    ChooseFile,
+    /// Read the file whose path is typed into the dialog on top.
+    ReadFile,
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.

@@ -35,6 +35,8 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::Close => commands = model.close(),
         Message::DeleteUsers => commands = model.delete_users(),
         Message::NewUser => model.new_user(),
+        Message::ChooseFile => commands = model.choose_file(),
+        Message::ReadFile => commands = model.read_typed(),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -165,6 +167,11 @@ impl Model {
                 vec![]
             }
             Event::Enrolled { job, result } => self.enrolled(job, result),
+            Event::FilePicked { job, result } => self.file_picked(job, result),
+            Event::FileRead { job, result } => {
+                self.file_read(job, result);
+                vec![]
+            }
             Event::VirtualStarted(result) => self.virtual_started(result),
             Event::PasswordNotKept(problem) | Event::SaveFailed(problem) => {
                 // Once is enough for the same trouble.

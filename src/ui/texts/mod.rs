@@ -263,6 +263,14 @@ texts! {
     Validity: "Validity (years)", "有效期(年)";
     Optional: "optional", "可选";
 
+    // files
+    FileLabel: "File", "文件";
+    FileHint: "Path of the file", "文件路径";
+    FileRule: "Choose a file or type its path", "请选择文件或输入其路径";
+    ChooseFile: "Choose…", "选择…";
+    ChooseFileTitle: "Choose a file", "选择文件";
+    ReadFile: "Read file", "读取文件";
+
     // backup
     BackupTitle: "Backup", "备份";
     BackupOn: "Keep copies of certificates made here", "保留在此创建的证书副本";
