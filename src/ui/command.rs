@@ -128,7 +128,6 @@ impl UiCommand {
     pub fn why_disabled(self, model: &Model) -> Option<T> {
         match self {
             Self::ConnectionList
-            | Self::Activation
             | Self::ExportSettings
             | Self::ImportSettings
             | Self::UserSpecified
@@ -146,6 +145,8 @@ impl UiCommand {
             | Self::BasicSettings
             | Self::Users
             | Self::SelfSigned => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            Self::Activation if model.rows.ticked_count() == 0 => Some(T::WhyTick),
+            Self::Activation => model.ticked_has_current_firmware().then_some(T::WhyActivationOption),
             Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
             Self::AddController | Self::Quit | Self::Backup | Self::Options | Self::Shortcuts | Self::About => None,
         }

@@ -1,9 +1,11 @@
 //! Everything that opens over the window. One file a dialog; each draws from the model and its own form.
 
 mod about;
+mod activation;
 mod add_controller;
 mod confirm;
 mod error;
+mod file;
 mod options;
 mod password;
 mod processing;
@@ -59,6 +61,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::Users(form) => users::list(ui, form, model, messages),
         Dialog::AddUser(form) => users::add(ui, form, focus, model),
         Dialog::SelfSigned(form) => self_signed::show(ui, form, model),
+        Dialog::Activation(form) => activation::show(ui, form, focus, model, messages),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

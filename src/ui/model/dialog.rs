@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use super::{FileForm, Purpose, RowId, Task};
+use super::{ActivationForm, FileForm, KeysForm, Purpose, RowId, Task};
 use crate::jobs::Confirmation;
 use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
 use crate::pki::Fingerprint;
@@ -17,6 +17,7 @@ pub enum Dialog {
     Users(UsersForm),
     AddUser(AddUserForm),
     SelfSigned(SelfSignedForm),
+    Activation(ActivationForm),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -32,7 +33,10 @@ impl Dialog {
 
     /// The file it asks for, if it does.
     pub(super) fn file(&mut self) -> Option<&mut FileForm> {
-        None
+        match self {
+            Self::Activation(ActivationForm { keys: KeysForm::File { file, .. }, .. }) => Some(file),
+            _ => None,
+        }
     }
 }
 

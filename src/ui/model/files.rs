@@ -64,21 +64,17 @@ impl Model {
         vec![Command::PickFile { job, kind: file.kind, title }]
     }
 
-    /// The form that waits for this, unless its dialog was closed.
-    fn file_form(&mut self, waits: impl Fn(&FileForm) -> bool) -> Option<&mut FileForm> {
-        self.dialogs.iter_mut().filter_map(Dialog::file).find(|file| waits(file))
-    }
-
     pub(super) fn file_picked(&mut self, job: JobId, result: Result<Option<PathBuf>, Problem>) -> Vec<Command> {
-        let Some(file) = self.file_form(|file| file.picking == Some(job)) else { return vec![] };
+        let read = self.next_job();
+        let mut files = self.dialogs.iter_mut().filter_map(Dialog::file);
+        // Its dialog may be closed by now.
+        let Some(file) = files.find(|file| file.picking == Some(job)) else { return vec![] };
         file.picking = None;
         match result {
             Ok(None) => vec![],
             Ok(Some(path)) => {
                 file.path = path.display().to_string();
-                let job = self.next_job();
-                let Some(file) = self.dialogs.last_mut().and_then(Dialog::file) else { return vec![] };
-                vec![file.read(job, path)]
+                vec![file.read(read, path)]
             }
             Err(problem) => {
                 file.problem = Some(problem);
@@ -100,15 +96,28 @@ impl Model {
     }
 
     pub(super) fn file_read(&mut self, job: JobId, result: Result<(PathBuf, FileContents), Problem>) {
-        let Some(file) = self.file_form(|file| file.reading == Some(job)) else { return };
-        file.reading = None;
-        if let Err(mut problem) = result {
-            // No import folder is meant here.
-            if problem.code == ErrorCode::FileNotFound {
-                problem.code = ErrorCode::FileUnreadable;
+        let waits = |dialog: &mut Dialog| dialog.file().is_some_and(|file| file.reading == Some(job));
+        let Some(index) = self.dialogs.iter_mut().position(waits) else { return };
+        // Out of the model for a moment, as it looks at the rest of it.
+        let mut dialog = self.dialogs.remove(index);
+        let taken = result.and_then(|(_, contents)| match &mut dialog {
+            Dialog::Activation(form) => form.take_in(&contents.0, self),
+            _ => Ok(()),
+        });
+        if let Some(file) = dialog.file() {
+            file.reading = None;
+            match taken {
+                Ok(()) => file.shown = Some(file.path.clone()),
+                Err(mut problem) => {
+                    // No import folder is meant here.
+                    if problem.code == ErrorCode::FileNotFound {
+                        problem.code = ErrorCode::FileUnreadable;
+                    }
+                    file.problem = Some(problem);
+                }
             }
-            file.problem = Some(problem);
         }
+        self.dialogs.insert(index, dialog);
     }
 }
 

@@ -1,5 +1,6 @@
 //! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
 
+mod activation;
 mod dialog;
 mod files;
 mod forms;
@@ -15,6 +16,7 @@ use std::collections::BTreeMap;
 
 use chrono::{DateTime, Utc};
 
+pub use activation::{ActivationForm, ActivationPreview, KeysForm, key_error};
 pub use dialog::{
     AddController, AddStage, AddUserForm, Dialog, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm, Typed,
     UsersForm,

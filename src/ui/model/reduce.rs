@@ -1,8 +1,8 @@
 //! The one place where the model changes.
 
 use super::{
-    AddController, CancelState, Column, Dialog, Job, JobId, JobRow, Message, Model, PasswordForm, ProcessingView,
-    Purpose, RowId, RowState, Task, Typed,
+    ActivationForm, AddController, CancelState, Column, Dialog, Job, JobId, JobRow, Message, Model, PasswordForm,
+    ProcessingView, Purpose, RowId, RowState, Task, Typed,
 };
 use crate::jobs::{JobController, JobEvent, Report, Summary};
 use crate::model::ErrorCode;
@@ -91,6 +91,7 @@ impl Model {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
                 return vec![];
             }
+            UiCommand::Activation => Dialog::Activation(ActivationForm::new(ticked, self)),
             UiCommand::AddController => Dialog::AddController(AddController::new()),
             UiCommand::DeleteControllers => Dialog::Delete { names: self.rows.names(&ticked), rows: ticked },
             UiCommand::Backup => Dialog::Backup { on: self.options.backup },

@@ -96,8 +96,10 @@ impl Model {
             }
             Dialog::Confirm { task, rows, .. } => {
                 // The form that asked for it has done its work.
-                if matches!(self.dialogs.last(), Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_)))
-                {
+                if matches!(
+                    self.dialogs.last(),
+                    Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_) | Dialog::Activation(_))
+                ) {
                     self.dialogs.pop();
                 }
                 self.start(task, rows, Purpose::Show, None)
@@ -114,6 +116,14 @@ impl Model {
                 let backup = self.options.backup;
                 let planned = form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
                 self.ask(Dialog::SelfSigned(form), planned)
+            }
+            Dialog::Activation(form) if form.reads_file() => {
+                self.dialogs.push(Dialog::Activation(form));
+                self.read_typed()
+            }
+            Dialog::Activation(form) => {
+                let planned = form.operation().map(|operation| (Task::Activate(operation), form.rows.clone()));
+                self.ask(Dialog::Activation(form), planned)
             }
             Dialog::Backup { on } => {
                 self.options.backup = on;

@@ -3,8 +3,10 @@
 //! English is in sentence case, without a full stop after a single sentence, with `…` on whatever asks for more. A text
 //! that lacks a language does not compile. Texts of errors come from [`ErrorCode::explain`](crate::model::ErrorCode).
 
+mod files;
 mod sentences;
 
+pub use files::*;
 pub use sentences::*;
 
 use crate::model::Language;
@@ -102,6 +104,7 @@ texts! {
     // why something is disabled
     WhyTick: "Tick at least one controller first", "请先勾选至少一台控制器";
     WhyLater: "Comes in a later version", "将在后续版本中提供";
+    WhyActivationOption: "Firmware 8.0.0 and later is activated as a controller option", "固件 8.0.0 及以上版本通过控制器选项激活";
     WhyEmpty: "The list is empty", "列表为空";
     WhyVirtual: "Not available in this build", "此版本不可用";
 
@@ -262,6 +265,19 @@ texts! {
     KeyLengthMany: "Controllers whose security policies do not allow it refuse this length", "安全策略不允许该长度的控制器将拒绝";
     Validity: "Validity (years)", "有效期(年)";
     Optional: "optional", "可选";
+
+    // activation
+    ActivationTitle: "Activation", "激活";
+    ActivationMany: "Keys for several controllers come from an activation file: a CSV file with a line per controller, its serial number, licence key and activation key", "多台控制器的密钥来自激活文件：CSV 文件，每台控制器一行，包含序列号、许可密钥和激活密钥";
+    LicenceKey: "Licence key", "许可密钥";
+    ActivationKey: "Activation key", "激活密钥";
+    KeysRule: "Enter both keys completely", "请完整输入两个密钥";
+    KeyComplete: "Complete", "已完整";
+    NoKeysInFile: "The file has keys for none of these controllers", "文件中没有这些控制器的密钥";
+    KeysMissing: "Not in the file", "文件中没有";
+    KeysUnknown: "Serial number not read yet, looked up then", "尚未获取序列号，连接后查找";
+    LinesWithMistakes: "Lines that cannot be used", "无法使用的行";
+    LinesUnused: "Lines of controllers that are not ticked", "未勾选控制器的行";
 
     // files
     FileLabel: "File", "文件";
