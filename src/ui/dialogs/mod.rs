@@ -4,6 +4,7 @@ mod about;
 mod activation;
 mod add_controller;
 mod confirm;
+mod connection_list;
 mod error;
 mod file;
 mod options;
@@ -52,7 +53,7 @@ fn enter_submits(dialog: &Dialog, model: &Model) -> bool {
 
 fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
     match dialog {
-        Dialog::AddController(form) => add_controller::show(ui, form, focus, model),
+        Dialog::AddController(form) => add_controller::show(ui, form, focus, model, messages),
         Dialog::Delete { names, .. } => confirm::delete(ui, names, model),
         Dialog::Confirm { task, names, confirmation, .. } => confirm::show(ui, task, names, *confirmation, model),
         Dialog::Password(form) => password::show(ui, form, focus, model),
@@ -62,6 +63,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::AddUser(form) => users::add(ui, form, focus, model),
         Dialog::SelfSigned(form) => self_signed::show(ui, form, model),
         Dialog::Activation(form) => activation::show(ui, form, focus, model, messages),
+        Dialog::ConnectionList(form) => connection_list::show(ui, form, focus, model, messages),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

@@ -102,12 +102,18 @@ impl Model {
         let mut dialog = self.dialogs.remove(index);
         let taken = result.and_then(|(_, contents)| match &mut dialog {
             Dialog::Activation(form) => form.take_in(&contents.0, self),
+            Dialog::ConnectionList(form) => form.take_in(&contents.0, self),
             _ => Ok(()),
         });
+        let looked = match &mut dialog {
+            Dialog::ConnectionList(form) => std::mem::take(&mut form.looking),
+            _ => false,
+        };
         if let Some(file) = dialog.file() {
             file.reading = None;
             match taken {
                 Ok(()) => file.shown = Some(file.path.clone()),
+                Err(problem) if looked && problem.code == ErrorCode::FileNotFound => {}
                 Err(mut problem) => {
                     // No import folder is meant here.
                     if problem.code == ErrorCode::FileNotFound {

@@ -37,6 +37,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::NewUser => model.new_user(),
         Message::ChooseFile => commands = model.choose_file(),
         Message::ReadFile => commands = model.read_typed(),
+        Message::SkipIdentity => commands = model.skip_identity(),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -82,7 +83,7 @@ impl Model {
         let dialog = match command {
             UiCommand::Start => return self.plan(Task::Start, ticked),
             UiCommand::Stop => return self.plan(Task::Stop, ticked),
-            UiCommand::GetInfo => return self.plan(Task::GetInfo, ticked),
+            UiCommand::GetInfo => return self.get_info(ticked),
             UiCommand::BasicSettings => return self.open_settings(ticked),
             UiCommand::Users => return self.open_users(ticked),
             UiCommand::SelfSigned => return self.open_self_signed(ticked),
@@ -90,6 +91,11 @@ impl Model {
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
                 return vec![];
+            }
+            UiCommand::ConnectionList => return self.open_connection_list(),
+            UiCommand::ConfirmIdentity => {
+                let rows = self.ticked_unconfirmed().collect();
+                return self.confirm_identities(rows, vec![]);
             }
             UiCommand::Activation => Dialog::Activation(ActivationForm::new(ticked, self)),
             UiCommand::AddController => Dialog::AddController(AddController::new()),

@@ -2,6 +2,7 @@
 
 use crate::model::Language;
 use crate::model::activation::{KeyError, LineMistake, Mistake};
+use crate::workspace::Skipped;
 
 pub fn line(language: Language, line: impl std::fmt::Display) -> String {
     match language {
@@ -13,7 +14,7 @@ pub fn line(language: Language, line: impl std::fmt::Display) -> String {
 pub fn key_error(language: Language, error: KeyError) -> String {
     match (language, error) {
         (Language::En, KeyError::Character(c)) => format!("{c:?} is neither a half-width letter nor a digit"),
-        (Language::Zh, KeyError::Character(c)) => format!("“{c}”不是半角字母或数字"),
+        (Language::Zh, KeyError::Character(c)) => format!("{c:?} 不是半角字母或数字"),
         (Language::En, KeyError::Length { found, expected }) => {
             format!("{found} letters and digits; {expected} are required")
         }
@@ -56,4 +57,38 @@ pub fn line_mistake(language: Language, mistake: &LineMistake) -> String {
     };
     let colon = if language == Language::En { ": " } else { "：" };
     format!("{}{colon}{what}", line(language, mistake.line))
+}
+
+/// The tick box over the lines that can be imported.
+pub fn to_import(language: Language, ticked: usize, all: usize) -> String {
+    match language {
+        Language::En => format!("Import {ticked} of {}", super::controllers(language, all)),
+        Language::Zh => format!("导入 {ticked} / {all} 台控制器"),
+    }
+}
+
+pub fn imported(language: Language, count: usize) -> String {
+    match language {
+        Language::En => format!("{} added, not confirmed yet", super::controllers(language, count)),
+        Language::Zh => format!("已添加 {count} 台控制器，尚未确认"),
+    }
+}
+
+/// Why a line of a connection list is left out.
+pub fn skipped(language: Language, why: &Skipped) -> String {
+    match language {
+        Language::En => why.to_string(),
+        Language::Zh => match why {
+            Skipped::Usb => "USB 连接，无法通过网络访问".to_owned(),
+            Skipped::Virtual => "编程环境中的虚拟控制器".to_owned(),
+            Skipped::NameRegistered => "名称已注册".to_owned(),
+            Skipped::AddressRegistered(name) => format!("地址已注册（{name}）"),
+            Skipped::Fields(count) => format!("有 {count} 个字段，应为名称、类型和地址 3 个"),
+            Skipped::Type(kind) => format!("“{kind}”不是已知的连接类型（Ethernet、USB、Virtual）"),
+            Skipped::Name(_) => format!("名称无效：{}", super::TextKey::NameRule.text(language)),
+            Skipped::Address(_) => format!("地址无效：{}", super::TextKey::AddressRule.text(language)),
+            Skipped::NameTwice(line) => format!("名称与第 {line} 行重复"),
+            Skipped::AddressTwice(line) => format!("地址与第 {line} 行重复"),
+        },
+    }
 }

@@ -8,6 +8,7 @@ pub fn list(ui: &mut Ui, id: &str, count: usize, most: usize, mut line: impl FnM
     Frame::new().stroke(stroke).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
         ui.set_width(ui.available_width());
         ui.spacing_mut().item_spacing.y = 0.0;
+        ui.spacing_mut().interact_size.y = theme::DENSE_HEIGHT;
         let height = theme::LIST_ROW * count.min(most) as f32;
         ScrollArea::vertical().id_salt(id).max_height(height).auto_shrink([false, true]).show_rows(
             ui,
