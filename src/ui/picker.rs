@@ -37,33 +37,40 @@ pub struct SystemPicker;
 /// opened.
 const TOO_SOON: Duration = Duration::from_millis(300);
 
+/// Whoever waits is told even if the thread cannot be started or panics.
+struct Tell(Option<Picked>);
+
+impl Tell {
+    fn tell(mut self, result: Result<Option<PathBuf>, Problem>) {
+        if let Some(done) = self.0.take() {
+            done(result);
+        }
+    }
+}
+
+impl Drop for Tell {
+    fn drop(&mut self) {
+        if let Some(done) = self.0.take() {
+            done(Err(ErrorCode::NoFilePicker.into()));
+        }
+    }
+}
+
 impl FilePicker for SystemPicker {
     fn pick(&self, kind: FileKind, title: String, done: Picked) {
-        let done = std::sync::Arc::new(parking_lot::Mutex::new(Some(done)));
-        let tell = {
-            let done = done.clone();
-            move |result| {
-                if let Some(done) = done.lock().take() {
-                    done(result);
-                }
-            }
-        };
-        let ask = {
-            let tell = tell.clone();
-            move || {
-                let started = Instant::now();
-                let name = kind.extensions().join(", ");
-                let dialog = rfd::FileDialog::new().set_title(title).add_filter(name, kind.extensions());
-                let chosen = dialog.add_filter("*", &["*"]).pick_file();
-                tell(match chosen {
-                    None if started.elapsed() < TOO_SOON => Err(ErrorCode::NoFilePicker.into()),
-                    chosen => Ok(chosen),
-                });
-            }
+        let tell = Tell(Some(done));
+        let ask = move || {
+            let started = Instant::now();
+            let dialog = rfd::FileDialog::new().set_title(title);
+            let dialog = dialog.add_filter(kind.extensions().join(", "), kind.extensions()).add_filter("*", &["*"]);
+            tell.tell(match dialog.pick_file() {
+                None if started.elapsed() < TOO_SOON => Err(ErrorCode::NoFilePicker.into()),
+                chosen => Ok(chosen),
+            });
         };
         // Waits for a person, so it needs a thread of its own.
         if let Err(error) = std::thread::Builder::new().name("file picker".into()).spawn(ask) {
-            tell(Err(Problem::with_detail(ErrorCode::NoFilePicker, error)));
+            tracing::warn!(%error, "no thread for the file dialog");
         }
     }
 }
