@@ -13,6 +13,7 @@ use opcua_configurator::jobs::{AddUser, JobController};
 use opcua_configurator::model::{Credential, Language, Problem, ServerStatus, UserPassword};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::ui::backend::{BackendOptions, NewVirtual, TokioBackend, VirtualFleetStarter};
+use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware, VirtualController};
 use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
 use plant::Plant;
@@ -58,6 +59,7 @@ impl Desk {
             passwords: plant.passwords.clone(),
             connector: Arc::new(plant.connector),
             starter,
+            picker: Arc::new(FixedPicker(Ok(None))),
         };
         let backend = TokioBackend::new(backend, || {}).unwrap();
         let mut window = window_in(workspace.clone(), backend, configuration(&plant), SIZE);

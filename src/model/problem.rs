@@ -107,6 +107,7 @@ pub enum ErrorCode {
     ConfigurationDamaged,
     KeyringUnavailable,
     NoDisplay,
+    NoFilePicker,
     Cancelled,
     Internal,
 }
@@ -157,6 +158,7 @@ impl ErrorCode {
                 | WorkspaceBusy
                 | ConfigurationDamaged
                 | KeyringUnavailable
+                | NoFilePicker
                 | Cancelled
         )
     }
@@ -1063,6 +1065,19 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ),
     ),
     (
+        ErrorCode::NoFilePicker,
+        text(
+            "The file dialog cannot be opened",
+            "This desktop offers none: a portal for files (xdg-desktop-portal) is missing.",
+            "Type the path of the file into the field.",
+        ),
+        text(
+            "无法打开文件选择对话框",
+            "当前桌面环境未提供文件选择功能（缺少 xdg-desktop-portal）。",
+            "请在输入框中直接输入文件路径。",
+        ),
+    ),
+    (
         ErrorCode::Cancelled,
         text(
             "Not started",
@@ -1131,17 +1146,18 @@ mod tests {
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
             | BadPassphrase => 7,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
-            | NoDisplay | Cancelled | Internal => 8,
+            | NoDisplay | NoFilePicker | Cancelled | Internal => 9,
         }
     }
 
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 14 + 4 + 1 + 7 + 8);
+        let all = 7 + 11 + 15 + 13 + 14 + 4 + 1 + 7 + 9;
+        assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();
-        assert_eq!(codes.len(), 80);
+        assert_eq!(codes.len(), all);
         for code in ErrorCode::all() {
             assert!(counted(code) > 0);
             let (en, zh) = (code.explain(Language::En), code.explain(Language::Zh));

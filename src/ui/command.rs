@@ -11,6 +11,7 @@ pub enum UiCommand {
     AddController,
     DeleteControllers,
     ConnectionList,
+    ConfirmIdentity,
     Quit,
     Start,
     Stop,
@@ -38,10 +39,11 @@ pub enum UiCommand {
 }
 
 impl UiCommand {
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 28] = [
         Self::AddController,
         Self::DeleteControllers,
         Self::ConnectionList,
+        Self::ConfirmIdentity,
         Self::Quit,
         Self::Start,
         Self::Stop,
@@ -81,6 +83,7 @@ impl UiCommand {
             Self::AddController => (T::AddController, T::AddControllerTip),
             Self::DeleteControllers => (T::DeleteControllers, T::DeleteControllersTip),
             Self::ConnectionList => (T::ConnectionList, T::ConnectionListTip),
+            Self::ConfirmIdentity => (T::ConfirmIdentity, T::ConfirmIdentityTip),
             Self::Quit => (T::Quit, T::QuitTip),
             Self::Start => (T::Start, T::StartTip),
             Self::Stop => (T::Stop, T::StopTip),
@@ -127,9 +130,7 @@ impl UiCommand {
     /// Why it cannot be done now; what a disabled item says on hover.
     pub fn why_disabled(self, model: &Model) -> Option<T> {
         match self {
-            Self::ConnectionList
-            | Self::Activation
-            | Self::ExportSettings
+            Self::ExportSettings
             | Self::ImportSettings
             | Self::UserSpecified
             | Self::CaSigned
@@ -146,8 +147,18 @@ impl UiCommand {
             | Self::BasicSettings
             | Self::Users
             | Self::SelfSigned => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            Self::ConfirmIdentity if model.rows.ticked_count() == 0 => Some(T::WhyTick),
+            Self::ConfirmIdentity => model.ticked_unconfirmed().next().is_none().then_some(T::WhyConfirmed),
+            Self::Activation if model.rows.ticked_count() == 0 => Some(T::WhyTick),
+            Self::Activation => model.ticked_has_current_firmware().then_some(T::WhyActivationOption),
             Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
-            Self::AddController | Self::Quit | Self::Backup | Self::Options | Self::Shortcuts | Self::About => None,
+            Self::AddController
+            | Self::ConnectionList
+            | Self::Quit
+            | Self::Backup
+            | Self::Options
+            | Self::Shortcuts
+            | Self::About => None,
         }
     }
 }

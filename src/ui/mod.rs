@@ -10,6 +10,7 @@
 //! | [`app`](App) | one frame |
 //! | [`backend`] | jobs, saving |
 //! | [`command`] | what can be asked for: text, tooltip, key, and why it is disabled |
+//! | [`picker`] | the desktop's dialog for choosing a file |
 //! | [`model`] | rows, dialogs and their forms, the running job, the reducer |
 //! | `views`, `dialogs`, `widgets` | what is drawn |
 //! | `texts` | every word, in English and Chinese |
@@ -22,6 +23,7 @@ mod dialogs;
 mod fonts;
 mod keys;
 pub mod model;
+pub mod picker;
 pub mod texts;
 mod theme;
 mod views;
@@ -87,6 +89,7 @@ pub fn run(options: WindowOptions) -> Result<(), eframe::Error> {
                 passwords: options.passwords,
                 connector: options.connector,
                 starter: options.starter,
+                picker: Arc::new(picker::SystemPicker),
             };
             let virtual_available = backend.starter.is_some();
             let backend = TokioBackend::new(backend, move || ctx.request_repaint())?;

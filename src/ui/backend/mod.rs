@@ -3,6 +3,7 @@
 mod tokio_backend;
 
 use std::collections::VecDeque;
+use std::path::PathBuf;
 
 use async_trait::async_trait;
 use secrecy::SecretString;
@@ -10,6 +11,7 @@ use secrecy::SecretString;
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
 use super::model::{JobId, Task};
+use super::picker::FileKind;
 use crate::jobs::{Enrolled, JobController, JobEvent, Summary};
 use crate::model::{Address, Problem};
 use crate::pki::Fingerprint;
@@ -41,6 +43,18 @@ pub enum Command {
     Cancel(JobId),
     /// Forgets the passwords of deleted controllers.
     Forget(Vec<Fingerprint>),
+    /// Lets a person choose a file; ends with [`Event::FilePicked`].
+    PickFile {
+        job: JobId,
+        kind: FileKind,
+        title: String,
+    },
+    /// Ends with [`Event::FileRead`]. A file of more than `most` bytes is refused.
+    ReadFile {
+        job: JobId,
+        path: PathBuf,
+        most: usize,
+    },
     StartVirtualControllers,
     Save(Box<Configuration>),
     Quit,
@@ -65,10 +79,29 @@ pub enum Event {
         job: JobId,
         result: Result<Box<Enrolled>, Problem>,
     },
+    /// `None`: nothing was chosen.
+    FilePicked {
+        job: JobId,
+        result: Result<Option<PathBuf>, Problem>,
+    },
+    FileRead {
+        job: JobId,
+        result: Result<(PathBuf, FileContents), Problem>,
+    },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
     /// A password works, but only until the program ends.
     PasswordNotKept(Problem),
     SaveFailed(Problem),
+}
+
+/// What is in a file. There may be keys in it, so `Debug` tells its length only.
+#[derive(Clone, PartialEq, Eq)]
+pub struct FileContents(pub Vec<u8>);
+
+impl std::fmt::Debug for FileContents {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "FileContents({} bytes)", self.0.len())
+    }
 }
 
 /// Does [`Command`]s in the background. Neither call may block.

@@ -8,12 +8,13 @@ use secrecy::SecretString;
 use tokio::runtime::Runtime;
 use tokio_util::sync::CancellationToken;
 
-use super::{Backend, Command, Event, VirtualFleetStarter};
+use super::{Backend, Command, Event, FileContents, VirtualFleetStarter};
 use crate::jobs::{self, JobContext, JobController};
 use crate::model::{ErrorCode, Problem};
 use crate::session::Connector;
 use crate::ui::model::{JobId, Task};
-use crate::workspace::{Configuration, Passwords, Workspace, WorkspaceLock};
+use crate::ui::picker::FilePicker;
+use crate::workspace::{self, Configuration, Passwords, Workspace, WorkspaceLock};
 
 /// How long closing the window waits for tasks to notice.
 const SHUTDOWN: Duration = Duration::from_millis(500);
@@ -26,6 +27,7 @@ pub struct BackendOptions {
     pub connector: Arc<dyn Connector>,
     /// `None`: the window does not offer virtual controllers.
     pub starter: Option<Arc<dyn VirtualFleetStarter>>,
+    pub picker: Arc<dyn FilePicker>,
 }
 
 impl std::fmt::Debug for BackendOptions {
@@ -39,6 +41,7 @@ pub struct TokioBackend {
     workspace: Workspace,
     context: JobContext,
     starter: Option<Arc<dyn VirtualFleetStarter>>,
+    picker: Arc<dyn FilePicker>,
     emit: Emit,
     events: mpsc::Receiver<Event>,
     running: HashMap<JobId, CancellationToken>,
@@ -75,6 +78,7 @@ impl TokioBackend {
             workspace: options.workspace,
             context: JobContext::new(options.connector, options.passwords, 1),
             starter: options.starter,
+            picker: options.picker,
             emit,
             events,
             running: HashMap::new(),
@@ -197,6 +201,17 @@ impl Backend for TokioBackend {
             Command::Forget(fingerprints) => {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || fingerprints.into_iter().for_each(|f| context.passwords.forget(f)));
+                }
+            }
+            Command::PickFile { job, kind, title } => {
+                self.picker.pick(kind, title, Box::new(move |result| emit(Event::FilePicked { job, result })));
+            }
+            Command::ReadFile { job, path, most } => {
+                if let Some(runtime) = &self.runtime {
+                    runtime.spawn_blocking(move || {
+                        let result = workspace::read_import_file(&path, most);
+                        emit(Event::FileRead { job, result: result.map(|bytes| (path, FileContents(bytes))) });
+                    });
                 }
             }
             Command::StartVirtualControllers => self.start_virtual(),

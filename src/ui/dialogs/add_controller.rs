@@ -2,14 +2,19 @@ use egui::{ComboBox, Frame, Label, RichText, Stroke, Ui};
 
 use crate::model::ControllerSeries;
 use crate::pki::Fingerprint;
-use crate::ui::model::{AddController, AddStage, Model};
-use crate::ui::texts::TextKey as T;
+use crate::ui::model::{AddController, AddStage, Message, Model};
+use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, form, labelled, mistake, note, secret_field, text_field};
+use crate::ui::widgets::{
+    Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, secret_field, text_field,
+};
 
 /// Register a controller (manual 2.5.1): its fields, then whether it is the right one.
-pub fn show(ui: &Ui, form: &mut AddController, focus: bool, model: &Model) -> Answer {
+pub fn show(ui: &Ui, form: &mut AddController, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
     let text = |key: T| key.text(model.language);
+    if form.identity.is_some() {
+        return confirm_identity(ui, form, focus, model, messages);
+    }
     let (title, submit) = match form.stage {
         AddStage::Form | AddStage::Probing => (T::AddControllerTitle, T::Apply),
         AddStage::Compare(_) | AddStage::Enrolling(_) => (T::FingerprintTitle, T::FingerprintMatches),
@@ -26,8 +31,55 @@ pub fn show(ui: &Ui, form: &mut AddController, focus: bool, model: &Model) -> An
     })
 }
 
-fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
+/// The same for a controller that is in the list already.
+fn confirm_identity(
+    ui: &Ui,
+    form: &mut AddController,
+    focus: bool,
+    model: &Model,
+    messages: &mut Vec<Message>,
+) -> Answer {
     let text = |key: T| key.text(model.language);
+    let submit = match form.stage {
+        AddStage::Form => (text(T::Retry), None),
+        AddStage::Probing | AddStage::Enrolling(_) => (text(T::Processing), Some(text(T::Processing))),
+        AddStage::Compare(_) => (text(T::FingerprintConfirm), None),
+    };
+    let buttons = Buttons { submit: Some(submit), close: Some(text(T::Cancel)) };
+    dialog(ui, "confirm identity", text(T::FingerprintTitle), theme::DIALOG, buttons, |ui| {
+        if let Some(identity) = form.identity.as_ref().filter(|identity| identity.all() > 1) {
+            ui.horizontal(|ui| {
+                fine_print(ui, &texts::nth_of(model.language, identity.nth, identity.all()));
+                if ui.button(text(T::Skip)).clicked() {
+                    messages.push(Message::SkipIdentity);
+                }
+            });
+            ui.add_space(theme::SPACE);
+        }
+        match form.stage {
+            AddStage::Form => {
+                ui.label(RichText::new(format!("{} · {}", form.name, form.address)).strong());
+                ui.add_space(theme::SPACE);
+                failure(ui, form, model);
+            }
+            AddStage::Probing => {
+                ui.label(RichText::new(format!("{} · {}", form.name, form.address)).strong());
+                ui.add_space(theme::SPACE);
+                ui.label(RichText::new(text(T::LookingForController)).color(palette(ui).weak));
+            }
+            AddStage::Compare(fingerprint) | AddStage::Enrolling(fingerprint) => {
+                compare(ui, form, fingerprint, model);
+                ui.add_space(theme::SPACE_LARGE);
+                let waiting = form.stage == AddStage::Enrolling(fingerprint);
+                ui.add_enabled_ui(!waiting, |ui| {
+                    self::form(ui, "password", |ui| password(ui, form, focus, model));
+                });
+            }
+        }
+    })
+}
+
+fn failure(ui: &mut Ui, add: &AddController, model: &Model) {
     if let Some(problem) = &add.problem {
         let explained = problem.code.explain(model.language);
         note(ui, palette(ui).error, |ui| {
@@ -36,6 +88,23 @@ fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
         });
         ui.add_space(theme::SPACE);
     }
+}
+
+fn password(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
+    let text = |key: T| key.text(model.language);
+    labelled(ui, text(T::Password), |ui| {
+        let hint = text(T::PasswordHint);
+        let response = secret_field(ui, &mut add.password.0, &mut add.show_password, hint, model.language);
+        if focus {
+            response.request_focus();
+        }
+        Some(response)
+    });
+}
+
+fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
+    let text = |key: T| key.text(model.language);
+    failure(ui, add, model);
     let (name_error, address_error) = (add.name_error(model), add.address_error(model));
     form(ui, "controller", |ui| {
         labelled(ui, text(T::ColumnName), |ui| {
@@ -55,10 +124,7 @@ fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
             }
             Some(response)
         });
-        labelled(ui, text(T::Password), |ui| {
-            let hint = text(T::PasswordHint);
-            Some(secret_field(ui, &mut add.password.0, &mut add.show_password, hint, model.language))
-        });
+        password(ui, add, false, model);
         labelled(ui, text(T::ColumnType), |ui| {
             let list = ComboBox::from_id_salt("series").selected_text(add.series.as_str()).show_ui(ui, |ui| {
                 for series in ControllerSeries::ALL {
@@ -75,7 +141,8 @@ fn compare(ui: &mut Ui, add: &AddController, fingerprint: Fingerprint, model: &M
     let palette = palette(ui);
     ui.label(RichText::new(format!("{} · {}", add.name.trim(), add.address.trim())).strong());
     ui.add_space(theme::SPACE);
-    ui.add(Label::new(text(T::FingerprintText)).wrap());
+    let explained = if add.identity.is_some() { T::FingerprintLater } else { T::FingerprintText };
+    ui.add(Label::new(text(explained)).wrap());
     ui.add_space(theme::SPACE_LARGE);
     ui.label(RichText::new(text(T::FingerprintLabel)).size(theme::SMALL_TEXT).color(palette.weak));
     Frame::new()

@@ -1,10 +1,10 @@
-use egui::{Frame, Label, ScrollArea, Stroke, Ui};
+use egui::{Label, Ui};
 
 use crate::jobs::Confirmation;
 use crate::ui::model::{Model, Task};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, note};
+use crate::ui::widgets::{Answer, Buttons, dialog, list, note};
 
 /// Says what an operation will do, and to which controllers.
 pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, model: &Model) -> Answer {
@@ -54,27 +54,7 @@ pub fn delete(ui: &Ui, names: &[String], model: &Model) -> Answer {
 
 /// A list of controllers, scrolling when it is long.
 pub fn names(ui: &mut Ui, names: &[String]) {
-    let line = palette(ui).line;
-    Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
-        ui.set_width(ui.available_width());
-        ui.spacing_mut().item_spacing.y = 0.0;
-        let height = theme::LIST_ROW * names.len().min(10) as f32;
-        ScrollArea::vertical().id_salt("names").max_height(height).auto_shrink([false, true]).show_rows(
-            ui,
-            theme::LIST_ROW,
-            names.len(),
-            |ui, range| {
-                for name in &names[range] {
-                    ui.allocate_ui_with_layout(
-                        egui::vec2(ui.available_width(), theme::LIST_ROW),
-                        egui::Layout::left_to_right(egui::Align::Center),
-                        |ui| {
-                            ui.set_min_height(theme::LIST_ROW);
-                            ui.add(Label::new(name).truncate());
-                        },
-                    );
-                }
-            },
-        );
+    list(ui, "names", names.len(), 10, |ui, index| {
+        ui.add(Label::new(&names[index]).truncate());
     });
 }

@@ -1,9 +1,12 @@
 //! Everything that opens over the window. One file a dialog; each draws from the model and its own form.
 
 mod about;
+mod activation;
 mod add_controller;
 mod confirm;
+mod connection_list;
 mod error;
+mod file;
 mod options;
 mod password;
 mod processing;
@@ -50,7 +53,7 @@ fn enter_submits(dialog: &Dialog, model: &Model) -> bool {
 
 fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
     match dialog {
-        Dialog::AddController(form) => add_controller::show(ui, form, focus, model),
+        Dialog::AddController(form) => add_controller::show(ui, form, focus, model, messages),
         Dialog::Delete { names, .. } => confirm::delete(ui, names, model),
         Dialog::Confirm { task, names, confirmation, .. } => confirm::show(ui, task, names, *confirmation, model),
         Dialog::Password(form) => password::show(ui, form, focus, model),
@@ -59,6 +62,8 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::Users(form) => users::list(ui, form, model, messages),
         Dialog::AddUser(form) => users::add(ui, form, focus, model),
         Dialog::SelfSigned(form) => self_signed::show(ui, form, model),
+        Dialog::Activation(form) => activation::show(ui, form, focus, model, messages),
+        Dialog::ConnectionList(form) => connection_list::show(ui, form, focus, model, messages),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use super::{Purpose, RowId, Task};
+use super::{ActivationForm, ConnectionListForm, FileForm, KeysForm, Purpose, RowId, Task};
 use crate::jobs::Confirmation;
 use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
 use crate::pki::Fingerprint;
@@ -17,6 +17,8 @@ pub enum Dialog {
     Users(UsersForm),
     AddUser(AddUserForm),
     SelfSigned(SelfSignedForm),
+    Activation(ActivationForm),
+    ConnectionList(ConnectionListForm),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -28,6 +30,15 @@ impl Dialog {
     /// A form that may wait for what is in a controller. At most one is open.
     pub(super) fn is_form(&self) -> bool {
         matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_))
+    }
+
+    /// The file it asks for, if it does.
+    pub(super) fn file(&mut self) -> Option<&mut FileForm> {
+        match self {
+            Self::Activation(ActivationForm { keys: KeysForm::File { file, .. }, .. }) => Some(file),
+            Self::ConnectionList(form) => Some(&mut form.file),
+            _ => None,
+        }
     }
 }
 
@@ -44,6 +55,26 @@ pub struct AddController {
     pub problem: Option<Problem>,
     /// Apply was pressed once: mistakes are pointed out also in fields that are still empty.
     pub tried: bool,
+    /// The controller is in the list already, without a fingerprint.
+    pub identity: Option<Identity>,
+}
+
+/// Controllers of the list whose identity is confirmed, one after the other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Identity {
+    pub row: RowId,
+    /// Whose turn comes next, in order.
+    pub next: Vec<RowId>,
+    /// Counted from 1.
+    pub nth: usize,
+    /// Those to read information of in the end.
+    pub then_read: Vec<RowId>,
+}
+
+impl Identity {
+    pub fn all(&self) -> usize {
+        self.nth + self.next.len()
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -23,6 +23,7 @@ impl AddController {
             stage: AddStage::Form,
             problem: None,
             tried: false,
+            identity: None,
         }
     }
 
@@ -46,6 +47,9 @@ impl AddController {
 
     /// Why the form cannot be sent yet.
     pub fn incomplete(&self, model: &Model) -> Option<TextKey> {
+        if self.identity.is_some() {
+            return None;
+        }
         if self.name.trim().is_empty() {
             return Some(TextKey::NameRule);
         }
@@ -58,7 +62,9 @@ impl AddController {
     pub fn target(&self, model: &Model) -> Result<(ControllerName, Address), Problem> {
         let name: ControllerName = self.name.parse().map_err(|e| Problem::with_detail(ErrorCode::BadName, e))?;
         let address: Address = self.address.parse().map_err(|e| Problem::with_detail(ErrorCode::BadAddress, e))?;
-        model.configuration().check_new(&name, &address)?;
+        if self.identity.is_none() {
+            model.configuration().check_new(&name, &address)?;
+        }
         Ok((name, address))
     }
 

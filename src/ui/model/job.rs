@@ -22,6 +22,7 @@ pub enum Task {
     AddUser(jobs::AddUser),
     RemoveUsers(jobs::RemoveUsers),
     SelfSigned { fields: SelfSignedFields, backup: bool },
+    Activate(jobs::Activate),
 }
 
 impl Task {
@@ -35,6 +36,7 @@ impl Task {
             Self::ListUsers => Arc::new(jobs::ListUsers),
             Self::AddUser(operation) => Arc::new(operation.clone()),
             Self::RemoveUsers(operation) => Arc::new(operation.clone()),
+            Self::Activate(operation) => Arc::new(operation.clone()),
             Self::SelfSigned { fields, backup } => Arc::new(jobs::SelfSigned {
                 fields: fields.clone(),
                 backup: backup.then(|| workspace.certificate_files()),
@@ -52,6 +54,7 @@ impl Task {
             Self::AddUser(_) => TextKey::AddUserTitle,
             Self::RemoveUsers(_) => TextKey::DeleteUsers,
             Self::SelfSigned { .. } => TextKey::SelfSignedTitle,
+            Self::Activate(_) => TextKey::ActivationTitle,
         }
     }
 

@@ -1,7 +1,11 @@
 //! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
 
+mod activation;
+mod connections;
 mod dialog;
+mod files;
 mod forms;
+mod identity;
 mod job;
 mod reduce;
 mod reduce_dialogs;
@@ -14,10 +18,13 @@ use std::collections::BTreeMap;
 
 use chrono::{DateTime, Utc};
 
+pub use activation::{ActivationForm, ActivationPreview, KeysForm, key_error};
+pub use connections::{ConnectionListForm, FoundConnection, LeftOut};
 pub use dialog::{
-    AddController, AddStage, AddUserForm, Dialog, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm, Typed,
-    UsersForm,
+    AddController, AddStage, AddUserForm, Dialog, Identity, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm,
+    Typed, UsersForm,
 };
+pub use files::FileForm;
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
@@ -79,6 +86,12 @@ pub enum Message {
     DeleteUsers,
     /// Open the dialog for one more user.
     NewUser,
+    /// Let the desktop's dialog find the file the dialog on top asks for.
+    ChooseFile,
+    /// Read the file whose path is typed into the dialog on top.
+    ReadFile,
+    /// Leave the controller out whose identity is asked for.
+    SkipIdentity,
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.

@@ -1,8 +1,8 @@
 //! The one place where the model changes.
 
 use super::{
-    AddController, CancelState, Column, Dialog, Job, JobId, JobRow, Message, Model, PasswordForm, ProcessingView,
-    Purpose, RowId, RowState, Task, Typed,
+    ActivationForm, AddController, CancelState, Column, Dialog, Job, JobId, JobRow, Message, Model, PasswordForm,
+    ProcessingView, Purpose, RowId, RowState, Task, Typed,
 };
 use crate::jobs::{JobController, JobEvent, Report, Summary};
 use crate::model::ErrorCode;
@@ -35,6 +35,9 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::Close => commands = model.close(),
         Message::DeleteUsers => commands = model.delete_users(),
         Message::NewUser => model.new_user(),
+        Message::ChooseFile => commands = model.choose_file(),
+        Message::ReadFile => commands = model.read_typed(),
+        Message::SkipIdentity => commands = model.skip_identity(),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -80,7 +83,7 @@ impl Model {
         let dialog = match command {
             UiCommand::Start => return self.plan(Task::Start, ticked),
             UiCommand::Stop => return self.plan(Task::Stop, ticked),
-            UiCommand::GetInfo => return self.plan(Task::GetInfo, ticked),
+            UiCommand::GetInfo => return self.get_info(ticked),
             UiCommand::BasicSettings => return self.open_settings(ticked),
             UiCommand::Users => return self.open_users(ticked),
             UiCommand::SelfSigned => return self.open_self_signed(ticked),
@@ -89,6 +92,12 @@ impl Model {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
                 return vec![];
             }
+            UiCommand::ConnectionList => return self.open_connection_list(),
+            UiCommand::ConfirmIdentity => {
+                let rows = self.ticked_unconfirmed().collect();
+                return self.confirm_identities(rows, vec![]);
+            }
+            UiCommand::Activation => Dialog::Activation(ActivationForm::new(ticked, self)),
             UiCommand::AddController => Dialog::AddController(AddController::new()),
             UiCommand::DeleteControllers => Dialog::Delete { names: self.rows.names(&ticked), rows: ticked },
             UiCommand::Backup => Dialog::Backup { on: self.options.backup },
@@ -165,6 +174,11 @@ impl Model {
                 vec![]
             }
             Event::Enrolled { job, result } => self.enrolled(job, result),
+            Event::FilePicked { job, result } => self.file_picked(job, result),
+            Event::FileRead { job, result } => {
+                self.file_read(job, result);
+                vec![]
+            }
             Event::VirtualStarted(result) => self.virtual_started(result),
             Event::PasswordNotKept(problem) | Event::SaveFailed(problem) => {
                 // Once is enough for the same trouble.

@@ -96,8 +96,10 @@ impl Model {
             }
             Dialog::Confirm { task, rows, .. } => {
                 // The form that asked for it has done its work.
-                if matches!(self.dialogs.last(), Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_)))
-                {
+                if matches!(
+                    self.dialogs.last(),
+                    Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_) | Dialog::Activation(_))
+                ) {
                     self.dialogs.pop();
                 }
                 self.start(task, rows, Purpose::Show, None)
@@ -115,6 +117,23 @@ impl Model {
                 let planned = form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
                 self.ask(Dialog::SelfSigned(form), planned)
             }
+            Dialog::Activation(form) if form.reads_file() => {
+                self.dialogs.push(Dialog::Activation(form));
+                self.read_typed()
+            }
+            Dialog::Activation(form) => {
+                let planned = form.operation().map(|operation| (Task::Activate(operation), form.rows.clone()));
+                self.ask(Dialog::Activation(form), planned)
+            }
+            Dialog::ConnectionList(form) if form.reads_file() => {
+                self.dialogs.push(Dialog::ConnectionList(form));
+                self.read_typed()
+            }
+            Dialog::ConnectionList(form) if form.ticked() == 0 => {
+                self.dialogs.push(Dialog::ConnectionList(form));
+                vec![]
+            }
+            Dialog::ConnectionList(form) => self.import_connections(form),
             Dialog::Backup { on } => {
                 self.options.backup = on;
                 self.save()
@@ -141,6 +160,11 @@ impl Model {
         match self.dialogs.last_mut() {
             None => vec![],
             Some(Dialog::Processing(_)) => self.close_processing(),
+            Some(Dialog::AddController(form)) if form.identity.is_some() => {
+                let waiting = matches!(form.stage, AddStage::Probing | AddStage::Enrolling(_));
+                self.dialogs.pop();
+                if waiting { self.cancel_last() } else { vec![] }
+            }
             Some(Dialog::AddController(form)) if form.stage != AddStage::Form => {
                 let waiting = !matches!(form.stage, AddStage::Compare(_));
                 form.stage = AddStage::Form;
@@ -229,7 +253,7 @@ impl Model {
         command.into_iter().collect()
     }
 
-    fn cancel_last(&mut self) -> Vec<Command> {
+    pub(super) fn cancel_last(&mut self) -> Vec<Command> {
         let job = JobId(self.last_job);
         self.next_job();
         vec![Command::Cancel(job)]
@@ -260,6 +284,7 @@ impl Model {
     pub(super) fn enrolled(&mut self, job: JobId, result: Result<Box<Enrolled>, Problem>) -> Vec<Command> {
         let now = self.now;
         let Some(form) = self.adding(job) else { return vec![] };
+        let identity = form.identity.clone();
         let enrolled = match result {
             Ok(enrolled) => enrolled,
             Err(problem) => {
@@ -278,6 +303,15 @@ impl Model {
             fingerprint: Some(fingerprint),
             last: Some(Retrieved { at: now, info }),
         };
+        if let Some(identity) = identity {
+            self.rows.confirm(identity.row, entry, now);
+            let mut commands = self.save();
+            commands.extend(self.next_identity());
+            if let Some(problem) = password_not_kept {
+                self.show_problem(problem);
+            }
+            return commands;
+        }
         self.dialogs.retain(|dialog| !matches!(dialog, Dialog::AddController(_)));
         self.status = Some(texts::added(self.language, entry.name.as_str()));
         self.rows.add(entry, now);

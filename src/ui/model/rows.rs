@@ -293,6 +293,25 @@ impl Rows {
         id
     }
 
+    /// Many at once.
+    pub fn add_all(&mut self, entries: Vec<ControllerEntry>, now: DateTime<Utc>) {
+        for entry in entries {
+            let id = RowId(self.next_id);
+            self.next_id += 1;
+            self.list.push(Row::new(id, entry, now));
+        }
+        self.rebuild();
+    }
+
+    /// The controller of a row was met; what it is called stays.
+    pub fn confirm(&mut self, id: RowId, entry: ControllerEntry, now: DateTime<Utc>) {
+        if let Some(row) = self.get_mut(id) {
+            row.entry = entry;
+            row.refresh(now);
+        }
+        self.rebuild();
+    }
+
     /// Takes rows out and gives their entries back.
     pub fn remove(&mut self, ids: &[RowId]) -> Vec<ControllerEntry> {
         let (gone, kept) = std::mem::take(&mut self.list).into_iter().partition(|row| ids.contains(&row.id));

@@ -7,7 +7,7 @@ use crate::jobs::{JobEvent, Outcome, Report, Step, Summary};
 use crate::model::{ControllerInfo, ErrorCode, ServerSettings};
 use crate::pki::Fingerprint;
 use crate::protocol::Revisioned;
-use crate::ui::backend::Command;
+use crate::ui::backend::{Command, FileContents};
 use crate::workspace::ControllerEntry;
 
 fn now() -> DateTime<Utc> {
@@ -47,6 +47,75 @@ fn info() -> ControllerInfo {
 
 fn finished(index: usize, result: Result<Outcome, Problem>) -> JobEvent {
     JobEvent::Finished { index, report: Box::new(Report { info: result.is_ok().then(info), result }) }
+}
+
+/// A model whose controllers nobody has confirmed yet, all ticked.
+fn unconfirmed() -> Model {
+    let mut model = model();
+    let entries: Vec<ControllerEntry> = model.rows.all().iter().map(|row| row.entry.clone()).collect();
+    let mut configuration = Configuration::default();
+    configuration.controllers =
+        entries.into_iter().map(|entry| ControllerEntry { fingerprint: None, ..entry }).collect();
+    model = Model::new(configuration, Workspace::new("/nowhere"), Language::En, now());
+    reduce(&mut model, Message::TickAll(true));
+    model
+}
+
+fn probe(commands: &[Command]) -> (JobId, String) {
+    let Some(Command::Probe { job, address }) = commands.last() else { panic!("{commands:?}") };
+    (*job, address.to_string())
+}
+
+#[test]
+fn whose_identity_is_not_confirmed_is_asked_about_one_after_the_other() {
+    let mut model = unconfirmed();
+    let (first, address) = probe(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+    assert_eq!(address, "10.0.0.9");
+    let skipped = reduce(&mut model, Message::SkipIdentity);
+    assert!(matches!(skipped[0], Command::Cancel(job) if job == first));
+    let (second, address) = probe(&skipped);
+    assert_eq!(address, "10.0.0.10");
+
+    // An answer about the one that was skipped is nobody's.
+    let fingerprint = Fingerprint::of(b"second");
+    reduce(&mut model, Message::Event(Event::Probed { job: first, result: Ok(Fingerprint::of(b"first")) }));
+    reduce(&mut model, Message::Event(Event::Probed { job: second, result: Ok(fingerprint) }));
+    let asked = reduce(&mut model, Message::Submit);
+    let [Command::Enroll { job, fingerprint: agreed, .. }] = &asked[..] else { panic!("{asked:?}") };
+    assert_eq!(*agreed, fingerprint);
+    let enrolled = crate::jobs::Enrolled { fingerprint, info: info(), password_not_kept: None };
+    let next = reduce(&mut model, Message::Event(Event::Enrolled { job: *job, result: Ok(Box::new(enrolled)) }));
+    assert!(matches!(next[0], Command::Save(_)));
+    assert_eq!(probe(&next).1, "10.0.0.1");
+    let confirmed: Vec<bool> = model.rows.all().iter().map(|row| row.entry.fingerprint.is_some()).collect();
+    assert_eq!(confirmed, [false, true, false]);
+
+    // Cancel ends it all.
+    assert!(matches!(reduce(&mut model, Message::Close)[..], [Command::Cancel(_)]));
+    assert!(model.dialogs.is_empty());
+    assert_eq!(UiCommand::ConfirmIdentity.why_disabled(&model), None);
+}
+
+#[test]
+fn a_file_that_comes_after_its_dialog_was_closed_is_dropped() {
+    let mut model = model();
+    tick(&mut model, &["Weld 2", "Paint"]);
+    reduce(&mut model, Message::Invoke(UiCommand::Activation));
+    let picking = reduce(&mut model, Message::ChooseFile);
+    let [Command::PickFile { job: picking, .. }] = picking[..] else { panic!("{picking:?}") };
+    assert!(reduce(&mut model, Message::ChooseFile).is_empty(), "one dialog of the desktop is enough");
+    let picked = Event::FilePicked { job: picking, result: Ok(Some("/keys.csv".into())) };
+    let reading = reduce(&mut model, Message::Event(picked.clone()));
+    let [Command::ReadFile { job: reading, .. }] = reading[..] else { panic!("{reading:?}") };
+    reduce(&mut model, Message::Close);
+    reduce(&mut model, Message::Invoke(UiCommand::Activation));
+    assert!(reduce(&mut model, Message::Event(picked)).is_empty());
+    let contents = FileContents(b"OPCUA.Activation.Ver.1.0\n".to_vec());
+    reduce(&mut model, Message::Event(Event::FileRead { job: reading, result: Ok(("/keys.csv".into(), contents)) }));
+    let Some(Dialog::Activation(form)) = model.dialogs.last() else { panic!("{:?}", model.dialogs) };
+    assert!(form.operation().is_none());
+    let KeysForm::File { file, preview } = &form.keys else { panic!("{form:?}") };
+    assert!(file.path.is_empty() && preview.is_none());
 }
 
 fn tick(model: &mut Model, names: &[&str]) {

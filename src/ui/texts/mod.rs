@@ -3,8 +3,10 @@
 //! English is in sentence case, without a full stop after a single sentence, with `…` on whatever asks for more. A text
 //! that lacks a language does not compile. Texts of errors come from [`ErrorCode::explain`](crate::model::ErrorCode).
 
+mod files;
 mod sentences;
 
+pub use files::*;
 pub use sentences::*;
 
 use crate::model::Language;
@@ -48,6 +50,8 @@ texts! {
     DeleteControllersTip: "Remove the ticked controllers from the list", "从列表中删除已勾选的控制器";
     ConnectionList: "Get connection list…", "获取连接列表…";
     ConnectionListTip: "Register controllers from a connection list", "从连接列表注册控制器";
+    ConfirmIdentity: "Confirm identity…", "确认控制器…";
+    ConfirmIdentityTip: "Compare the fingerprint of the ticked controllers before anything is sent to them", "在向已勾选的控制器发送数据之前核对其指纹";
     Quit: "Quit", "退出";
     QuitTip: "Close the window", "关闭窗口";
     Start: "Start", "开始";
@@ -102,6 +106,8 @@ texts! {
     // why something is disabled
     WhyTick: "Tick at least one controller first", "请先勾选至少一台控制器";
     WhyLater: "Comes in a later version", "将在后续版本中提供";
+    WhyActivationOption: "Firmware 8.0.0 and later is activated as a controller option", "固件 8.0.0 及以上版本通过控制器选项激活";
+    WhyConfirmed: "Every ticked controller is confirmed already", "已勾选的控制器均已确认";
     WhyEmpty: "The list is empty", "列表为空";
     WhyVirtual: "Not available in this build", "此版本不可用";
 
@@ -115,6 +121,8 @@ texts! {
     ColumnCertificate: "Certificate type", "认证类型";
     ColumnActivation: "Activation", "激活";
     ColumnRetrieved: "Retrieved at", "获取日期";
+    NotConfirmed: "Not confirmed", "未确认";
+    NotConfirmedTip: "Nothing is sent to it until its fingerprint was compared: choose Get new information", "核对指纹之前不会向其发送数据：请选择[获取新信息]";
     StatusRun: "Run", "运行";
     StatusStop: "Stop", "停止";
     StatusError: "Error", "错误";
@@ -168,6 +176,10 @@ texts! {
     FingerprintTitle: "Is this your controller?", "这是您的控制器吗？";
     FingerprintText: "Compare this fingerprint with the one the controller shows. It is checked at every connection from now on, so nobody can pose as this controller. The password is sent only after you agree.", "请与控制器上显示的指纹核对。此后每次连接都会检查该指纹，以防有人冒充控制器。确认后才会发送密码。";
     FingerprintLabel: "Fingerprint (SHA-256)", "指纹 (SHA-256)";
+    FingerprintLater: "Compare this fingerprint with the one the controller shows. It is checked at every connection from now on, so nobody can pose as this controller. Then enter its password.", "请与控制器上显示的指纹核对。此后每次连接都会检查该指纹，以防有人冒充控制器。然后输入密码。";
+    FingerprintConfirm: "It matches, go on", "一致，继续";
+    LookingForController: "Reading the fingerprint of the controller…", "正在读取控制器的指纹…";
+    Skip: "Skip", "跳过";
     FingerprintMatches: "It matches, add", "一致，添加";
 
     // delete
@@ -263,6 +275,37 @@ texts! {
     KeyLengthMany: "Controllers whose security policies do not allow it refuse this length", "安全策略不允许该长度的控制器将拒绝";
     Validity: "Validity (years)", "有效期(年)";
     Optional: "optional", "可选";
+
+    // connection list
+    ConnectionListTitle: "Get connection list", "获取连接列表";
+    ConnectionListText: "A CSV file with the columns Name, Type and Address. Controllers on USB and simulated ones are left out.", "包含 Name、Type、Address 列的 CSV 文件。USB 连接和虚拟控制器不会导入。";
+    Import: "Import", "导入";
+    NothingToImport: "There is no new controller in the file", "文件中没有新的控制器";
+    TickConnection: "Tick at least one controller to import", "请至少勾选一台要导入的控制器";
+    SeriesGuess: "The list does not say it. What the controller says of itself replaces it.", "列表中没有此信息，获取信息后以控制器为准。";
+    LinesLeftOut: "Left out", "不导入";
+    ImportText: "Nothing is sent to them until you have compared their fingerprints.", "核对指纹之前不会向这些控制器发送数据。";
+
+    // activation
+    ActivationTitle: "Activation", "激活";
+    ActivationMany: "Keys for several controllers come from an activation file: a CSV file with a line per controller, its serial number, licence key and activation key", "多台控制器的密钥来自激活文件：CSV 文件，每台控制器一行，包含序列号、许可密钥和激活密钥";
+    LicenceKey: "Licence key", "许可密钥";
+    ActivationKey: "Activation key", "激活密钥";
+    KeysRule: "Enter both keys completely", "请完整输入两个密钥";
+    KeyComplete: "Complete", "已完整";
+    NoKeysInFile: "The file has keys for none of these controllers", "文件中没有这些控制器的密钥";
+    KeysMissing: "Not in the file", "文件中没有";
+    KeysUnknown: "Not read yet, looked up when it is reached", "尚未获取序列号，连接后查找";
+    LinesWithMistakes: "Lines that cannot be used", "无法使用的行";
+    LinesUnused: "Lines of controllers that are not ticked", "未勾选控制器的行";
+
+    // files
+    FileLabel: "File", "文件";
+    FileHint: "Path of the file", "文件路径";
+    FileRule: "Choose a file or type its path", "请选择文件或输入其路径";
+    ChooseFile: "Choose…", "选择…";
+    ChooseFileTitle: "Choose a file", "选择文件";
+    ReadFile: "Read file", "读取文件";
 
     // backup
     BackupTitle: "Backup", "备份";

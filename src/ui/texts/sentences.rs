@@ -172,6 +172,14 @@ pub fn bits(language: Language, bits: u16) -> String {
     }
 }
 
+/// Which of the controllers whose identity is to be confirmed is on.
+pub fn nth_of(language: Language, nth: usize, all: usize) -> String {
+    match language {
+        Language::En => format!("{nth} of {all}"),
+        Language::Zh => format!("第 {nth} 台，共 {all} 台"),
+    }
+}
+
 /// The title of a dialog about some controllers: "Basic settings – Weld 1".
 pub fn title_for(language: Language, title: T, names: &[String]) -> String {
     let title = title.text(language);

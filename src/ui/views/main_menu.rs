@@ -16,7 +16,7 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
         menu(
             ui,
             T::MenuController,
-            &[&[C::AddController, C::ConnectionList], &[C::DeleteControllers], &[C::Quit]],
+            &[&[C::AddController, C::ConnectionList], &[C::ConfirmIdentity, C::DeleteControllers], &[C::Quit]],
             messages,
         );
         ui.menu_button(text(T::MenuCertificate), |ui| {

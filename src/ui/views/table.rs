@@ -198,6 +198,9 @@ fn status(ui: &mut Ui, entry: &Row, model: &Model, palette: &Palette) {
             let message = problem.code.explain(language).message;
             chip(ui, text(T::StateFailed), palette.error).on_hover_text(message);
         }
+        None if entry.entry.fingerprint.is_none() => {
+            chip(ui, text(T::NotConfirmed), palette.warning).on_hover_text(text(T::NotConfirmedTip));
+        }
         None => match entry.info() {
             None => {
                 ui.label(RichText::new("—").color(palette.weak)).on_hover_text(text(T::NotRead));

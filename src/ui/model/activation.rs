@@ -1,0 +1,126 @@
+//! Activation by keys (manual 2.6.3): typed in for one controller, from a file for many.
+
+use std::sync::Arc;
+
+use super::{FileForm, Model, RowId, Typed};
+use crate::jobs::{Activate, KeySource};
+use crate::model::activation::{
+    self, ActivationFile, ActivationKey, ActivationKeys, KeyError, LicenceKey, MAX_ACTIVATION_FILE_BYTES, Plan,
+};
+use crate::model::{ErrorCode, FirmwareGeneration, Problem};
+use crate::ui::picker::FileKind;
+use crate::ui::texts::TextKey;
+
+#[derive(Debug)]
+pub struct ActivationForm {
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    pub keys: KeysForm,
+}
+
+/// Where the keys come from.
+#[derive(Debug)]
+pub enum KeysForm {
+    Typed { licence: Typed, activation: Typed },
+    File { file: FileForm, preview: Option<ActivationPreview> },
+}
+
+/// What a file means for the ticked controllers, before anything is sent.
+#[derive(Debug)]
+pub struct ActivationPreview {
+    pub file: Arc<ActivationFile>,
+    /// Of the controllers whose serial number is known.
+    pub plan: Plan,
+    /// Names of the others: whether the file has keys for them shows when they are reached.
+    pub unknown: Vec<String>,
+}
+
+impl ActivationForm {
+    pub fn new(rows: Vec<RowId>, model: &Model) -> Self {
+        let keys = if rows.len() == 1 {
+            KeysForm::Typed { licence: Typed::default(), activation: Typed::default() }
+        } else {
+            KeysForm::File { file: FileForm::new(FileKind::Csv, MAX_ACTIVATION_FILE_BYTES), preview: None }
+        };
+        Self { names: model.rows.names(&rows), rows, keys }
+    }
+
+    /// Keys that are complete are shown as the licence certificate writes them, however they were pasted.
+    pub fn normalise(&mut self) {
+        if let KeysForm::Typed { licence, activation } = &mut self.keys {
+            if let Ok(key) = licence.0.parse::<LicenceKey>() {
+                licence.0 = key.to_string();
+            }
+            if let Ok(key) = activation.0.parse::<ActivationKey>() {
+                activation.0 = key.to_string();
+            }
+        }
+    }
+
+    /// What Apply would do.
+    pub fn operation(&self) -> Option<Activate> {
+        let keys = match &self.keys {
+            KeysForm::Typed { licence, activation } => KeySource::Typed(ActivationKeys {
+                licence: licence.0.parse().ok()?,
+                activation: activation.0.parse().ok()?,
+            }),
+            KeysForm::File { preview, .. } => {
+                let preview = preview.as_ref().filter(|_| !self.reads_file())?;
+                if preview.plan.ready() == 0 && preview.unknown.is_empty() {
+                    return None;
+                }
+                KeySource::File(preview.file.clone())
+            }
+        };
+        Some(Activate { keys })
+    }
+
+    /// The main button reads the file, as what is shown is not what is in it.
+    pub fn reads_file(&self) -> bool {
+        matches!(&self.keys, KeysForm::File { file, .. } if !file.is_shown())
+    }
+
+    /// Why the main button does nothing yet.
+    pub fn incomplete(&self) -> Option<TextKey> {
+        match &self.keys {
+            KeysForm::File { file, .. } if self.reads_file() => file.incomplete(),
+            _ if self.operation().is_some() => None,
+            KeysForm::Typed { .. } => Some(TextKey::KeysRule),
+            KeysForm::File { .. } => Some(TextKey::NoKeysInFile),
+        }
+    }
+
+    pub(super) fn take_in(&mut self, bytes: &[u8], model: &Model) -> Result<(), Problem> {
+        let KeysForm::File { preview, .. } = &mut self.keys else { return Ok(()) };
+        *preview = None;
+        let file = activation::parse(bytes).map_err(|e| Problem::with_detail(ErrorCode::BadActivationFile, e))?;
+        let mut known = Vec::new();
+        let mut unknown = Vec::new();
+        for row in self.rows.iter().filter_map(|id| model.rows.get(*id)) {
+            match row.info() {
+                Some(info) => known.push((row.entry.name.clone(), info.serial.clone(), info.firmware)),
+                None => unknown.push(row.entry.name.to_string()),
+            }
+        }
+        let plan = activation::plan(&file, &known);
+        *preview = Some(ActivationPreview { file: Arc::new(file), plan, unknown });
+        Ok(())
+    }
+}
+
+/// What is wrong with a key as far as it is typed. One that is merely too short so far is no mistake.
+pub fn key_error<K: std::str::FromStr<Err = KeyError>>(typed: &Typed) -> Option<KeyError> {
+    typed
+        .0
+        .parse::<K>()
+        .err()
+        .filter(|error| !matches!(error, KeyError::Length { found, expected } if found < expected))
+}
+
+impl Model {
+    /// Whether a ticked controller is known to be activated as a controller option instead.
+    pub fn ticked_has_current_firmware(&self) -> bool {
+        let current = |info: &crate::model::ControllerInfo| info.firmware.generation() == FirmwareGeneration::Current;
+        self.rows.all().iter().any(|row| row.ticked && row.info().is_some_and(current))
+    }
+}

@@ -1,0 +1,77 @@
+//! Controllers of the list that nobody has confirmed yet, as after an import.
+
+use super::{AddController, AddStage, Dialog, Identity, Model, RowId, Task};
+use crate::ui::backend::Command;
+
+impl Model {
+    /// Ticked rows without a fingerprint.
+    pub fn ticked_unconfirmed(&self) -> impl Iterator<Item = RowId> + '_ {
+        let rows = self.rows.ticked().into_iter().filter_map(|id| self.rows.get(id));
+        rows.filter(|row| row.entry.fingerprint.is_none()).map(|row| row.id)
+    }
+
+    /// Reads information; asks first who the controllers are that nobody has confirmed yet.
+    pub(super) fn get_info(&mut self, rows: Vec<RowId>) -> Vec<Command> {
+        let confirmed = |id: &RowId| self.rows.get(*id).is_some_and(|row| row.entry.fingerprint.is_some());
+        let (then_read, unconfirmed): (Vec<_>, Vec<_>) = rows.into_iter().partition(confirmed);
+        if unconfirmed.is_empty() {
+            return self.plan(Task::GetInfo, then_read);
+        }
+        self.confirm_identities(unconfirmed, then_read)
+    }
+
+    pub(super) fn confirm_identities(&mut self, mut rows: Vec<RowId>, then_read: Vec<RowId>) -> Vec<Command> {
+        if rows.is_empty() {
+            return vec![];
+        }
+        let row = rows.remove(0);
+        let mut form = AddController::new();
+        form.identity = Some(Identity { row, next: rows, nth: 1, then_read });
+        self.probe_identity(form)
+    }
+
+    /// Opens the dialog and asks the controller for its fingerprint at once.
+    fn probe_identity(&mut self, mut form: AddController) -> Vec<Command> {
+        let row = form.identity.as_ref().and_then(|identity| self.rows.get(identity.row));
+        let Some(entry) = row.map(|row| &row.entry) else { return vec![] };
+        let address = entry.address.clone();
+        form.name = entry.name.to_string();
+        form.address = address.to_string();
+        form.series = entry.series;
+        form.stage = AddStage::Probing;
+        form.problem = None;
+        self.dialogs.push(Dialog::AddController(form));
+        vec![Command::Probe { job: self.next_job(), address }]
+    }
+
+    /// Goes on with the next controller, and in the end with those that were confirmed before. The password typed last
+    /// is offered again, as controllers of a plant often share one.
+    pub(super) fn next_identity(&mut self) -> Vec<Command> {
+        let is_adding = |dialog: &Dialog| matches!(dialog, Dialog::AddController(_));
+        let Some(Dialog::AddController(mut form)) =
+            self.dialogs.iter().position(is_adding).map(|index| self.dialogs.remove(index))
+        else {
+            return vec![];
+        };
+        let Some(identity) = &mut form.identity else { return vec![] };
+        if identity.next.is_empty() {
+            let rows = std::mem::take(&mut identity.then_read);
+            return if rows.is_empty() { vec![] } else { self.plan(Task::GetInfo, rows) };
+        }
+        identity.row = identity.next.remove(0);
+        identity.nth += 1;
+        self.probe_identity(form)
+    }
+
+    pub(super) fn skip_identity(&mut self) -> Vec<Command> {
+        let waiting = match self.dialogs.last() {
+            Some(Dialog::AddController(form)) if form.identity.is_some() => {
+                matches!(form.stage, AddStage::Probing | AddStage::Enrolling(_))
+            }
+            _ => return vec![],
+        };
+        let mut commands = if waiting { self.cancel_last() } else { vec![] };
+        commands.extend(self.next_identity());
+        commands
+    }
+}

@@ -1,0 +1,94 @@
+//! What is wrong with the lines of a file.
+
+use crate::model::Language;
+use crate::model::activation::{KeyError, LineMistake, Mistake};
+use crate::workspace::Skipped;
+
+pub fn line(language: Language, line: impl std::fmt::Display) -> String {
+    match language {
+        Language::En => format!("Line {line}"),
+        Language::Zh => format!("第 {line} 行"),
+    }
+}
+
+pub fn key_error(language: Language, error: KeyError) -> String {
+    match (language, error) {
+        (Language::En, KeyError::Character(c)) => format!("{c:?} is neither a half-width letter nor a digit"),
+        (Language::Zh, KeyError::Character(c)) => format!("{c:?} 不是半角字母或数字"),
+        (Language::En, KeyError::Length { found, expected }) => {
+            format!("{found} letters and digits; {expected} are required")
+        }
+        (Language::Zh, KeyError::Length { found, expected }) => format!("有 {found} 个字符，应为 {expected} 个"),
+    }
+}
+
+/// Under a key that is being typed.
+pub fn key_progress(language: Language, found: usize, expected: usize) -> String {
+    match language {
+        Language::En => format!("{found} of {expected} letters and digits"),
+        Language::Zh => format!("已输入 {found} / {expected} 个半角字母或数字"),
+    }
+}
+
+pub fn keys_found(language: Language, ready: usize, all: usize) -> String {
+    match language {
+        Language::En => format!("Keys found for {ready} of {}", super::controllers(language, all)),
+        Language::Zh => format!("{all} 台控制器中有 {ready} 台找到密钥"),
+    }
+}
+
+pub fn line_mistake(language: Language, mistake: &LineMistake) -> String {
+    let what = match language {
+        Language::En => match &mistake.mistake {
+            Mistake::Licence(error) => format!("licence key: {}", key_error(language, *error)),
+            Mistake::Activation(error) => format!("activation key: {}", key_error(language, *error)),
+            other => other.to_string(),
+        },
+        Language::Zh => match &mistake.mistake {
+            Mistake::Fields(count) => format!("有 {count} 个字段，应为序列号、许可密钥和激活密钥 3 个"),
+            Mistake::Separator { found, expected } => {
+                format!("分隔符为“{found}”，与前面各行的“{expected}”不一致")
+            }
+            Mistake::Serial => "序列号无效：应为 1 至 32 个字母、数字、“-”或“_”".to_owned(),
+            Mistake::Licence(error) => format!("许可密钥：{}", key_error(language, *error)),
+            Mistake::Activation(error) => format!("激活密钥：{}", key_error(language, *error)),
+            Mistake::Duplicate(line) => format!("序列号与第 {line} 行重复"),
+        },
+    };
+    let colon = if language == Language::En { ": " } else { "：" };
+    format!("{}{colon}{what}", line(language, mistake.line))
+}
+
+/// The tick box over the lines that can be imported.
+pub fn to_import(language: Language, ticked: usize, all: usize) -> String {
+    match language {
+        Language::En => format!("Import {ticked} of {}", super::controllers(language, all)),
+        Language::Zh => format!("导入 {ticked} / {all} 台控制器"),
+    }
+}
+
+pub fn imported(language: Language, count: usize) -> String {
+    match language {
+        Language::En => format!("{} added, not confirmed yet", super::controllers(language, count)),
+        Language::Zh => format!("已添加 {count} 台控制器，尚未确认"),
+    }
+}
+
+/// Why a line of a connection list is left out.
+pub fn skipped(language: Language, why: &Skipped) -> String {
+    match language {
+        Language::En => why.to_string(),
+        Language::Zh => match why {
+            Skipped::Usb => "USB 连接，无法通过网络访问".to_owned(),
+            Skipped::Virtual => "编程环境中的虚拟控制器".to_owned(),
+            Skipped::NameRegistered => "名称已注册".to_owned(),
+            Skipped::AddressRegistered(name) => format!("地址已注册（{name}）"),
+            Skipped::Fields(count) => format!("有 {count} 个字段，应为名称、类型和地址 3 个"),
+            Skipped::Type(kind) => format!("“{kind}”不是已知的连接类型（Ethernet、USB、Virtual）"),
+            Skipped::Name(_) => format!("名称无效：{}", super::TextKey::NameRule.text(language)),
+            Skipped::Address(_) => format!("地址无效：{}", super::TextKey::AddressRule.text(language)),
+            Skipped::NameTwice(line) => format!("名称与第 {line} 行重复"),
+            Skipped::AddressTwice(line) => format!("地址与第 {line} 行重复"),
+        },
+    }
+}

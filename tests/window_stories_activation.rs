@@ -1,0 +1,265 @@
+//! Activation and connection lists through the real window, against real virtual controllers over loopback.
+
+mod common;
+#[allow(dead_code, reason = "these stories run their jobs through the window")]
+#[path = "common/plant.rs"]
+mod plant;
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use common::window::{self, SIZE, choose, click, is_enabled, shows, type_into, wait_until, window_in};
+use egui_kittest::kittest::Queryable as _;
+use opcua_configurator::model::ErrorCode;
+use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
+use opcua_configurator::ui::picker::FixedPicker;
+use opcua_configurator::virtual_controller::{FleetFirmware, demo_keys};
+use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
+use plant::Plant;
+
+/// Long enough for a busy machine to make keys.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+struct Desk {
+    window: window::Window<TokioBackend>,
+    plant: Plant,
+    workspace: Workspace,
+    file: PathBuf,
+    _runtime: tokio::runtime::Runtime,
+    _folder: tempfile::TempDir,
+}
+
+impl Desk {
+    /// A window over controllers that are not activated; the desktop's dialog always chooses `Desk::file`.
+    fn legacy(count: usize) -> Self {
+        Self::open(|| Plant::not_activated(count), |plant| listed(plant, true))
+    }
+
+    fn open<F: Future<Output = Plant>>(start: impl FnOnce() -> F, list: impl Fn(&Plant) -> Configuration) -> Self {
+        let runtime = tokio::runtime::Runtime::new().unwrap();
+        let plant = runtime.block_on(start());
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path().join("OPCUA"));
+        let file = folder.path().join("picked.csv");
+        let backend = BackendOptions {
+            workspace: workspace.clone(),
+            lock: workspace.lock().unwrap(),
+            passwords: plant.passwords.clone(),
+            connector: Arc::new(plant.connector),
+            starter: None,
+            picker: Arc::new(FixedPicker(Ok(Some(file.clone())))),
+        };
+        let backend = TokioBackend::new(backend, || {}).unwrap();
+        let window = window_in(workspace.clone(), backend, list(&plant), SIZE);
+        Self { window, plant, workspace, file, _runtime: runtime, _folder: folder }
+    }
+
+    fn wait_for(&mut self, text: &str) {
+        wait_until(&mut self.window, PATIENCE, |window| shows(window, text));
+    }
+
+    fn click(&mut self, label: &str) {
+        click(&mut self.window, label);
+    }
+
+    fn activated(&self, index: usize) -> bool {
+        self.plant.controller(index).info().activated
+    }
+
+    fn line(&self, index: usize) -> String {
+        let serial = self.plant.controller(index).serial();
+        let keys = demo_keys(&serial);
+        format!("{serial},{},{}\n", keys.licence, keys.activation)
+    }
+}
+
+/// The plant's controllers; `known`: their information was read before.
+fn listed(plant: &Plant, known: bool) -> Configuration {
+    let mut configuration = Configuration::default();
+    for (index, listed) in plant.listed().into_iter().enumerate() {
+        let controller = plant.controller(index);
+        configuration.controllers.push(ControllerEntry {
+            name: listed.name,
+            address: listed.address,
+            series: controller.series(),
+            fingerprint: listed.fingerprint,
+            last: known.then(|| Retrieved { at: window::now(), info: controller.info() }),
+        });
+    }
+    configuration
+}
+
+#[test]
+fn one_controller_is_activated_by_the_keys_that_were_pasted() {
+    let mut desk = Desk::legacy(1);
+    desk.click("Tick cell 1");
+    choose(&mut desk.window, &["Server settings", "Activation…"]);
+    assert!(!is_enabled(&desk.window, "Apply"), "both keys are still empty");
+
+    let keys = demo_keys(&desk.plant.controller(0).serial());
+    let pasted = format!("  {} ", keys.licence.to_string().to_uppercase().replace('-', " "));
+    type_into(&mut desk.window, "Licence key", &pasted);
+    let normalised = keys.licence.to_string();
+    assert!(desk.window.query_all_by_value(&normalised).next().is_some(), "shown as the certificate writes it");
+    assert!(!is_enabled(&desk.window, "Apply"), "the activation key is still empty");
+    type_into(&mut desk.window, "Activation key", "ＡBCD");
+    assert!(shows(&desk.window, "is neither a half-width letter nor a digit"));
+    let typed = keys.activation.to_string().to_lowercase();
+    type_into(&mut desk.window, "Activation key", &typed[..typed.len() - 1]);
+    assert!(shows(&desk.window, "23 of 24 letters and digits") && !is_enabled(&desk.window, "Apply"));
+    type_into(&mut desk.window, "Activation key", &typed);
+
+    desk.click("Apply");
+    assert!(shows(&desk.window, "The OPC UA server is stopped"));
+    assert!(!desk.activated(0), "nothing is sent before the confirmation");
+    desk.click("OK");
+    desk.wait_for("Completed");
+    assert!(shows(&desk.window, "1 done"));
+    desk.click("Close");
+    assert!(desk.activated(0));
+    assert!(desk.window.query_all_by_label("Yes").next().is_some(), "the row knows it");
+    assert!(desk.window.state().model.dialogs.is_empty());
+}
+
+#[test]
+fn many_are_activated_from_a_file_with_mistakes_that_are_shown_before_anything_is_sent() {
+    let mut desk = Desk::legacy(3);
+    // The second line is damaged, the third controller's is missing.
+    let file = desk.line(0) + &desk.line(1).replacen('-', "", 4).replacen(',', "!,", 2) + "OTHER1,x\n";
+    let stranger = "R7A9999999,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n";
+    fs::write(&desk.file, format!("OPCUA.Activation.Ver.1.0\r\n{file}{stranger}")).unwrap();
+
+    desk.click("Tick all");
+    choose(&mut desk.window, &["Server settings", "Activation…"]);
+    assert!(!is_enabled(&desk.window, "Read file"), "no file is named yet");
+
+    // A file that is not there, and one that is something else.
+    type_into(&mut desk.window, "File", "nowhere.csv");
+    desk.click("Read file");
+    desk.wait_for("The file cannot be read");
+    let wrong = desk.file.with_file_name("wrong.csv");
+    fs::write(&wrong, "Name,Type,Address\n").unwrap();
+    type_into(&mut desk.window, "File", &wrong.display().to_string());
+    desk.click("Read file");
+    desk.wait_for("the first line is not");
+
+    desk.click("Choose…");
+    desk.wait_for("Keys found for 1 of 3 controllers");
+    for part in ["Line 2", "Line 3: ", "Not in the file", "Line 4: it has 2 fields", "R7A9999999"] {
+        assert!(shows(&desk.window, part), "no {part:?} in the preview");
+    }
+    desk.click("Apply");
+    desk.click("OK");
+    desk.wait_for("Completed");
+    assert!(shows(&desk.window, "1 done, 2 failed"));
+    desk.click("Close");
+    assert_eq!([0, 1, 2].map(|index| desk.activated(index)), [true, false, false]);
+}
+
+#[test]
+fn current_firmware_is_not_activated_by_keys() {
+    let mut desk = Desk::open(|| Plant::start(2, FleetFirmware::Current), |plant| listed(plant, true));
+    desk.click("Server settings");
+    assert!(!is_enabled(&desk.window, "Activation…"), "nothing is ticked");
+    desk.window.key_press(egui::Key::Escape);
+    window::settle(&mut desk.window);
+    desk.click("Tick cell 1");
+    desk.click("Server settings");
+    assert!(!is_enabled(&desk.window, "Activation…"));
+}
+
+#[test]
+fn controllers_of_a_connection_list_are_imported_and_confirmed() {
+    let mut desk = Desk::open(|| Plant::start(3, FleetFirmware::Mixed), |_| Configuration::default());
+    // There is no list in the workspace yet: no failure, and a file can be chosen.
+    choose(&mut desk.window, &["Controller", "Get connection list…"]);
+    wait_until(&mut desk.window, PATIENCE, |window| is_enabled(window, "Read file"));
+    assert!(!shows(&desk.window, "The file cannot be read"));
+    desk.click("Cancel");
+
+    let at = |index: usize| desk.plant.controller(index).management_address().to_string();
+    let list = format!(
+        "Name,Type,Address\nweld,Ethernet,{}\n码垛,Ethernet,{}\nspare,Ethernet,10.0.0.9\nweld,Ethernet,10.0.0.8\n\
+         Service,USB,\nSimulator,Virtual,127.0.0.1\npress,Ethernet,10.0.0.999\n",
+        at(0),
+        at(1)
+    );
+    fs::write(desk.workspace.connection_list_path(), list).unwrap();
+    choose(&mut desk.window, &["Controller", "Get connection list…"]);
+    desk.wait_for("Import 3 of 3 controllers");
+    for part in ["Line 5", "the name also stands in line 2", "USB", "simulation", "10.0.0.999"] {
+        assert!(shows(&desk.window, part), "no {part:?} in the preview");
+    }
+    desk.click("spare");
+    desk.click("Import");
+    assert_eq!(desk.window.state().model.rows.all().len(), 2);
+    assert!(shows(&desk.window, "2 controllers added"));
+    assert_eq!(desk.window.query_all_by_label("Not confirmed").count(), 2);
+
+    // Nothing is sent to them until their fingerprints were compared.
+    desk.click("Tick weld");
+    desk.click("Tick 码垛");
+    desk.click("Get new information");
+    for index in [0, 1] {
+        let shown = desk.plant.controller(index).fingerprint().grouped().replace(':', " ");
+        desk.wait_for(&shown[..23]);
+        assert!(shows(&desk.window, &format!("{} of 2", index + 1)));
+        if index == 0 {
+            type_into(&mut desk.window, "Connection password", "wrong-password");
+            desk.click("It matches, go on");
+            desk.wait_for("The connection password is wrong");
+            desk.click("Try again");
+            desk.wait_for(&shown[..23]);
+            type_into(&mut desk.window, "Connection password", plant::PASSWORD);
+        }
+        desk.click("It matches, go on");
+    }
+    wait_until(&mut desk.window, PATIENCE, |window| window.state().model.dialogs.is_empty());
+    assert!(!shows(&desk.window, "Not confirmed"));
+    wait_until(&mut desk.window, PATIENCE, |window| {
+        window.state().model.rows.all().iter().all(|row| row.entry.last.is_some())
+    });
+    let saved = || desk.workspace.load().unwrap().configuration.controllers;
+    let end = std::time::Instant::now() + PATIENCE;
+    while saved().iter().any(|entry| entry.fingerprint.is_none()) {
+        assert!(std::time::Instant::now() < end, "never saved");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    desk.click("Controller");
+    assert!(!is_enabled(&desk.window, "Confirm identity…"), "there is nobody left to confirm");
+}
+
+#[test]
+fn a_desktop_without_a_file_dialog_says_what_to_do_instead() {
+    let mut desk = Desk::legacy(2);
+    let picker = Arc::new(FixedPicker(Err(ErrorCode::NoFilePicker.into())));
+    let folder = tempfile::tempdir().unwrap();
+    let workspace = Workspace::new(folder.path());
+    let backend = BackendOptions {
+        workspace: workspace.clone(),
+        lock: workspace.lock().unwrap(),
+        passwords: desk.plant.passwords.clone(),
+        connector: Arc::new(desk.plant.connector),
+        starter: None,
+        picker,
+    };
+    let backend = TokioBackend::new(backend, || {}).unwrap();
+    desk.window = window_in(workspace, backend, listed(&desk.plant, false), SIZE);
+    desk.click("Tick all");
+    choose(&mut desk.window, &["Server settings", "Activation…"]);
+    desk.click("Choose…");
+    desk.wait_for("Type the path of the file into the field");
+
+    // Their serial numbers are not known yet; the file is looked into when they are reached.
+    let file = desk.line(0) + &desk.line(1);
+    fs::write(folder.path().join("keys.csv"), format!("OPCUA.Activation.Ver.1.0\n{file}")).unwrap();
+    type_into(&mut desk.window, "File", "keys.csv");
+    desk.click("Read file");
+    desk.wait_for("Not read yet, looked up");
+    desk.click("Apply");
+    desk.click("OK");
+    desk.wait_for("2 done");
+    assert!(desk.activated(0) && desk.activated(1));
+}
