@@ -134,7 +134,6 @@ impl UiCommand {
             | Self::UserSpecified
             | Self::CaSigned
             | Self::ExportSelfSigned
-            | Self::TypeSelect
             | Self::ClientLists
             | Self::Crl
             | Self::CertificateAuthority
@@ -145,7 +144,8 @@ impl UiCommand {
             | Self::GetInfo
             | Self::BasicSettings
             | Self::Users
-            | Self::SelfSigned => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            | Self::SelfSigned
+            | Self::TypeSelect => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
             Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
             Self::AddController | Self::Quit | Self::Backup | Self::Options | Self::Shortcuts | Self::About => None,
         }

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use super::{Purpose, RowId, Task};
+use super::{Purpose, RowId, Task, TypeSelectForm};
 use crate::jobs::Confirmation;
 use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
 use crate::pki::Fingerprint;
@@ -17,6 +17,7 @@ pub enum Dialog {
     Users(UsersForm),
     AddUser(AddUserForm),
     SelfSigned(SelfSignedForm),
+    TypeSelect(TypeSelectForm),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -25,9 +26,14 @@ pub enum Dialog {
 }
 
 impl Dialog {
+    /// A form whose work is done once what it asks for was agreed to.
+    pub(super) const fn is_done_by_confirming(&self) -> bool {
+        matches!(self, Self::Settings(_) | Self::AddUser(_) | Self::SelfSigned(_) | Self::TypeSelect(_))
+    }
+
     /// A form that may wait for what is in a controller. At most one is open.
     pub(super) fn is_form(&self) -> bool {
-        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_))
+        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_) | Self::TypeSelect(_))
     }
 }
 

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use super::RowId;
 use crate::jobs::{self, Operation, SelfSignedFields, Step, Summary};
-use crate::model::{ErrorCode, Problem};
+use crate::model::{CertificateType, ErrorCode, Problem};
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
 
@@ -22,6 +22,9 @@ pub enum Task {
     AddUser(jobs::AddUser),
     RemoveUsers(jobs::RemoveUsers),
     SelfSigned { fields: SelfSignedFields, backup: bool },
+    // server certificates
+    ListCertificates,
+    SelectType(CertificateType),
 }
 
 impl Task {
@@ -39,6 +42,8 @@ impl Task {
                 fields: fields.clone(),
                 backup: backup.then(|| workspace.certificate_files()),
             }),
+            Self::ListCertificates => Arc::new(jobs::ListCertificates),
+            Self::SelectType(kind) => Arc::new(jobs::SelectCertificateType(*kind)),
         }
     }
 
@@ -52,6 +57,7 @@ impl Task {
             Self::AddUser(_) => TextKey::AddUserTitle,
             Self::RemoveUsers(_) => TextKey::DeleteUsers,
             Self::SelfSigned { .. } => TextKey::SelfSignedTitle,
+            Self::ListCertificates | Self::SelectType(_) => TextKey::TypeSelectTitle,
         }
     }
 
@@ -72,6 +78,8 @@ pub enum Purpose {
     /// How many users there are, for a warning; nobody minds if it fails.
     CountUsers,
     LoadPolicies,
+    /// What each of several controllers holds; one that cannot be asked does not keep the others out.
+    LoadCertificates,
 }
 
 /// Where a job is with one controller.

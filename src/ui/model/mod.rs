@@ -1,5 +1,6 @@
 //! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
 
+mod certificates;
 mod dialog;
 mod forms;
 mod job;
@@ -14,6 +15,7 @@ use std::collections::BTreeMap;
 
 use chrono::{DateTime, Utc};
 
+pub use certificates::{Held, TypeSelectForm};
 pub use dialog::{
     AddController, AddStage, AddUserForm, Dialog, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm, Typed,
     UsersForm,

@@ -84,6 +84,7 @@ impl Model {
             UiCommand::BasicSettings => return self.open_settings(ticked),
             UiCommand::Users => return self.open_users(ticked),
             UiCommand::SelfSigned => return self.open_self_signed(ticked),
+            UiCommand::TypeSelect => return self.open_type_select(ticked),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -193,6 +194,7 @@ impl Model {
                 let purpose = job.purpose;
                 let Some(row) = job.rows.get_mut(index) else { return vec![] };
                 let Report { result, info } = *report;
+                let answer = (purpose == Purpose::LoadCertificates).then(|| result.clone());
                 let (state, outcome) = match result {
                     Ok(outcome) => (RowState::Done, Some(outcome)),
                     Err(problem) if problem.code == ErrorCode::Cancelled => (RowState::NotStarted, None),
@@ -207,6 +209,9 @@ impl Model {
                 }
                 if let Some(info) = info {
                     self.rows.set_info(id, info, self.now);
+                }
+                if let Some(answer) = answer {
+                    self.certificates_loaded(id, answer);
                 }
                 match outcome {
                     Some(outcome) => self.loaded(purpose, outcome),
@@ -240,6 +245,7 @@ impl Model {
                 }
             }
             Purpose::CountUsers => self.job = None,
+            Purpose::LoadCertificates => self.certificates_ended(),
             Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies => {
                 let problem =
                     self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));

@@ -96,8 +96,7 @@ impl Model {
             }
             Dialog::Confirm { task, rows, .. } => {
                 // The form that asked for it has done its work.
-                if matches!(self.dialogs.last(), Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_)))
-                {
+                if self.dialogs.last().is_some_and(Dialog::is_done_by_confirming) {
                     self.dialogs.pop();
                 }
                 self.start(task, rows, Purpose::Show, None)
@@ -114,6 +113,10 @@ impl Model {
                 let backup = self.options.backup;
                 let planned = form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
                 self.ask(Dialog::SelfSigned(form), planned)
+            }
+            Dialog::TypeSelect(form) => {
+                let planned = form.task().map(|task| (task, form.rows.clone()));
+                self.ask(Dialog::TypeSelect(form), planned)
             }
             Dialog::Backup { on } => {
                 self.options.backup = on;
@@ -146,6 +149,12 @@ impl Model {
                 form.stage = AddStage::Form;
                 if waiting { self.cancel_last() } else { vec![] }
             }
+            Some(Dialog::Password(form)) if form.purpose == Purpose::LoadCertificates => {
+                // The others have answered.
+                self.dialogs.pop();
+                self.certificates_ended();
+                vec![]
+            }
             Some(Dialog::Password(form)) => {
                 let loading = form.purpose != Purpose::Show;
                 self.dialogs.pop();
@@ -159,7 +168,7 @@ impl Model {
                 }
                 vec![]
             }
-            Some(Dialog::Settings(_) | Dialog::Users(_) | Dialog::SelfSigned(_)) => {
+            Some(dialog) if dialog.is_form() => {
                 self.dialogs.pop();
                 self.drop_job()
             }
@@ -314,7 +323,7 @@ impl Model {
     }
 
     /// The form about controllers that is open, whatever is on top of it.
-    fn form(&mut self) -> Option<&mut Dialog> {
+    pub(super) fn form(&mut self) -> Option<&mut Dialog> {
         self.dialogs.iter_mut().rev().find(|dialog| dialog.is_form())
     }
 

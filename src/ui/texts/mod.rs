@@ -263,6 +263,14 @@ texts! {
     Validity: "Validity (years)", "有效期(年)";
     Optional: "optional", "可选";
 
+    // type select
+    TypeSelectTitle: "Type select", "类型选择";
+    TypeSelectText: "The server shows this certificate to its clients", "服务器向客户端出示所选类型的证书";
+    TypeSelectRule: "Choose a certificate type", "请选择证书类型";
+    TypeSelectLegacy: "User-specified certificates exist on firmware before 8.0.0 only", "用户指定证书仅适用于 8.0.0 之前的固件";
+    TypeInUse: "in use", "使用中";
+    TypeNotStored: "Not stored in the controller", "控制器中未保存";
+
     // backup
     BackupTitle: "Backup", "备份";
     BackupOn: "Keep copies of certificates made here", "保留在此创建的证书副本";
