@@ -131,9 +131,6 @@ impl UiCommand {
             | Self::Activation
             | Self::ExportSettings
             | Self::ImportSettings
-            | Self::UserSpecified
-            | Self::CaSigned
-            | Self::ExportSelfSigned
             | Self::ClientLists
             | Self::Crl
             | Self::CertificateAuthority
@@ -145,7 +142,14 @@ impl UiCommand {
             | Self::BasicSettings
             | Self::Users
             | Self::SelfSigned
+            | Self::CaSigned
+            | Self::ExportSelfSigned
             | Self::TypeSelect => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            Self::UserSpecified => match model.rows.ticked()[..] {
+                [] => Some(T::WhyTick),
+                [row] => model.any_current(&[row]).then_some(T::WhyUserLegacy),
+                _ => Some(T::WhyUserOne),
+            },
             Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
             Self::AddController | Self::Quit | Self::Backup | Self::Options | Self::Shortcuts | Self::About => None,
         }

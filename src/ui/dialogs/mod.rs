@@ -2,14 +2,18 @@
 
 mod about;
 mod add_controller;
+mod ca_signed;
 mod confirm;
 mod error;
+mod export_self_signed;
+mod import_review;
 mod options;
 mod password;
 mod processing;
 mod self_signed;
 mod settings;
 mod type_select;
+mod user_specified;
 mod users;
 
 use egui::{Key, Modifiers, Ui};
@@ -61,6 +65,10 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::AddUser(form) => users::add(ui, form, focus, model),
         Dialog::SelfSigned(form) => self_signed::show(ui, form, model),
         Dialog::TypeSelect(form) => type_select::show(ui, form, model),
+        Dialog::ExportSelfSigned(form) => export_self_signed::show(ui, form, model),
+        Dialog::CaSigned(form) => ca_signed::show(ui, form, model, messages),
+        Dialog::UserSpecified(form) => user_specified::show(ui, form, focus, model),
+        Dialog::ImportReview(review) => import_review::show(ui, review, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

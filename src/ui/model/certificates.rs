@@ -1,13 +1,24 @@
 //! The dialogs about the server certificates a controller holds, what they ask for, and what arrives for them.
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use super::{Dialog, Model, Purpose, RowId, Task};
 use crate::jobs::Outcome;
-use crate::model::{CertificateSummary, CertificateType, FirmwareGeneration, Problem};
+use crate::model::{CertificateSummary, CertificateType, FileFormat, FirmwareGeneration, Problem, SerialNumber};
 use crate::pki::Certificate;
 use crate::protocol::HeldCertificates;
 use crate::ui::backend::Command;
+use crate::ui::texts::TextKey;
+use crate::workspace::CertificateFiles;
+
+/// Where the self-signed certificates are saved, and how (manual 2.7.1.3).
+#[derive(Debug)]
+pub struct ExportForm {
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    pub format: FileFormat,
+}
 
 /// Which certificate the server uses (manual 2.7.2).
 #[derive(Debug)]
@@ -80,6 +91,26 @@ impl Model {
     pub fn offered_types(&self, rows: &[RowId]) -> impl Iterator<Item = CertificateType> + use<> {
         let any_current = self.any_current(rows);
         CertificateType::ALL.into_iter().filter(move |kind| *kind != CertificateType::UserSpecified || !any_current)
+    }
+
+    /// A folder of the one controller, or what the folders of several look like.
+    pub fn folder_of(
+        &self,
+        rows: &[RowId],
+        of: impl Fn(&CertificateFiles, &SerialNumber) -> PathBuf,
+        kind: &str,
+    ) -> PathBuf {
+        let info = match rows {
+            [row] => self.rows.get(*row).and_then(|row| row.info()),
+            _ => None,
+        };
+        match info {
+            Some(info) => of(&self.workspace.certificate_files(), &info.serial),
+            None => {
+                let serial = format!("<{}>", TextKey::SerialFolder.text(self.language));
+                self.workspace.root().join(serial).join("Cert").join(kind)
+            }
+        }
     }
 
     pub(super) fn open_type_select(&mut self, rows: Vec<RowId>) -> Vec<Command> {

@@ -1,8 +1,10 @@
 use std::collections::BTreeSet;
 
-use super::{Purpose, RowId, Task, TypeSelectForm};
+use super::{CaSignedForm, ExportForm, ImportReview, Purpose, RowId, Task, TypeSelectForm, UserSpecifiedForm};
 use crate::jobs::Confirmation;
-use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
+use crate::model::{
+    ControllerSeries, FileFormat, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy,
+};
 use crate::pki::Fingerprint;
 
 /// A dialog with whatever is typed into it.
@@ -18,6 +20,10 @@ pub enum Dialog {
     AddUser(AddUserForm),
     SelfSigned(SelfSignedForm),
     TypeSelect(TypeSelectForm),
+    ExportSelfSigned(ExportForm),
+    CaSigned(CaSignedForm),
+    UserSpecified(UserSpecifiedForm),
+    ImportReview(ImportReview),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -28,7 +34,19 @@ pub enum Dialog {
 impl Dialog {
     /// A form whose work is done once what it asks for was agreed to.
     pub(super) const fn is_done_by_confirming(&self) -> bool {
-        matches!(self, Self::Settings(_) | Self::AddUser(_) | Self::SelfSigned(_) | Self::TypeSelect(_))
+        matches!(
+            self,
+            Self::Settings(_)
+                | Self::AddUser(_)
+                | Self::SelfSigned(_)
+                | Self::TypeSelect(_)
+                | Self::ExportSelfSigned(_)
+        )
+    }
+
+    /// A dialog whose job ends with it.
+    pub(super) fn has_a_job(&self) -> bool {
+        self.is_form() || matches!(self, Self::CaSigned(_) | Self::UserSpecified(_))
     }
 
     /// A form that may wait for what is in a controller. At most one is open.
@@ -131,7 +149,7 @@ pub struct AddUserForm {
     pub show_password: bool,
 }
 
-/// A self-signed server certificate (manual 2.7.1.2).
+/// A self-signed server certificate (manual 2.7.1.2), or the request for one that a CA signs (2.7.1.5).
 #[derive(Debug)]
 pub struct SelfSignedForm {
     pub rows: Vec<RowId>,
@@ -147,7 +165,10 @@ pub struct SelfSignedForm {
     pub organisation: String,
     pub key_length: KeyLength,
     pub offered: Vec<KeyLength>,
+    /// Of a self-signed certificate.
     pub years: u8,
+    /// It is a request, to be saved in this format.
+    pub request: Option<FileFormat>,
 }
 
 /// A secret while it is typed: not shown by `Debug`, wiped when the dialog closes.

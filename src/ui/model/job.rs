@@ -1,8 +1,9 @@
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::RowId;
-use crate::jobs::{self, Operation, SelfSignedFields, Step, Summary};
-use crate::model::{CertificateType, ErrorCode, Problem};
+use super::{ImportSource, RowId};
+use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
+use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
 
@@ -25,6 +26,10 @@ pub enum Task {
     // server certificates
     ListCertificates,
     SelectType(CertificateType),
+    ExportSelfSigned(FileFormat),
+    CreateCsr { fields: CsrFields, format: FileFormat, backup: bool },
+    Check(ImportSource),
+    Import { source: ImportSource, accept_warnings: bool },
 }
 
 impl Task {
@@ -44,6 +49,17 @@ impl Task {
             }),
             Self::ListCertificates => Arc::new(jobs::ListCertificates),
             Self::SelectType(kind) => Arc::new(jobs::SelectCertificateType(*kind)),
+            Self::ExportSelfSigned(format) => {
+                Arc::new(jobs::ExportSelfSigned { format: *format, files: workspace.certificate_files() })
+            }
+            Self::CreateCsr { fields, format, backup } => Arc::new(jobs::CreateCsr {
+                fields: fields.clone(),
+                format: *format,
+                files: workspace.certificate_files(),
+                backup: *backup,
+            }),
+            Self::Check(source) => source.check(workspace),
+            Self::Import { source, accept_warnings } => source.import(*accept_warnings, workspace),
         }
     }
 
@@ -58,6 +74,9 @@ impl Task {
             Self::RemoveUsers(_) => TextKey::DeleteUsers,
             Self::SelfSigned { .. } => TextKey::SelfSignedTitle,
             Self::ListCertificates | Self::SelectType(_) => TextKey::TypeSelectTitle,
+            Self::ExportSelfSigned(_) => TextKey::ExportSelfSignedTitle,
+            Self::CreateCsr { .. } => TextKey::CsrTitle,
+            Self::Check(source) | Self::Import { source, .. } => source.title(),
         }
     }
 
@@ -80,6 +99,8 @@ pub enum Purpose {
     LoadPolicies,
     /// What each of several controllers holds; one that cannot be asked does not keep the others out.
     LoadCertificates,
+    /// Certificates from elsewhere are looked at before their import; likewise.
+    Check,
 }
 
 /// Where a job is with one controller.
@@ -120,6 +141,8 @@ pub struct JobRow {
     pub row: RowId,
     pub name: String,
     pub state: RowState,
+    /// What was asked for and is on this computer now.
+    pub saved: Option<PathBuf>,
 }
 
 /// A job, running or ended.

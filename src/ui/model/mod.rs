@@ -3,6 +3,7 @@
 mod certificates;
 mod dialog;
 mod forms;
+mod import;
 mod job;
 mod reduce;
 mod reduce_dialogs;
@@ -15,11 +16,12 @@ use std::collections::BTreeMap;
 
 use chrono::{DateTime, Utc};
 
-pub use certificates::{Held, TypeSelectForm};
+pub use certificates::{ExportForm, Held, TypeSelectForm};
 pub use dialog::{
     AddController, AddStage, AddUserForm, Dialog, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm, Typed,
     UsersForm,
 };
+pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, UserFiles, UserSpecifiedForm};
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
@@ -81,6 +83,8 @@ pub enum Message {
     DeleteUsers,
     /// Open the dialog for one more user.
     NewUser,
+    /// Open the dialog for a certificate signing request.
+    NewCsr,
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.

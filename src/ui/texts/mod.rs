@@ -102,6 +102,8 @@ texts! {
     // why something is disabled
     WhyTick: "Tick at least one controller first", "请先勾选至少一台控制器";
     WhyLater: "Comes in a later version", "将在后续版本中提供";
+    WhyUserOne: "For one controller at a time: tick only that one", "仅可用于一台控制器，请只勾选一台";
+    WhyUserLegacy: "Only for firmware before 8.0.0", "仅适用于 8.0.0 之前的固件";
     WhyEmpty: "The list is empty", "列表为空";
     WhyVirtual: "Not available in this build", "此版本不可用";
 
@@ -197,7 +199,7 @@ texts! {
     StepRead: "Reading", "正在读取";
     StepMakeKey: "Making key", "正在生成密钥";
     StepApply: "Applying", "正在应用";
-    StepSaveBackup: "Saving backup", "正在保存备份";
+    StepSaveBackup: "Saving files", "正在保存文件";
     Completed: "Completed", "处理完成";
     Stopped: "Stopped", "已中止";
     CancelAsk: "Stop after the step in hand? What is done stays done.", "是否在当前步骤完成后中止？已完成的处理将保留。";
@@ -262,6 +264,45 @@ texts! {
     KeyLengthMany: "Controllers whose security policies do not allow it refuse this length", "安全策略不允许该长度的控制器将拒绝";
     Validity: "Validity (years)", "有效期(年)";
     Optional: "optional", "可选";
+
+    // certificate files
+    ExportSelfSignedTitle: "Export self-signed certificate", "导出自签名证书";
+    Export: "Export", "导出";
+    FileFormat: "File format", "文件格式";
+    GoesTo: "Goes to", "保存位置";
+    SavedIn: "Saved in", "已保存到";
+    CaSignedTitle: "CA-signed certificate", "CA 签名证书";
+    CsrTitle: "Certificate signing request", "证书签名请求 (CSR)";
+    CsrCard: "1. Create CSR", "1. 创建 CSR";
+    CsrText: "Makes a new key and its signing request. Send the file in this folder to your CA.", "创建新密钥及其签名请求。请将该文件夹中的文件发送给 CA。";
+    CreateCsr: "Create CSR…", "创建 CSR…";
+    CreateAndSave: "Create and save", "创建与保存";
+    ImportCard: "2. Import certificate", "2. 导入证书";
+    ImportText: "Put the certificate from the CA into this folder: exactly one .der file, named with letters, digits and underscores.", "请将 CA 颁发的证书保存到该文件夹：仅一个 .der 文件，文件名使用半角字母、数字和下划线。";
+    ImportTextMany: "Put the certificate from the CA into the folder of each controller: exactly one .der file, named with letters, digits and underscores.", "请将 CA 颁发的证书保存到每台控制器的文件夹：仅一个 .der 文件，文件名使用半角字母、数字和下划线。";
+    CertificateFile: "Certificate file", "证书文件";
+    KeyFile: "Key file", "私钥文件";
+    PfxFile: "File", "文件";
+    FileHint: "Empty: the one in the folder", "留空则使用文件夹中的文件";
+    Folder: "Folder", "文件夹";
+    Import: "Import…", "导入…";
+    Checking: "Checking…", "正在检查…";
+    UserSpecifiedTitle: "User-specified certificate", "用户指定证书";
+    UserKind: "Kind", "类型";
+    UserKindPfx: "Certificate with encrypted key (.pfx)", "带加密密钥的证书 (.pfx)";
+    UserKindPair: "Certificate and key (.der, .key)", "证书/私钥 (.der、.key)";
+    UserFilePassword: "Password of the file", "文件密码";
+    UserKeyPassword: "Password of the key", "私钥密码";
+    UserKeyPasswordHint: "Empty if it is not encrypted", "未加密时留空";
+    UserFilesRule: "Give both files, or neither to use those in the folder", "请同时指定两个文件，或都留空以使用文件夹中的文件";
+    UserPathRule: "Give the file, or get new information first", "请指定文件，或先获取新信息";
+    ConfirmReplacesImport: "The certificate of this type in the controller is replaced, and the server uses the new one.", "将覆盖控制器中该类型的证书，服务器将使用新证书。";
+    ImportAnyway: "Import anyway", "仍然导入";
+    NothingToImport: "None of these can be imported", "没有可以导入的证书";
+    ImportRefused: "Not imported", "不导入";
+    FindingNone: "Nothing found that clients could complain about", "未发现客户端可能提示的问题";
+    Warning: "Warning", "警告";
+    SerialFolder: "serial number", "控制器序列号";
 
     // type select
     TypeSelectTitle: "Type select", "类型选择";

@@ -210,6 +210,25 @@ pub fn type_lacking(language: Language, names: &[&str]) -> String {
     }
 }
 
+pub fn importable(language: Language, count: usize, all: usize) -> String {
+    match language {
+        Language::En => format!("{count} of {} can be imported", certificates(all)),
+        Language::Zh => format!("{all} 个证书中有 {count} 个可以导入"),
+    }
+}
+
+fn certificates(count: usize) -> String {
+    format!("{count} certificate{}", s(count))
+}
+
+/// What was found of a certificate, after its severity.
+pub fn finding(language: Language, severity: T, explained: &str) -> String {
+    match language {
+        Language::En => format!("{}: {explained}", severity.text(language)),
+        Language::Zh => format!("{}：{explained}", severity.text(language)),
+    }
+}
+
 pub const fn status(status: ServerStatus) -> T {
     match status {
         ServerStatus::Run => T::StatusRun,
