@@ -471,8 +471,8 @@ fn users_are_deleted_from_the_list() {
 fn commands_of_later_versions_say_so() {
     let desk = Desk::with_controllers(1, FleetFirmware::Current);
     let mut window = desk.window;
-    click(&mut window, "Certificate");
-    let item = window.get_by_label("Type select…");
+    click(&mut window, "Tools");
+    let item = window.get_by_label("Verify…");
     assert!(item.accesskit_node().is_disabled());
     item.hover();
     for _ in 0..60 {

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use async_trait::async_trait;
 
 use super::{Confirmation, JobController, Operation, Outcome, Run, Step, preflight};
-use crate::model::{ErrorCode, Problem, SerialNumber};
+use crate::model::{ControllerInfo, ErrorCode, Problem, SerialNumber};
 use crate::pki::{Certificate, Csr, MAX_CERTIFICATE_FILE_BYTES};
 use crate::protocol::{Base64Bytes, ImportCaSigned};
 use crate::workspace::{CertificateFiles, read_import_file};
@@ -41,6 +41,21 @@ fn read(path: &Path) -> Result<Certificate, Problem> {
         .map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", path.display())))
 }
 
+/// The certificate, if it is for the CSR the controller holds.
+async fn read_for_csr(
+    source: &CaCertificateSource,
+    run: &mut Run<'_>,
+    info: &ControllerInfo,
+) -> Result<Certificate, Problem> {
+    let certificate = source.read(&info.serial)?;
+    let held = run.session.certificates().await?;
+    let csr = held.value.csr.ok_or(ErrorCode::NoCsr)?;
+    if !Csr::from_der(&csr.0)?.matches(&certificate) {
+        return Err(ErrorCode::CsrMismatch.into());
+    }
+    Ok(certificate)
+}
+
 /// Imports what a CA issued for the CSR the controller holds, and selects it (manual 2.7.1.5).
 ///
 /// Refused before anything is sent: a certificate for another CSR, and one that clients would refuse
@@ -68,12 +83,7 @@ impl Operation for ImportCaCertificate {
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
-        let certificate = self.source.read(&info.serial)?;
-        let held = run.session.certificates().await?;
-        let csr = held.value.csr.ok_or(ErrorCode::NoCsr)?;
-        if !Csr::from_der(&csr.0)?.matches(&certificate) {
-            return Err(ErrorCode::CsrMismatch.into());
-        }
+        let certificate = read_for_csr(&self.source, run, &info).await?;
         let findings = preflight::admit(run, &info, &certificate, self.accept_warnings).await?;
         run.begin(Step::Apply)?;
         let change = ImportCaSigned { revision: info.revision, certificate: Base64Bytes(certificate.der().to_vec()) };
@@ -95,7 +105,7 @@ impl Operation for CheckCaCertificate {
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
-        let certificate = self.0.read(&info.serial)?;
+        let certificate = read_for_csr(&self.0, run, &info).await?;
         let findings = preflight::examine(run, &info, &certificate).await?;
         Ok(Outcome::Checked { summary: certificate.summary(), findings })
     }

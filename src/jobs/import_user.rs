@@ -22,6 +22,10 @@ pub enum UserCertificateFiles {
         certificate: PathBuf,
         key: PathBuf,
     },
+    /// The only `.pfx` in a controller's folder, found when it is read.
+    PfxIn(CertificateFiles, SerialNumber),
+    /// The only pair in a controller's folder, found when it is read.
+    PairIn(CertificateFiles, SerialNumber),
 }
 
 impl UserCertificateFiles {
@@ -39,8 +43,11 @@ impl UserCertificateFiles {
     ///
     /// The password is that of the PKCS#12 or of the key; a key that is not encrypted needs none.
     pub fn read(&self, password: Option<&SecretString>) -> Result<(PrivateKey, Certificate), Problem> {
+        let given = password;
         let password = password.map(|password| password.expose_secret());
         match self {
+            Self::PfxIn(files, serial) => Self::pfx_in(files, serial)?.read(given),
+            Self::PairIn(files, serial) => Self::pair_in(files, serial)?.read(given),
             Self::Pfx(path) => {
                 let bytes = read_import_file(path, MAX_PKCS12_BYTES)?;
                 let (key, chain) = pkcs12_read(&bytes, password.unwrap_or_default()).map_err(|e| at(path, e))?;

@@ -132,10 +132,6 @@ impl UiCommand {
         match self {
             Self::ExportSettings
             | Self::ImportSettings
-            | Self::UserSpecified
-            | Self::CaSigned
-            | Self::ExportSelfSigned
-            | Self::TypeSelect
             | Self::ClientLists
             | Self::Crl
             | Self::CertificateAuthority
@@ -146,7 +142,15 @@ impl UiCommand {
             | Self::GetInfo
             | Self::BasicSettings
             | Self::Users
-            | Self::SelfSigned => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            | Self::SelfSigned
+            | Self::CaSigned
+            | Self::ExportSelfSigned
+            | Self::TypeSelect => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            Self::UserSpecified => match model.rows.ticked()[..] {
+                [] => Some(T::WhyTick),
+                [row] => model.any_current(&[row]).then_some(T::WhyUserLegacy),
+                _ => Some(T::WhyUserOne),
+            },
             Self::ConfirmIdentity if model.rows.ticked_count() == 0 => Some(T::WhyTick),
             Self::ConfirmIdentity => model.ticked_unconfirmed().next().is_none().then_some(T::WhyConfirmed),
             Self::Activation if model.rows.ticked_count() == 0 => Some(T::WhyTick),

@@ -7,7 +7,7 @@ use crate::model::{ErrorCode, FileFormat, Problem, SerialNumber};
 use crate::pki::{Certificate, Csr, PrivateKey, pkcs12_write, pkcs12_write_key};
 
 /// The certificates kept on the PC, one folder a controller (manual appendix B-1).
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CertificateFiles {
     root: PathBuf,
 }

@@ -3,15 +3,20 @@
 mod about;
 mod activation;
 mod add_controller;
+mod ca_signed;
 mod confirm;
 mod connection_list;
 mod error;
+mod export_self_signed;
 mod file;
+mod import_review;
 mod options;
 mod password;
 mod processing;
 mod self_signed;
 mod settings;
+mod type_select;
+mod user_specified;
 mod users;
 
 use egui::{Key, Modifiers, Ui};
@@ -64,6 +69,11 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::SelfSigned(form) => self_signed::show(ui, form, model),
         Dialog::Activation(form) => activation::show(ui, form, focus, model, messages),
         Dialog::ConnectionList(form) => connection_list::show(ui, form, focus, model, messages),
+        Dialog::TypeSelect(form) => type_select::show(ui, form, model),
+        Dialog::ExportSelfSigned(form) => export_self_signed::show(ui, form, model),
+        Dialog::CaSigned(form) => ca_signed::show(ui, form, model, messages),
+        Dialog::UserSpecified(form) => user_specified::show(ui, form, focus, model),
+        Dialog::ImportReview(review) => import_review::show(ui, review, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

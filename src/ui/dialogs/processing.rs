@@ -4,7 +4,7 @@ use super::error;
 use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, chip, dialog, note};
+use crate::ui::widgets::{Answer, Buttons, chip, dialog, note, path_line};
 
 /// Each controller's progress and result; at the end the sum of it.
 pub fn show(ui: &Ui, view: &mut ProcessingView, model: &Model, messages: &mut Vec<Message>) -> Answer {
@@ -26,6 +26,9 @@ pub fn show(ui: &Ui, view: &mut ProcessingView, model: &Model, messages: &mut Ve
         bar(ui, job, model);
         cancelling(ui, job, model, messages);
         list(ui, view, job, model);
+        if ended {
+            saved(ui, job, model);
+        }
         if let Some(problem) = view.selected.and_then(|at| job.rows.get(at)).and_then(|row| row.state.problem()) {
             ui.add_space(theme::SPACE);
             note(ui, palette(ui).error, |ui| {
@@ -58,6 +61,19 @@ fn bar(ui: &mut Ui, job: &Job, model: &Model) {
     };
     ui.label(RichText::new(said).color(palette.weak));
     ui.add_space(theme::SPACE);
+}
+
+/// The folder of what was saved: the controller's own, or for several the one that holds theirs.
+fn saved(ui: &mut Ui, job: &Job, model: &Model) {
+    let mut files = job.rows.iter().filter_map(|row| row.saved.as_deref());
+    let Some(first) = files.next() else { return };
+    let folder = match (files.next(), first.parent()) {
+        (None, Some(folder)) => folder,
+        _ => model.workspace.root(),
+    };
+    ui.add_space(theme::SPACE);
+    ui.label(RichText::new(T::SavedIn.text(model.language)).size(theme::SMALL_TEXT).color(palette(ui).weak));
+    path_line(ui, folder, model.language);
 }
 
 fn cancelling(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {
@@ -140,6 +156,9 @@ fn row(ui: &mut Ui, view: &mut ProcessingView, index: usize, row: &JobRow, model
     cell(&mut ui, 120.0, &mut |ui| drop(chip(ui, key.text(language), color)));
     if let Some(problem) = row.state.problem() {
         ui.add(Label::new(RichText::new(problem.code.explain(language).message).color(palette.error)).truncate());
+    } else if let Some(file) = &row.saved {
+        let shown = file.strip_prefix(model.workspace.root()).unwrap_or(file).display().to_string();
+        ui.add(Label::new(RichText::new(shown).size(theme::SMALL_TEXT).color(palette.weak)).truncate());
     }
     if response.clicked() && row.state.problem().is_some() {
         view.selected = Some(index);

@@ -4,22 +4,33 @@ use crate::model::{COUNTRIES, Country, Language, Validity};
 use crate::ui::model::{Model, SelfSignedForm};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, text_field};
+use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, note, text_field};
 
-/// A self-signed server certificate for one controller or many (manual 2.7.1.2).
+/// A self-signed server certificate for one controller or many (manual 2.7.1.2), or the request for one that a CA
+/// signs (2.7.1.5).
 pub fn show(ui: &Ui, certificate: &mut SelfSignedForm, model: &Model) -> Answer {
     let text = |key: T| key.text(model.language);
-    let why = match certificate.fields() {
+    let why = match certificate.task(false) {
         Some(_) => None,
         None if certificate.reading => Some(T::Reading),
         None => ["common name", "state", "locality", "organisation"].iter().find_map(|field| certificate.error(field)),
     };
-    let buttons = Buttons { submit: Some((text(T::Apply), why.map(text))), close: Some(text(T::Cancel)) };
-    let title = texts::title_for(model.language, T::SelfSignedTitle, &certificate.names);
+    let (title, submit) = match certificate.request {
+        None => (T::SelfSignedTitle, T::Apply),
+        Some(_) => (T::CsrTitle, T::CreateAndSave),
+    };
+    let buttons = Buttons { submit: Some((text(submit), why.map(text))), close: Some(text(T::Cancel)) };
+    let title = texts::title_for(model.language, title, &certificate.names);
     dialog(ui, "self-signed", &title, theme::DIALOG, buttons, |ui| {
         if certificate.reading {
             ui.label(RichText::new(text(T::Reading)).color(palette(ui).weak));
             return;
+        }
+        if certificate.request.is_some() {
+            note(ui, palette(ui).warning, |ui| {
+                ui.add(egui::Label::new(text(T::ConfirmInvalidatesCaSigned)).wrap());
+            });
+            ui.add_space(theme::SPACE);
         }
         form(ui, "self-signed", |ui| fields(ui, certificate, model));
     })
@@ -67,6 +78,13 @@ fn fields(ui: &mut Ui, certificate: &mut SelfSignedForm, model: &Model) {
         }
         None
     });
+    if let Some(format) = &mut certificate.request {
+        labelled(ui, text(T::FileFormat), |ui| {
+            super::export_self_signed::format(ui, format);
+            None
+        });
+        return;
+    }
     labelled(ui, text(T::Validity), |ui| {
         Some(ui.add(DragValue::new(&mut certificate.years).range(Validity::MIN_YEARS..=Validity::MAX_YEARS)))
     });

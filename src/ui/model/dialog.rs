@@ -1,8 +1,13 @@
 use std::collections::BTreeSet;
 
-use super::{ActivationForm, ConnectionListForm, FileForm, KeysForm, Purpose, RowId, Task};
+use super::{
+    ActivationForm, CaSignedForm, ConnectionListForm, ExportForm, FileForm, ImportReview, KeysForm, Purpose, RowId,
+    Task, TypeSelectForm, UserSpecifiedForm,
+};
 use crate::jobs::Confirmation;
-use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
+use crate::model::{
+    ControllerSeries, FileFormat, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy,
+};
 use crate::pki::Fingerprint;
 
 /// A dialog with whatever is typed into it.
@@ -19,6 +24,11 @@ pub enum Dialog {
     SelfSigned(SelfSignedForm),
     Activation(ActivationForm),
     ConnectionList(ConnectionListForm),
+    TypeSelect(TypeSelectForm),
+    ExportSelfSigned(ExportForm),
+    CaSigned(CaSignedForm),
+    UserSpecified(UserSpecifiedForm),
+    ImportReview(ImportReview),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -27,9 +37,27 @@ pub enum Dialog {
 }
 
 impl Dialog {
+    /// A form whose work is done once what it asks for was agreed to.
+    pub(super) const fn is_done_by_confirming(&self) -> bool {
+        matches!(
+            self,
+            Self::Settings(_)
+                | Self::AddUser(_)
+                | Self::SelfSigned(_)
+                | Self::TypeSelect(_)
+                | Self::ExportSelfSigned(_)
+                | Self::Activation(_)
+        )
+    }
+
+    /// A dialog whose job ends with it.
+    pub(super) fn has_a_job(&self) -> bool {
+        self.is_form() || matches!(self, Self::CaSigned(_) | Self::UserSpecified(_))
+    }
+
     /// A form that may wait for what is in a controller. At most one is open.
     pub(super) fn is_form(&self) -> bool {
-        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_))
+        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_) | Self::TypeSelect(_))
     }
 
     /// The file it asks for, if it does.
@@ -156,7 +184,7 @@ pub struct AddUserForm {
     pub show_password: bool,
 }
 
-/// A self-signed server certificate (manual 2.7.1.2).
+/// A self-signed server certificate (manual 2.7.1.2), or the request for one that a CA signs (2.7.1.5).
 #[derive(Debug)]
 pub struct SelfSignedForm {
     pub rows: Vec<RowId>,
@@ -172,7 +200,10 @@ pub struct SelfSignedForm {
     pub organisation: String,
     pub key_length: KeyLength,
     pub offered: Vec<KeyLength>,
+    /// Of a self-signed certificate.
     pub years: u8,
+    /// It is a request, to be saved in this format.
+    pub request: Option<FileFormat>,
 }
 
 /// A secret while it is typed: not shown by `Debug`, wiped when the dialog closes.

@@ -4,11 +4,12 @@ use std::collections::BTreeSet;
 
 use secrecy::SecretString;
 
-use super::{AddController, AddStage, AddUserForm, Model, RowId, SelfSignedForm, SettingsForm, Typed};
-use crate::jobs::{self, SelfSignedFields, SettingsChange};
+use super::{AddController, AddStage, AddUserForm, Model, RowId, SelfSignedForm, SettingsForm, Task, Typed};
+use crate::jobs::{self, CsrFields, SelfSignedFields, SettingsChange};
 use crate::model::{
-    Address, ControllerName, ControllerSeries, Credential, ErrorCode, KeyLength, MAX_USERS, Problem, SecurityPolicy,
-    ServerPort, ServerSettings, Subject, SubjectError, UserName, UserPassword, Validity, offered_key_lengths,
+    Address, ControllerName, ControllerSeries, Credential, ErrorCode, FileFormat, KeyLength, MAX_USERS, Problem,
+    SecurityPolicy, ServerPort, ServerSettings, Subject, SubjectError, UserName, UserPassword, Validity,
+    offered_key_lengths,
 };
 use crate::ui::texts::TextKey;
 
@@ -191,7 +192,7 @@ impl AddUserForm {
 }
 
 impl SelfSignedForm {
-    pub fn new(rows: Vec<RowId>, model: &Model) -> Self {
+    pub fn new(rows: Vec<RowId>, request: Option<FileFormat>, model: &Model) -> Self {
         let one = (rows.len() == 1).then(|| model.rows.get(rows[0])).flatten();
         let common_name = one.and_then(|row| row.info()).map(|i| i.application_name.clone()).unwrap_or_default();
         let reading = rows.len() == 1;
@@ -208,6 +209,7 @@ impl SelfSignedForm {
             key_length: KeyLength::Rsa2048,
             offered: if reading { vec![KeyLength::Rsa2048] } else { KeyLength::ALL.to_vec() },
             years: 5,
+            request,
         }
     }
 
@@ -257,7 +259,16 @@ impl SelfSignedForm {
         }
     }
 
-    pub fn fields(&self) -> Option<SelfSignedFields> {
+    /// What Apply does; `None` while something is wrong.
+    pub fn task(&self, backup: bool) -> Option<Task> {
+        let fields = self.fields()?;
+        let Some(format) = self.request else { return Some(Task::SelfSigned { fields, backup }) };
+        let SelfSignedFields { common_name, country, state, locality, organisation, key_length, validity: _ } = fields;
+        let fields = CsrFields { common_name, country, state, locality, organisation, key_length };
+        Some(Task::CreateCsr { fields, format, backup })
+    }
+
+    fn fields(&self) -> Option<SelfSignedFields> {
         if self.reading {
             return None;
         }

@@ -1,8 +1,9 @@
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::RowId;
-use crate::jobs::{self, Operation, SelfSignedFields, Step, Summary};
-use crate::model::{ErrorCode, Problem};
+use super::{ImportSource, RowId};
+use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
+use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
 
@@ -23,6 +24,13 @@ pub enum Task {
     RemoveUsers(jobs::RemoveUsers),
     SelfSigned { fields: SelfSignedFields, backup: bool },
     Activate(jobs::Activate),
+    // server certificates
+    ListCertificates,
+    SelectType(CertificateType),
+    ExportSelfSigned(FileFormat),
+    CreateCsr { fields: CsrFields, format: FileFormat, backup: bool },
+    Check(ImportSource),
+    Import { source: ImportSource, accept_warnings: bool },
 }
 
 impl Task {
@@ -41,6 +49,19 @@ impl Task {
                 fields: fields.clone(),
                 backup: backup.then(|| workspace.certificate_files()),
             }),
+            Self::ListCertificates => Arc::new(jobs::ListCertificates),
+            Self::SelectType(kind) => Arc::new(jobs::SelectCertificateType(*kind)),
+            Self::ExportSelfSigned(format) => {
+                Arc::new(jobs::ExportSelfSigned { format: *format, files: workspace.certificate_files() })
+            }
+            Self::CreateCsr { fields, format, backup } => Arc::new(jobs::CreateCsr {
+                fields: fields.clone(),
+                format: *format,
+                files: workspace.certificate_files(),
+                backup: *backup,
+            }),
+            Self::Check(source) => source.check(workspace),
+            Self::Import { source, accept_warnings } => source.import(*accept_warnings, workspace),
         }
     }
 
@@ -55,6 +76,10 @@ impl Task {
             Self::RemoveUsers(_) => TextKey::DeleteUsers,
             Self::SelfSigned { .. } => TextKey::SelfSignedTitle,
             Self::Activate(_) => TextKey::ActivationTitle,
+            Self::ListCertificates | Self::SelectType(_) => TextKey::TypeSelectTitle,
+            Self::ExportSelfSigned(_) => TextKey::ExportSelfSignedTitle,
+            Self::CreateCsr { .. } => TextKey::CsrTitle,
+            Self::Check(source) | Self::Import { source, .. } => source.title(),
         }
     }
 
@@ -75,6 +100,10 @@ pub enum Purpose {
     /// How many users there are, for a warning; nobody minds if it fails.
     CountUsers,
     LoadPolicies,
+    /// What each of several controllers holds; one that cannot be asked does not keep the others out.
+    LoadCertificates,
+    /// Certificates from elsewhere are looked at before their import; likewise.
+    Check,
 }
 
 /// Where a job is with one controller.
@@ -115,6 +144,8 @@ pub struct JobRow {
     pub row: RowId,
     pub name: String,
     pub state: RowState,
+    /// What was asked for and is on this computer now.
+    pub saved: Option<PathBuf>,
 }
 
 /// A job, running or ended.

@@ -1,11 +1,13 @@
 //! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
 
 mod activation;
+mod certificates;
 mod connections;
 mod dialog;
 mod files;
 mod forms;
 mod identity;
+mod import;
 mod job;
 mod reduce;
 mod reduce_dialogs;
@@ -19,12 +21,14 @@ use std::collections::BTreeMap;
 use chrono::{DateTime, Utc};
 
 pub use activation::{ActivationForm, ActivationPreview, KeysForm, key_error};
+pub use certificates::{ExportForm, Held, TypeSelectForm};
 pub use connections::{ConnectionListForm, FoundConnection, LeftOut};
 pub use dialog::{
     AddController, AddStage, AddUserForm, Dialog, Identity, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm,
     Typed, UsersForm,
 };
 pub use files::FileForm;
+pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, UserFiles, UserSpecifiedForm};
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
@@ -92,6 +96,8 @@ pub enum Message {
     ReadFile,
     /// Leave the controller out whose identity is asked for.
     SkipIdentity,
+    /// Open the dialog for a certificate signing request.
+    NewCsr,
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.

@@ -1,11 +1,11 @@
 //! The one place where the model changes.
 
 use super::{
-    ActivationForm, AddController, CancelState, Column, Dialog, Job, JobId, JobRow, Message, Model, PasswordForm,
-    ProcessingView, Purpose, RowId, RowState, Task, Typed,
+    ActivationForm, AddController, CancelState, Column, Dialog, ExportForm, Job, JobId, JobRow, Message, Model,
+    PasswordForm, ProcessingView, Purpose, RowId, RowState, Task, Typed,
 };
-use crate::jobs::{JobController, JobEvent, Report, Summary};
-use crate::model::ErrorCode;
+use crate::jobs::{JobController, JobEvent, Outcome, Report, Summary};
+use crate::model::{ErrorCode, FileFormat};
 use crate::ui::backend::{Command, Event};
 use crate::ui::command::UiCommand;
 use crate::ui::texts;
@@ -38,6 +38,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::ChooseFile => commands = model.choose_file(),
         Message::ReadFile => commands = model.read_typed(),
         Message::SkipIdentity => commands = model.skip_identity(),
+        Message::NewCsr => commands = model.new_csr(),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -86,7 +87,16 @@ impl Model {
             UiCommand::GetInfo => return self.get_info(ticked),
             UiCommand::BasicSettings => return self.open_settings(ticked),
             UiCommand::Users => return self.open_users(ticked),
-            UiCommand::SelfSigned => return self.open_self_signed(ticked),
+            UiCommand::SelfSigned => return self.open_self_signed(ticked, None),
+            UiCommand::CaSigned => {
+                self.open_ca_signed(ticked);
+                return vec![];
+            }
+            UiCommand::UserSpecified => {
+                self.open_user_specified(&ticked);
+                return vec![];
+            }
+            UiCommand::TypeSelect => return self.open_type_select(ticked),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -100,6 +110,11 @@ impl Model {
             UiCommand::Activation => Dialog::Activation(ActivationForm::new(ticked, self)),
             UiCommand::AddController => Dialog::AddController(AddController::new()),
             UiCommand::DeleteControllers => Dialog::Delete { names: self.rows.names(&ticked), rows: ticked },
+            UiCommand::ExportSelfSigned => Dialog::ExportSelfSigned(ExportForm {
+                names: self.rows.names(&ticked),
+                rows: ticked,
+                format: FileFormat::default(),
+            }),
             UiCommand::Backup => Dialog::Backup { on: self.options.backup },
             UiCommand::Options => Dialog::Options,
             UiCommand::Shortcuts => Dialog::Shortcuts,
@@ -135,7 +150,7 @@ impl Model {
         let controllers: Vec<JobController> = entries.iter().map(|row| JobController::from(&row.entry)).collect();
         let rows = entries
             .iter()
-            .map(|row| JobRow { row: row.id, name: row.entry.name.to_string(), state: RowState::Waiting })
+            .map(|row| JobRow { row: row.id, name: row.entry.name.to_string(), state: RowState::Waiting, saved: None })
             .collect::<Vec<_>>();
         self.status = None;
         if purpose == Purpose::Show {
@@ -207,10 +222,17 @@ impl Model {
                 let purpose = job.purpose;
                 let Some(row) = job.rows.get_mut(index) else { return vec![] };
                 let Report { result, info } = *report;
+                let each = matches!(purpose, Purpose::LoadCertificates | Purpose::Check).then(|| result.clone());
                 let (state, outcome) = match result {
                     Ok(outcome) => (RowState::Done, Some(outcome)),
                     Err(problem) if problem.code == ErrorCode::Cancelled => (RowState::NotStarted, None),
                     Err(problem) => (RowState::Failed(problem), None),
+                };
+                row.saved = match &outcome {
+                    Some(Outcome::Exported { file, .. }) => Some(file.clone()),
+                    Some(Outcome::Csr { saved, .. }) => Some(saved.csr.clone()),
+                    Some(Outcome::Certificate { saved: Some(saved), .. }) => Some(saved.certificate.clone()),
+                    _ => None,
                 };
                 let id = row.row;
                 row.state = state.clone();
@@ -221,6 +243,11 @@ impl Model {
                 }
                 if let Some(info) = info {
                     self.rows.set_info(id, info, self.now);
+                }
+                match each {
+                    Some(result) if purpose == Purpose::Check => self.checked(id, result),
+                    Some(result) => self.certificates_loaded(id, result),
+                    None => {}
                 }
                 match outcome {
                     Some(outcome) => self.loaded(purpose, outcome),
@@ -254,6 +281,8 @@ impl Model {
                 }
             }
             Purpose::CountUsers => self.job = None,
+            Purpose::LoadCertificates => self.certificates_ended(),
+            Purpose::Check => self.checks_ended(),
             Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies => {
                 let problem =
                     self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));

@@ -9,7 +9,7 @@ use super::{
     Typed, UsersForm,
 };
 use crate::jobs::{Enrolled, Outcome, RemoveUsers};
-use crate::model::Problem;
+use crate::model::{FileFormat, Problem};
 use crate::pki::Fingerprint;
 use crate::ui::backend::Command;
 use crate::ui::texts;
@@ -44,8 +44,9 @@ impl Model {
         }
     }
 
-    pub(super) fn open_self_signed(&mut self, rows: Vec<RowId>) -> Vec<Command> {
-        let form = SelfSignedForm::new(rows.clone(), self);
+    /// For a certificate, or for a request in this format.
+    pub(super) fn open_self_signed(&mut self, rows: Vec<RowId>, request: Option<FileFormat>) -> Vec<Command> {
+        let form = SelfSignedForm::new(rows.clone(), request, self);
         let reading = form.reading;
         self.dialogs.push(Dialog::SelfSigned(form));
         if reading { self.start(Task::ReadSettings, rows, Purpose::LoadPolicies, None) } else { vec![] }
@@ -67,6 +68,13 @@ impl Model {
         if let Some(Dialog::Users(form)) = self.dialogs.last() {
             let (rows, revision, users) = (vec![form.row], form.revision, form.users.clone());
             self.push_add_user(rows, revision, users);
+        }
+    }
+
+    pub(super) fn new_csr(&mut self) -> Vec<Command> {
+        match self.dialogs.last() {
+            Some(Dialog::CaSigned(form)) => self.open_self_signed(form.rows.clone(), Some(FileFormat::default())),
+            _ => vec![],
         }
     }
 
@@ -96,10 +104,7 @@ impl Model {
             }
             Dialog::Confirm { task, rows, .. } => {
                 // The form that asked for it has done its work.
-                if matches!(
-                    self.dialogs.last(),
-                    Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_) | Dialog::Activation(_))
-                ) {
+                if self.dialogs.last().is_some_and(Dialog::is_done_by_confirming) {
                     self.dialogs.pop();
                 }
                 self.start(task, rows, Purpose::Show, None)
@@ -114,7 +119,7 @@ impl Model {
             }
             Dialog::SelfSigned(form) => {
                 let backup = self.options.backup;
-                let planned = form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
+                let planned = form.task(backup).map(|task| (task, form.rows.clone()));
                 self.ask(Dialog::SelfSigned(form), planned)
             }
             Dialog::Activation(form) if form.reads_file() => {
@@ -134,6 +139,17 @@ impl Model {
                 vec![]
             }
             Dialog::ConnectionList(form) => self.import_connections(form),
+            Dialog::TypeSelect(form) => {
+                let planned = form.task().map(|task| (task, form.rows.clone()));
+                self.ask(Dialog::TypeSelect(form), planned)
+            }
+            Dialog::ExportSelfSigned(form) => {
+                let planned = (Task::ExportSelfSigned(form.format), form.rows.clone());
+                self.ask(Dialog::ExportSelfSigned(form), Some(planned))
+            }
+            Dialog::CaSigned(form) => self.check_ca_signed(form),
+            Dialog::UserSpecified(form) => self.check_user_specified(form),
+            Dialog::ImportReview(review) => self.import(review),
             Dialog::Backup { on } => {
                 self.options.backup = on;
                 self.save()
@@ -170,6 +186,17 @@ impl Model {
                 form.stage = AddStage::Form;
                 if waiting { self.cancel_last() } else { vec![] }
             }
+            Some(Dialog::Password(form)) if form.purpose == Purpose::LoadCertificates => {
+                // The others have answered.
+                self.dialogs.pop();
+                self.certificates_ended();
+                vec![]
+            }
+            Some(Dialog::Password(form)) if form.purpose == Purpose::Check => {
+                self.dialogs.pop();
+                self.checks_ended();
+                vec![]
+            }
             Some(Dialog::Password(form)) => {
                 let loading = form.purpose != Purpose::Show;
                 self.dialogs.pop();
@@ -183,7 +210,7 @@ impl Model {
                 }
                 vec![]
             }
-            Some(Dialog::Settings(_) | Dialog::Users(_) | Dialog::SelfSigned(_)) => {
+            Some(dialog) if dialog.has_a_job() => {
                 self.dialogs.pop();
                 self.drop_job()
             }
@@ -348,7 +375,7 @@ impl Model {
     }
 
     /// The form about controllers that is open, whatever is on top of it.
-    fn form(&mut self) -> Option<&mut Dialog> {
+    pub(super) fn form(&mut self) -> Option<&mut Dialog> {
         self.dialogs.iter_mut().rev().find(|dialog| dialog.is_form())
     }
 

@@ -108,6 +108,8 @@ texts! {
     WhyLater: "Comes in a later version", "将在后续版本中提供";
     WhyActivationOption: "Firmware 8.0.0 and later is activated as a controller option", "固件 8.0.0 及以上版本通过控制器选项激活";
     WhyConfirmed: "Every ticked controller is confirmed already", "已勾选的控制器均已确认";
+    WhyUserOne: "For one controller at a time: tick only that one", "仅可用于一台控制器，请只勾选一台";
+    WhyUserLegacy: "Only for firmware before 8.0.0", "仅适用于 8.0.0 之前的固件";
     WhyEmpty: "The list is empty", "列表为空";
     WhyVirtual: "Not available in this build", "此版本不可用";
 
@@ -210,7 +212,7 @@ texts! {
     StepRead: "Reading", "正在读取";
     StepMakeKey: "Making key", "正在生成密钥";
     StepApply: "Applying", "正在应用";
-    StepSaveBackup: "Saving backup", "正在保存备份";
+    StepSaveBackup: "Saving files", "正在保存文件";
     Completed: "Completed", "处理完成";
     Stopped: "Stopped", "已中止";
     CancelAsk: "Stop after the step in hand? What is done stays done.", "是否在当前步骤完成后中止？已完成的处理将保留。";
@@ -306,6 +308,52 @@ texts! {
     ChooseFile: "Choose…", "选择…";
     ChooseFileTitle: "Choose a file", "选择文件";
     ReadFile: "Read file", "读取文件";
+    // certificate files
+    ExportSelfSignedTitle: "Export self-signed certificate", "导出自签名证书";
+    Export: "Export", "导出";
+    FileFormat: "File format", "文件格式";
+    GoesTo: "Goes to", "保存位置";
+    SavedIn: "Saved in", "已保存到";
+    CaSignedTitle: "CA-signed certificate", "CA 签名证书";
+    CsrTitle: "Certificate signing request", "证书签名请求 (CSR)";
+    CsrCard: "1. Create CSR", "1. 创建 CSR";
+    CsrText: "Makes a new key and its signing request. Send the file in this folder to your CA.", "创建新密钥及其签名请求。请将该文件夹中的文件发送给 CA。";
+    CreateCsr: "Create CSR…", "创建 CSR…";
+    CreateAndSave: "Create and save", "创建与保存";
+    ImportCard: "2. Import certificate", "2. 导入证书";
+    ImportFromFolder: "Put the certificate from the CA into this folder: exactly one .der file, named with letters, digits and underscores.", "请将 CA 颁发的证书保存到该文件夹：仅一个 .der 文件，文件名使用半角字母、数字和下划线。";
+    ImportTextMany: "Put the certificate from the CA into the folder of each controller: exactly one .der file, named with letters, digits and underscores.", "请将 CA 颁发的证书保存到每台控制器的文件夹：仅一个 .der 文件，文件名使用半角字母、数字和下划线。";
+    CertificateFile: "Certificate file", "证书文件";
+    KeyFile: "Key file", "私钥文件";
+    PfxFile: "File", "文件";
+    FolderFileHint: "Empty: the one in the folder", "留空则使用文件夹中的文件";
+    Folder: "Folder", "文件夹";
+    ImportAsk: "Import…", "导入…";
+    Checking: "Checking…", "正在检查…";
+    UserSpecifiedTitle: "User-specified certificate", "用户指定证书";
+    UserKind: "Kind", "类型";
+    UserKindPfx: "Certificate with encrypted key (.pfx)", "带加密密钥的证书 (.pfx)";
+    UserKindPair: "Certificate and key (.der, .key)", "证书/私钥 (.der、.key)";
+    UserFilePassword: "Password of the file", "文件密码";
+    UserKeyPassword: "Password of the key", "私钥密码";
+    UserKeyPasswordHint: "Empty if it is not encrypted", "未加密时留空";
+    UserFilesRule: "Give both files, or neither to use those in the folder", "请同时指定两个文件，或都留空以使用文件夹中的文件";
+    UserPathRule: "Give the file, or get new information first", "请指定文件，或先获取新信息";
+    ConfirmReplacesImport: "The certificate of this type in the controller is replaced, and the server uses the new one.", "将覆盖控制器中该类型的证书，服务器将使用新证书。";
+    ImportAnyway: "Import anyway", "仍然导入";
+    NoneToImport: "None of these can be imported", "没有可以导入的证书";
+    ImportRefused: "Not imported", "不导入";
+    FindingNone: "Nothing found that clients could complain about", "未发现客户端可能提示的问题";
+    Warning: "Warning", "警告";
+    SerialFolder: "serial number", "控制器序列号";
+
+    // type select
+    TypeSelectTitle: "Type select", "类型选择";
+    TypeSelectText: "The server shows this certificate to its clients", "服务器向客户端出示所选类型的证书";
+    TypeSelectRule: "Choose a certificate type", "请选择证书类型";
+    TypeSelectLegacy: "User-specified certificates exist on firmware before 8.0.0 only", "用户指定证书仅适用于 8.0.0 之前的固件";
+    TypeInUse: "in use", "使用中";
+    TypeNotStored: "Not stored in the controller", "控制器中未保存";
 
     // backup
     BackupTitle: "Backup", "备份";

@@ -4,7 +4,7 @@ use chrono::{DateTime, FixedOffset, Local, Utc};
 
 use super::TextKey as T;
 use crate::jobs::{Step, Summary};
-use crate::model::{CertificateType, Language, ServerStatus};
+use crate::model::{CertificateSummary, CertificateType, Language, ServerStatus};
 use crate::workspace::ThemeChoice;
 
 /// Where times are shown as of.
@@ -187,6 +187,53 @@ pub fn title_for(language: Language, title: T, names: &[String]) -> String {
         [] => title.to_owned(),
         [one] => format!("{title} – {one}"),
         many => format!("{title} – {}", controllers(language, many.len())),
+    }
+}
+
+/// What is said of a certificate in a line of its own.
+pub fn stored_certificate(language: Language, summary: &CertificateSummary, zone: Zone) -> String {
+    let CertificateSummary { issued_to, issued_by, not_after, .. } = summary;
+    let until = zone.date(*not_after);
+    match language {
+        Language::En => format!("Issued to {issued_to} by {issued_by}, valid until {until}"),
+        Language::Zh => format!("颁发给 {issued_to}，颁发者 {issued_by}，有效期至 {until}"),
+    }
+}
+
+pub fn stored_in(language: Language, count: usize, all: usize) -> String {
+    match language {
+        Language::En => format!("Stored in {count} of {}", controllers(language, all)),
+        Language::Zh => format!("{all} 台控制器中有 {count} 台已保存"),
+    }
+}
+
+/// Which of several controllers will refuse a certificate type.
+pub fn type_lacking(language: Language, names: &[&str]) -> String {
+    let (more, named) = (names.len().saturating_sub(5), names.iter().take(5).copied().collect::<Vec<_>>());
+    match (language, more) {
+        (Language::En, 0) => format!("Not stored in {}; there the change fails", named.join(", ")),
+        (Language::En, _) => format!("Not stored in {} and {more} more; there the change fails", named.join(", ")),
+        (Language::Zh, 0) => format!("{} 未保存该类型，更改将失败", named.join("、")),
+        (Language::Zh, _) => format!("{} 等 {} 台未保存该类型，更改将失败", named.join("、"), names.len()),
+    }
+}
+
+pub fn importable(language: Language, count: usize, all: usize) -> String {
+    match language {
+        Language::En => format!("{count} of {} can be imported", certificates(all)),
+        Language::Zh => format!("{all} 个证书中有 {count} 个可以导入"),
+    }
+}
+
+fn certificates(count: usize) -> String {
+    format!("{count} certificate{}", s(count))
+}
+
+/// What was found of a certificate, after its severity.
+pub fn finding(language: Language, severity: T, explained: &str) -> String {
+    match language {
+        Language::En => format!("{}: {explained}", severity.text(language)),
+        Language::Zh => format!("{}：{explained}", severity.text(language)),
     }
 }
 

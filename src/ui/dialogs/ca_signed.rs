@@ -1,0 +1,52 @@
+use egui::{Frame, Label, RichText, Stroke, Ui};
+
+use crate::ui::model::{CaSignedForm, Message, Model};
+use crate::ui::texts::{self, TextKey as T};
+use crate::ui::theme::{self, palette};
+use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, path_line, text_field};
+
+/// Request and import of a certificate that a CA signs (manual 2.7.1.5).
+pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    let text = |key: T| key.text(model.language);
+    let why = signed.checks.running.then(|| text(T::Checking));
+    let buttons = Buttons { submit: Some((text(T::ImportAsk), why)), close: Some(text(T::Close)) };
+    let title = texts::title_for(model.language, T::CaSignedTitle, &signed.names);
+    let single = signed.rows.len() == 1;
+    dialog(ui, "ca signed", &title, theme::DIALOG_WIDE, buttons, |ui| {
+        card(ui, text(T::CsrCard), |ui| {
+            ui.add(Label::new(text(T::CsrText)).wrap());
+            let folder = model.folder_of(&signed.rows, |files, serial| files.csr_folder(serial), "CSR");
+            path_line(ui, &folder, model.language);
+            fine_print(ui, text(T::ConfirmInvalidatesCaSigned));
+            let button = egui::Button::new(text(T::CreateCsr));
+            if ui.add_enabled(!signed.checks.running, button).clicked() {
+                messages.push(Message::NewCsr);
+            }
+        });
+        ui.add_space(theme::SPACE);
+        card(ui, text(T::ImportCard), |ui| {
+            ui.add(Label::new(text(if single { T::ImportFromFolder } else { T::ImportTextMany })).wrap());
+            let folder = model.folder_of(&signed.rows, |files, serial| files.ca_signed_folder(serial), "CASigned");
+            path_line(ui, &folder, model.language);
+            if single {
+                form(ui, "ca signed", |ui| {
+                    labelled(ui, text(T::CertificateFile), |ui| {
+                        Some(text_field(ui, &mut signed.file, text(T::FolderFileHint)))
+                    });
+                });
+            }
+            if signed.checks.running {
+                ui.label(RichText::new(text(T::Checking)).color(palette(ui).weak));
+            }
+        });
+    })
+}
+
+fn card(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui)) {
+    let line = palette(ui).line;
+    Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        ui.label(RichText::new(title).strong());
+        body(ui);
+    });
+}

@@ -1,0 +1,153 @@
+//! The dialogs about the server certificates a controller holds, what they ask for, and what arrives for them.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use super::{Dialog, Model, Purpose, RowId, Task};
+use crate::jobs::Outcome;
+use crate::model::{CertificateSummary, CertificateType, FileFormat, FirmwareGeneration, Problem, SerialNumber};
+use crate::pki::Certificate;
+use crate::protocol::HeldCertificates;
+use crate::ui::backend::Command;
+use crate::ui::texts::TextKey;
+use crate::workspace::CertificateFiles;
+
+/// Where the self-signed certificates are saved, and how (manual 2.7.1.3).
+#[derive(Debug)]
+pub struct ExportForm {
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    pub format: FileFormat,
+}
+
+/// Which certificate the server uses (manual 2.7.2).
+#[derive(Debug)]
+pub struct TypeSelectForm {
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    /// What the controllers hold is being read.
+    pub reading: bool,
+    /// By controller; a problem where it could not be read.
+    pub held: BTreeMap<RowId, Result<Held, Problem>>,
+    pub selected: Option<CertificateType>,
+}
+
+/// What one controller holds.
+#[derive(Debug, Clone)]
+pub struct Held {
+    pub in_use: CertificateType,
+    pub stored: BTreeMap<CertificateType, CertificateSummary>,
+}
+
+impl From<HeldCertificates> for Held {
+    fn from(held: HeldCertificates) -> Self {
+        let summary = |kind| Certificate::from_der(held.of(kind)?).ok().map(|certificate| certificate.summary());
+        let stored = CertificateType::ALL.into_iter().filter_map(|kind| Some((kind, summary(kind)?))).collect();
+        Self { in_use: held.selected, stored }
+    }
+}
+
+impl TypeSelectForm {
+    /// The controllers whose certificates are known.
+    pub fn known(&self) -> impl Iterator<Item = (RowId, &Held)> {
+        self.held.iter().filter_map(|(row, held)| Some((*row, held.as_ref().ok()?)))
+    }
+
+    pub fn storing(&self, kind: CertificateType) -> usize {
+        self.known().filter(|(_, held)| held.stored.contains_key(&kind)).count()
+    }
+
+    /// The certificate of this type, when there is one controller only.
+    pub fn only(&self, kind: CertificateType) -> Option<&CertificateSummary> {
+        match self.rows[..] {
+            [row] => self.held.get(&row)?.as_ref().ok()?.stored.get(&kind),
+            _ => None,
+        }
+    }
+
+    /// Whether every controller that answered uses this type already.
+    pub fn in_use(&self, kind: CertificateType) -> bool {
+        self.known().next().is_some() && self.known().all(|(_, held)| held.in_use == kind)
+    }
+
+    /// What Apply does; `None` while nothing is chosen, or what no controller stores.
+    pub fn task(&self) -> Option<Task> {
+        let kind = self.selected?;
+        (!self.reading && self.storing(kind) > 0).then_some(Task::SelectType(kind))
+    }
+}
+
+impl Model {
+    /// Whether any of them is known to have current firmware.
+    pub fn any_current(&self, rows: &[RowId]) -> bool {
+        let current = |row: &RowId| {
+            let info = self.rows.get(*row).and_then(|row| row.info());
+            info.is_some_and(|info| info.generation() == FirmwareGeneration::Current)
+        };
+        rows.iter().any(current)
+    }
+
+    /// The types that can be chosen: user-specified ones exist on legacy firmware only.
+    pub fn offered_types(&self, rows: &[RowId]) -> impl Iterator<Item = CertificateType> + use<> {
+        let any_current = self.any_current(rows);
+        CertificateType::ALL.into_iter().filter(move |kind| *kind != CertificateType::UserSpecified || !any_current)
+    }
+
+    /// A folder of the one controller, or what the folders of several look like.
+    pub fn folder_of(
+        &self,
+        rows: &[RowId],
+        of: impl Fn(&CertificateFiles, &SerialNumber) -> PathBuf,
+        kind: &str,
+    ) -> PathBuf {
+        let info = match rows {
+            [row] => self.rows.get(*row).and_then(|row| row.info()),
+            _ => None,
+        };
+        match info {
+            Some(info) => of(&self.workspace.certificate_files(), &info.serial),
+            None => {
+                let serial = format!("<{}>", TextKey::SerialFolder.text(self.language));
+                self.workspace.root().join(serial).join("Cert").join(kind)
+            }
+        }
+    }
+
+    pub(super) fn open_type_select(&mut self, rows: Vec<RowId>) -> Vec<Command> {
+        self.dialogs.push(Dialog::TypeSelect(TypeSelectForm {
+            names: self.rows.names(&rows),
+            rows: rows.clone(),
+            reading: true,
+            held: BTreeMap::new(),
+            selected: None,
+        }));
+        self.start(Task::ListCertificates, rows, Purpose::LoadCertificates, None)
+    }
+
+    /// One controller has answered, or failed to.
+    pub(super) fn certificates_loaded(&mut self, row: RowId, result: Result<Outcome, Problem>) {
+        if let Some(Dialog::TypeSelect(form)) = self.form() {
+            let held = match result {
+                Ok(Outcome::Certificates(held)) => Ok(Held::from(held.value)),
+                Ok(_) => return,
+                Err(problem) => Err(problem),
+            };
+            form.held.insert(row, held);
+        }
+    }
+
+    /// All have.
+    pub(super) fn certificates_ended(&mut self) {
+        self.job = None;
+        let Some(Dialog::TypeSelect(form)) = self.form() else { return };
+        form.reading = false;
+        form.selected = CertificateType::ALL.into_iter().find(|kind| form.in_use(*kind));
+        if form.known().next().is_none() {
+            let problem = form.held.values().find_map(|held| held.as_ref().err().cloned());
+            self.drop_form();
+            if let Some(problem) = problem {
+                self.show_problem(problem);
+            }
+        }
+    }
+}

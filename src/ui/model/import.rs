@@ -1,0 +1,274 @@
+//! Server certificates from elsewhere: where they are, what was found when they were looked at, and the import.
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use secrecy::SecretString;
+
+use super::{Dialog, Model, Purpose, RowId, Task, Typed};
+use crate::jobs::{
+    CaCertificateSource, CheckCaCertificate, CheckUserCertificate, ImportCaCertificate, ImportUserCertificate,
+    Operation, Outcome, UserCertificateFiles,
+};
+use crate::model::{CertificateSummary, Problem};
+use crate::pki::{Finding, Severity};
+use crate::ui::backend::Command;
+use crate::ui::texts::TextKey;
+use crate::workspace::Workspace;
+
+/// What is imported.
+#[derive(Debug, Clone)]
+pub enum ImportSource {
+    /// What a CA issued: the only one in each controller's folder, or this file.
+    Ca(Option<PathBuf>),
+    User {
+        files: UserCertificateFiles,
+        password: Option<SecretString>,
+    },
+}
+
+impl ImportSource {
+    /// Looks at the certificates and changes nothing.
+    pub fn check(&self, workspace: &Workspace) -> Arc<dyn Operation> {
+        match self {
+            Self::Ca(file) => Arc::new(CheckCaCertificate(ca_source(file.as_ref(), workspace))),
+            Self::User { files, password } => {
+                Arc::new(CheckUserCertificate { files: files.clone(), password: password.clone() })
+            }
+        }
+    }
+
+    pub fn import(&self, accept_warnings: bool, workspace: &Workspace) -> Arc<dyn Operation> {
+        match self {
+            Self::Ca(file) => {
+                Arc::new(ImportCaCertificate { source: ca_source(file.as_ref(), workspace), accept_warnings })
+            }
+            Self::User { files, password } => {
+                Arc::new(ImportUserCertificate { files: files.clone(), password: password.clone(), accept_warnings })
+            }
+        }
+    }
+
+    pub const fn title(&self) -> TextKey {
+        match self {
+            Self::Ca(_) => TextKey::CaSignedTitle,
+            Self::User { .. } => TextKey::UserSpecifiedTitle,
+        }
+    }
+}
+
+fn ca_source(file: Option<&PathBuf>, workspace: &Workspace) -> CaCertificateSource {
+    match file {
+        Some(file) => CaCertificateSource::File(file.clone()),
+        None => CaCertificateSource::Folder(workspace.certificate_files()),
+    }
+}
+
+/// What was found of one certificate.
+#[derive(Debug, Clone)]
+pub struct Checked {
+    pub summary: CertificateSummary,
+    pub findings: Vec<Finding>,
+}
+
+impl Checked {
+    pub fn is_refused(&self) -> bool {
+        self.findings.iter().any(|finding| finding.severity() == Severity::Error)
+    }
+}
+
+/// The looking before an import.
+#[derive(Debug, Default)]
+pub struct Checks {
+    pub running: bool,
+    of: BTreeMap<RowId, Result<Checked, Problem>>,
+}
+
+/// Request and import of a certificate that a CA signs (manual 2.7.1.5).
+#[derive(Debug)]
+pub struct CaSignedForm {
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    /// For one controller: a path, or empty for the only one in its folder.
+    pub file: String,
+    pub checks: Checks,
+}
+
+impl CaSignedForm {
+    fn source(&self) -> ImportSource {
+        ImportSource::Ca(typed_path(&self.file).filter(|_| self.rows.len() == 1))
+    }
+}
+
+/// How a certificate made with another tool comes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UserFiles {
+    Pfx,
+    Pair,
+}
+
+/// Import of a certificate made with another tool (manual 2.7.1.4).
+#[derive(Debug)]
+pub struct UserSpecifiedForm {
+    pub row: RowId,
+    pub name: String,
+    pub kind: UserFiles,
+    pub pfx: String,
+    pub certificate: String,
+    pub key: String,
+    pub password: Typed,
+    pub show_password: bool,
+    pub checks: Checks,
+}
+
+impl UserSpecifiedForm {
+    /// What is imported; `None` while a path is missing. Nothing typed stands for the only files in the folder.
+    pub fn source(&self, model: &Model) -> Option<ImportSource> {
+        let info = model.rows.get(self.row).and_then(|row| row.info());
+        let folder = info.map(|info| (model.workspace.certificate_files(), info.serial.clone()));
+        let files = match self.kind {
+            UserFiles::Pfx => match (typed_path(&self.pfx), folder) {
+                (Some(path), _) => UserCertificateFiles::Pfx(path),
+                (None, folder) => folder.map(|(files, serial)| UserCertificateFiles::PfxIn(files, serial))?,
+            },
+            UserFiles::Pair => match (typed_path(&self.certificate), typed_path(&self.key), folder) {
+                (Some(certificate), Some(key), _) => UserCertificateFiles::Pair { certificate, key },
+                (None, None, Some((files, serial))) => UserCertificateFiles::PairIn(files, serial),
+                _ => return None,
+            },
+        };
+        let given = self.kind == UserFiles::Pfx || !self.password.0.is_empty();
+        Some(ImportSource::User { files, password: given.then(|| SecretString::from(self.password.0.clone())) })
+    }
+}
+
+/// A path as people paste it: with blanks and quotes around it.
+fn typed_path(text: &str) -> Option<PathBuf> {
+    let path = text.trim().trim_matches('"');
+    (!path.is_empty()).then(|| PathBuf::from(path))
+}
+
+/// What was found, and what the import will do, to be agreed to.
+#[derive(Debug)]
+pub struct ImportReview {
+    pub source: ImportSource,
+    pub names: Vec<String>,
+    pub found: Vec<(RowId, String, Result<Checked, Problem>)>,
+}
+
+impl ImportReview {
+    /// The controllers whose certificate clients would not refuse.
+    pub fn importable(&self) -> Vec<RowId> {
+        let good = |found: &Result<Checked, Problem>| found.as_ref().is_ok_and(|checked| !checked.is_refused());
+        self.found.iter().filter(|(_, _, found)| good(found)).map(|(row, ..)| *row).collect()
+    }
+
+    /// Whether clients may complain about something that is imported.
+    pub fn warns(&self) -> bool {
+        let checked = self.found.iter().filter_map(|(_, _, found)| found.as_ref().ok());
+        checked.filter(|checked| !checked.is_refused()).any(|checked| !checked.findings.is_empty())
+    }
+}
+
+impl Model {
+    pub(super) fn open_ca_signed(&mut self, rows: Vec<RowId>) {
+        let names = self.rows.names(&rows);
+        let form = CaSignedForm { rows, names, file: String::new(), checks: Checks::default() };
+        self.dialogs.push(Dialog::CaSigned(form));
+    }
+
+    pub(super) fn open_user_specified(&mut self, rows: &[RowId]) {
+        let [row] = *rows else { return };
+        self.dialogs.push(Dialog::UserSpecified(UserSpecifiedForm {
+            row,
+            name: self.rows.names(rows).pop().unwrap_or_default(),
+            kind: UserFiles::Pfx,
+            pfx: String::new(),
+            certificate: String::new(),
+            key: String::new(),
+            password: Typed::default(),
+            show_password: false,
+            checks: Checks::default(),
+        }));
+    }
+
+    pub(super) fn check_ca_signed(&mut self, mut form: CaSignedForm) -> Vec<Command> {
+        let wanted = (!form.checks.running).then(|| (form.source(), form.rows.clone()));
+        form.checks.running = true;
+        self.dialogs.push(Dialog::CaSigned(form));
+        self.check(wanted)
+    }
+
+    pub(super) fn check_user_specified(&mut self, mut form: UserSpecifiedForm) -> Vec<Command> {
+        let source = form.source(self).filter(|_| !form.checks.running);
+        form.checks.running |= source.is_some();
+        let rows = vec![form.row];
+        self.dialogs.push(Dialog::UserSpecified(form));
+        self.check(source.map(|source| (source, rows)))
+    }
+
+    fn check(&mut self, wanted: Option<(ImportSource, Vec<RowId>)>) -> Vec<Command> {
+        match wanted {
+            Some((source, rows)) => self.start(Task::Check(source), rows, Purpose::Check, None),
+            None => vec![],
+        }
+    }
+
+    /// The dialog that waits for the checks, and its controllers.
+    fn checking(&mut self) -> Option<(&mut Checks, Vec<RowId>)> {
+        self.dialogs.iter_mut().rev().find_map(|dialog| match dialog {
+            Dialog::CaSigned(form) => Some((&mut form.checks, form.rows.clone())),
+            Dialog::UserSpecified(form) => Some((&mut form.checks, vec![form.row])),
+            _ => None,
+        })
+    }
+
+    /// One controller's certificate was looked at, or could not be.
+    pub(super) fn checked(&mut self, row: RowId, result: Result<Outcome, Problem>) {
+        let Some((checks, _)) = self.checking() else { return };
+        let found = match result {
+            Ok(Outcome::Checked { summary, findings }) => Ok(Checked { summary, findings }),
+            Ok(_) => return,
+            Err(problem) => Err(problem),
+        };
+        checks.of.insert(row, found);
+    }
+
+    /// All were.
+    pub(super) fn checks_ended(&mut self) {
+        let Some(Task::Check(source)) = self.job.take().map(|job| job.task) else { return };
+        let Some((checks, rows)) = self.checking() else { return };
+        checks.running = false;
+        let mut of = std::mem::take(&mut checks.of);
+        let found: Vec<_> = rows
+            .iter()
+            .filter_map(|row| {
+                let name = self.rows.names(&[*row]).pop()?;
+                Some((*row, name, of.remove(row)?))
+            })
+            .collect();
+        match &found[..] {
+            [] => {}
+            [(_, _, Err(problem))] => {
+                let problem = problem.clone();
+                self.show_problem(problem);
+            }
+            _ => {
+                let names = self.rows.names(&rows);
+                self.dialogs.push(Dialog::ImportReview(ImportReview { source, names, found }));
+            }
+        }
+    }
+
+    /// The import was agreed to; the form that asked for it has done its work.
+    pub(super) fn import(&mut self, review: ImportReview) -> Vec<Command> {
+        let (rows, accept_warnings) = (review.importable(), review.warns());
+        if rows.is_empty() {
+            self.dialogs.push(Dialog::ImportReview(review));
+            return vec![];
+        }
+        self.dialogs.retain(|dialog| !matches!(dialog, Dialog::CaSigned(_) | Dialog::UserSpecified(_)));
+        self.start(Task::Import { source: review.source, accept_warnings }, rows, Purpose::Show, None)
+    }
+}

@@ -1,0 +1,192 @@
+//! The certificate dialogs as they look. `UPDATE_SNAPSHOTS=1 cargo test --test ui_pictures_certificates` takes the
+//! pictures anew.
+
+mod common;
+
+use common::samples::{configuration, info};
+use common::window::{SIZE, Window, choose, click, now, settle, type_into, window};
+use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
+use opcua_configurator::model::{
+    CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Language, Problem, SelfSignedRequest,
+    ServerSettings, Subject, Validity,
+};
+use opcua_configurator::pki::{Finding, PrivateKey, ServerNames, self_signed};
+use opcua_configurator::protocol::{Base64Bytes, HeldCertificate, HeldCertificates, Revisioned};
+use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
+use opcua_configurator::ui::model::{JobId, Message, reduce};
+
+type W = Window<RecordingBackend>;
+
+/// Of current firmware, and of legacy firmware.
+const CURRENT: &str = "Weld 1";
+const LEGACY: &str = "Weld 2";
+
+fn open(ticked: &[&str]) -> W {
+    let mut window = window(RecordingBackend::default(), configuration(24, now()), SIZE);
+    for name in ticked {
+        click(&mut window, &format!("Tick {name}"));
+    }
+    window
+}
+
+fn picture(window: &mut W, name: &str) {
+    window.remove_cursor();
+    // A blinking cursor would make every other picture different.
+    window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
+    settle(window);
+    window.snapshot(name);
+}
+
+fn tell(window: &mut W, event: Event) {
+    window.state_mut().backend.events.push_back(event);
+    settle(window);
+    window.step();
+    settle(window);
+}
+
+fn chinese(window: &mut W) {
+    reduce(&mut window.state_mut().model, Message::SetLanguage(Language::Zh));
+    settle(window);
+    window.step();
+    settle(window);
+}
+
+/// The last job that was started ends like this, one result a controller.
+fn end(window: &mut W, results: Vec<Result<Outcome, Problem>>) {
+    let of = |command: &Command| match command {
+        Command::Run { job, .. } => Some(*job),
+        _ => None,
+    };
+    let job: JobId = window.state().backend.sent.iter().rev().find_map(of).expect("a job was started");
+    let failed = results.iter().filter(|result| result.is_err()).count();
+    let summary = Summary { done: results.len() - failed, failed, not_started: 0 };
+    for (index, result) in results.into_iter().enumerate() {
+        // What a row shows is not what these pictures are about.
+        let event = JobEvent::Finished { index, report: Box::new(Report { result, info: None }) };
+        tell(window, Event::Job { job, event });
+    }
+    tell(window, Event::JobEnded { job, summary });
+}
+
+/// A certificate whose visible parts are the same in every picture.
+fn certificate() -> Base64Bytes {
+    let subject = Subject {
+        common_name: "EpsonRC.SN0000123.192.168.010.001".into(),
+        country: String::new(),
+        state: String::new(),
+        locality: String::new(),
+        organisation: "Example".into(),
+    };
+    let key = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
+    let validity = Validity::try_from(5).unwrap();
+    let request = SelfSignedRequest { subject, key_length: KeyLength::Rsa2048, validity };
+    let names = ServerNames { application_uri: "urn:EpsonRC.SN0000123".into(), ips: vec![], dns: vec!["weld".into()] };
+    Base64Bytes(self_signed(&request, &names, &key, now()).unwrap().der().to_vec())
+}
+
+fn held(kinds: &[CertificateType], selected: CertificateType) -> Outcome {
+    let certificate = certificate();
+    let held = kinds.iter().map(|kind| HeldCertificate { kind: *kind, certificate: certificate.clone() }).collect();
+    Outcome::Certificates(Revisioned { revision: 4, value: HeldCertificates { selected, held, csr: None } })
+}
+
+#[test]
+fn type_select() {
+    use CertificateType::{CaSigned, SelfSigned};
+    let mut window = open(&[CURRENT]);
+    choose(&mut window, &["Certificate", "Type select…"]);
+    end(&mut window, vec![Ok(held(&[SelfSigned], SelfSigned))]);
+    click(&mut window, "CA signed");
+    picture(&mut window, "type_select");
+    click(&mut window, "Cancel");
+    click(&mut window, &format!("Tick {CURRENT}"));
+    for name in [LEGACY, "Weld 10"] {
+        click(&mut window, &format!("Tick {name}"));
+    }
+    choose(&mut window, &["Certificate", "Type select…"]);
+    end(&mut window, vec![Ok(held(&[SelfSigned, CaSigned], CaSigned)), Ok(held(&[SelfSigned], SelfSigned))]);
+    click(&mut window, "CA signed");
+    picture(&mut window, "type_select_many");
+    chinese(&mut window);
+    picture(&mut window, "type_select_many_chinese");
+}
+
+#[test]
+fn export_self_signed() {
+    let mut window = open(&[CURRENT]);
+    choose(&mut window, &["Certificate", "Export self-signed…"]);
+    picture(&mut window, "export_self_signed");
+    click(&mut window, "Cancel");
+    click(&mut window, &format!("Tick {LEGACY}"));
+    choose(&mut window, &["Certificate", "Export self-signed…"]);
+    click(&mut window, "pem");
+    click(&mut window, "Export");
+    picture(&mut window, "confirm_export_self_signed");
+    click(&mut window, "OK");
+    let file = window.state().model.workspace.root().join("SN0000123/Cert/SelfSigned/1_cert.pem");
+    let exported = Outcome::Exported { summary: summary(), file };
+    end(&mut window, vec![Ok(exported), Err(ErrorCode::CertificateNotStored.into())]);
+    picture(&mut window, "export_self_signed_completed");
+}
+
+#[test]
+fn ca_signed() {
+    let mut window = open(&[CURRENT]);
+    choose(&mut window, &["Certificate", "Create and save", "CA signed…"]);
+    picture(&mut window, "ca_signed");
+    click(&mut window, "Create CSR…");
+    let settings = Revisioned { revision: 4, value: ServerSettings::default() };
+    end(&mut window, vec![Ok(Outcome::Settings(settings))]);
+    picture(&mut window, "csr");
+    click(&mut window, "Create and save");
+    picture(&mut window, "confirm_csr");
+    for button in ["Cancel", "Cancel"] {
+        click(&mut window, button);
+    }
+    click(&mut window, "Import…");
+    let hosts = Finding::HostName { expected: vec!["192.168.10.1".into()], found: vec!["192.168.0.1".into()] };
+    end(&mut window, vec![checked(vec![hosts])]);
+    picture(&mut window, "import_warning");
+}
+
+#[test]
+fn ca_signed_for_many() {
+    let mut window = open(&[CURRENT, LEGACY, "Weld 10", "Paint booth"]);
+    choose(&mut window, &["Certificate", "Create and save", "CA signed…"]);
+    chinese(&mut window);
+    picture(&mut window, "ca_signed_many_chinese");
+    click(&mut window, "导入…");
+    let not_after = now() - chrono::Duration::days(3);
+    end(
+        &mut window,
+        vec![
+            checked(vec![]),
+            checked(vec![Finding::Expired { not_after, now: now() }, Finding::NonRepudiationMissing]),
+            Err(Problem::with_detail(ErrorCode::FileNotFound, "Cert/CASigned: no .der")),
+            Err(ErrorCode::CsrMismatch.into()),
+        ],
+    );
+    picture(&mut window, "import_many_chinese");
+}
+
+#[test]
+fn user_specified() {
+    let mut window = open(&[LEGACY]);
+    choose(&mut window, &["Certificate", "Create and save", "User specified…"]);
+    picture(&mut window, "user_specified");
+    click(&mut window, "Certificate and key (.der, .key)");
+    type_into(&mut window, "Certificate file", "/media/usb/robot.der");
+    picture(&mut window, "user_specified_pair");
+    type_into(&mut window, "Key file", "/media/usb/robot.key");
+    click(&mut window, "Import…");
+    end(&mut window, vec![Err(ErrorCode::KeyMismatch.into())]);
+    picture(&mut window, "user_specified_not_a_pair");
+}
+
+fn checked(findings: Vec<Finding>) -> Result<Outcome, Problem> {
+    Ok(Outcome::Checked { summary: CertificateSummary { issued_by: "Plant CA".into(), ..summary() }, findings })
+}
+
+fn summary() -> CertificateSummary {
+    info(0, now(), ControllerSeries::Rc800).certificate.expect("a certificate").summary
+}

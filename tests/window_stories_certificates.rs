@@ -1,0 +1,321 @@
+//! Server certificates through the real window, against real virtual controllers over loopback.
+
+#[path = "common/ca.rs"]
+mod ca;
+mod common;
+#[allow(dead_code, reason = "not every story needs all of it")]
+#[path = "common/plant.rs"]
+mod plant;
+
+use std::fs;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use ca::Ca;
+use common::window::{self, SIZE, choose, click, is_enabled, shows, type_into, wait_until, window_in};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use opcua_configurator::jobs::{SelfSigned, SelfSignedFields};
+use opcua_configurator::model::{CertificateType, KeyLength, SelfSignedRequest, SerialNumber, Subject, Validity};
+use opcua_configurator::pki::{
+    Certificate, Csr, PrivateKey, ServerNames, pkcs12_write, self_signed as make_self_signed,
+};
+use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
+use opcua_configurator::virtual_controller::FleetFirmware;
+use opcua_configurator::workspace::{CertificateFiles, Configuration, ControllerEntry, Retrieved, Workspace};
+use plant::Plant;
+use rcgen::{CertificateParams, SanType};
+
+/// Long enough for a busy machine to make keys.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+struct Desk {
+    window: window::Window<TokioBackend>,
+    plant: Plant,
+    runtime: tokio::runtime::Runtime,
+    files: CertificateFiles,
+    _folder: tempfile::TempDir,
+}
+
+impl Desk {
+    /// A plant, and a window that knows it: "cell 1", "cell 2", …, all ticked.
+    fn open(count: usize, firmware: FleetFirmware) -> Self {
+        let runtime = tokio::runtime::Runtime::new().unwrap();
+        let plant = runtime.block_on(Plant::start(count, firmware));
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path().join("OPCUA"));
+        let backend = BackendOptions {
+            workspace: workspace.clone(),
+            lock: workspace.lock().unwrap(),
+            passwords: plant.passwords.clone(),
+            connector: Arc::new(plant.connector),
+            starter: None,
+            picker: Arc::new(opcua_configurator::ui::picker::FixedPicker(Ok(None))),
+        };
+        let backend = TokioBackend::new(backend, || {}).unwrap();
+        let mut configuration = Configuration::default();
+        for (index, listed) in plant.listed().into_iter().enumerate() {
+            let controller = plant.controller(index);
+            configuration.controllers.push(ControllerEntry {
+                name: listed.name,
+                address: listed.address,
+                series: controller.series(),
+                fingerprint: listed.fingerprint,
+                last: Some(Retrieved { at: window::now(), info: controller.info() }),
+            });
+        }
+        let files = workspace.certificate_files();
+        let mut window = window_in(workspace, backend, configuration, SIZE);
+        click(&mut window, "Tick all");
+        Self { window, plant, runtime, files, _folder: folder }
+    }
+
+    fn wait_for(&mut self, text: &str) {
+        wait_until(&mut self.window, PATIENCE, |window| shows(window, text));
+    }
+
+    fn click(&mut self, label: &str) {
+        click(&mut self.window, label);
+    }
+
+    /// Waits for the summary, checks it and closes it.
+    fn finish(&mut self, summary: &str) {
+        self.wait_for("Completed");
+        assert!(shows(&self.window, summary), "no {summary:?} in the summary");
+        self.click("Close");
+    }
+
+    fn serial(&self, index: usize) -> SerialNumber {
+        self.plant.controller(index).info().serial
+    }
+
+    fn in_use(&self, index: usize) -> Option<CertificateType> {
+        self.plant.controller(index).info().certificate.map(|certificate| certificate.kind)
+    }
+
+    fn make_self_signed(&self) {
+        let operation = SelfSigned { fields: fields(), backup: None };
+        for report in self.runtime.block_on(self.plant.run(operation)) {
+            assert!(report.result.is_ok(), "{report:?}");
+        }
+    }
+
+    /// Has all controllers make a request, by the dialog that is open.
+    fn create_csr(&mut self, summary: &str) {
+        self.click("Create CSR…");
+        wait_until(&mut self.window, PATIENCE, |window| is_enabled(window, "Create and save"));
+        type_into(&mut self.window, "Organisation", "Example");
+        self.click("Create and save");
+        assert!(shows(&self.window, "The present CA-signed certificate becomes invalid"));
+        self.click("OK");
+        self.finish(summary);
+    }
+
+    fn csr(&self, index: usize) -> Csr {
+        Csr::from_any(&fs::read(self.files.csr_folder(&self.serial(index)).join("3_csr.der")).unwrap()).unwrap()
+    }
+
+    /// Puts a certificate where the import looks for it.
+    fn put(&self, index: usize, certificate: &[u8]) {
+        let folder = self.files.ca_signed_folder(&self.serial(index));
+        fs::create_dir_all(&folder).unwrap();
+        fs::write(folder.join("from_ca.der"), certificate).unwrap();
+    }
+}
+
+fn fields() -> SelfSignedFields {
+    SelfSignedFields {
+        common_name: None,
+        country: String::new(),
+        state: String::new(),
+        locality: String::new(),
+        organisation: "Example".into(),
+        key_length: KeyLength::Rsa2048,
+        validity: Validity::try_from(5).unwrap(),
+    }
+}
+
+fn create(desk: &mut Desk, item: &str) {
+    choose(&mut desk.window, &["Certificate", "Create and save", item]);
+}
+
+#[test]
+fn a_ca_signs_for_two_controllers_and_the_type_is_chosen_afterwards() {
+    let mut desk = Desk::open(2, FleetFirmware::Mixed);
+    desk.make_self_signed();
+    create(&mut desk, "CA signed…");
+    desk.create_csr("2 done");
+    assert!(shows(&desk.window, "2. Import certificate"), "the dialog is still there");
+
+    // One certificate is there already, for the wrong controller; the other is not.
+    let ca = Ca::new();
+    desk.put(0, &ca.sign(&desk.csr(1)));
+    desk.click("Import…");
+    desk.wait_for("0 of 2 certificates can be imported");
+    assert!(shows(&desk.window, "The certificate and the CSR do not match"));
+    assert!(shows(&desk.window, "The file to be imported was not found"));
+    assert!(!is_enabled(&desk.window, "OK"));
+    desk.click("Cancel");
+
+    for index in 0..2 {
+        desk.put(index, &ca.sign(&desk.csr(index)));
+    }
+    desk.click("Import…");
+    desk.wait_for("2 of 2 certificates can be imported");
+    assert!(shows(&desk.window, "The OPC UA server is stopped"));
+    desk.click("OK");
+    desk.finish("2 done");
+    assert!(desk.window.state().model.dialogs.is_empty());
+    assert_eq!([desk.in_use(0), desk.in_use(1)], [Some(CertificateType::CaSigned); 2]);
+
+    choose(&mut desk.window, &["Certificate", "Type select…"]);
+    desk.wait_for("Stored in 2 of 2 controllers");
+    assert!(desk.window.query_by_label("User specified").is_none(), "one of them has current firmware");
+    desk.click("Self-signed");
+    desk.click("Apply");
+    desk.click("OK");
+    desk.finish("2 done");
+    assert_eq!([desk.in_use(0), desk.in_use(1)], [Some(CertificateType::SelfSigned); 2]);
+}
+
+#[test]
+fn warnings_are_asked_about_and_errors_stop_an_import() {
+    let mut desk = Desk::open(1, FleetFirmware::Current);
+    create(&mut desk, "CA signed…");
+    desk.click("Import…");
+    desk.wait_for("The file to be imported was not found");
+    desk.click("Close");
+    desk.create_csr("1 done");
+    let (ca, csr) = (Ca::new(), desk.csr(0));
+    let nobody = |p: &mut CertificateParams| p.subject_alt_names.retain(|name| !matches!(name, SanType::URI(_)));
+    desk.put(0, &ca.sign_changed(&csr, nobody));
+    desk.click("Import…");
+    desk.wait_for("Error: the certificate names no application URI");
+    assert!(!is_enabled(&desk.window, "OK"));
+    desk.click("Cancel");
+
+    // By its path, as somebody pastes it from a file manager.
+    let elsewhere = tempfile::tempdir().unwrap();
+    let file = elsewhere.path().join("from the CA.der");
+    let nowhere = |p: &mut CertificateParams| p.subject_alt_names.retain(|name| matches!(name, SanType::URI(_)));
+    fs::write(&file, ca.sign_changed(&csr, nowhere)).unwrap();
+    type_into(&mut desk.window, "Certificate file", &format!(" \"{}\" ", file.display()));
+    desk.click("Import…");
+    desk.wait_for("Warning: the certificate names no address or host");
+    assert_eq!(desk.in_use(0), None, "nothing was sent");
+    desk.click("Import anyway");
+    desk.finish("1 done");
+    assert_eq!(desk.in_use(0), Some(CertificateType::CaSigned));
+}
+
+#[test]
+fn a_type_that_is_not_stored_cannot_be_chosen() {
+    let mut desk = Desk::open(1, FleetFirmware::Legacy);
+    desk.make_self_signed();
+    choose(&mut desk.window, &["Certificate", "Type select…"]);
+    desk.wait_for("in use");
+    desk.click("User specified");
+    assert!(shows(&desk.window, "The controller holds no certificate of this type"));
+    assert!(!is_enabled(&desk.window, "Apply"));
+}
+
+#[test]
+fn self_signed_certificates_are_exported() {
+    let mut desk = Desk::open(2, FleetFirmware::Mixed);
+    desk.make_self_signed();
+    choose(&mut desk.window, &["Certificate", "Export self-signed…"]);
+    desk.click("pem");
+    desk.click("Export");
+    assert!(shows(&desk.window, "Files of the same name on this computer are overwritten"));
+    desk.click("OK");
+    desk.wait_for("Completed");
+    assert!(shows(&desk.window, "Saved in"));
+    desk.click("Copy");
+    desk.finish("2 done");
+    for index in 0..2 {
+        let pem = fs::read(desk.files.self_signed_folder(&desk.serial(index)).join("1_cert.pem")).unwrap();
+        let summary = Certificate::from_any(&pem).unwrap().summary();
+        assert_eq!(Some(summary), desk.plant.controller(index).info().certificate.map(|c| c.summary));
+    }
+}
+
+/// What another tool would make for the controller.
+fn made_elsewhere(desk: &Desk) -> (PrivateKey, Certificate) {
+    let info = desk.plant.controller(0).info();
+    let subject = Subject {
+        common_name: info.application_name.clone(),
+        country: String::new(),
+        state: String::new(),
+        locality: String::new(),
+        organisation: "Elsewhere".into(),
+    };
+    let validity = Validity::try_from(2).unwrap();
+    let request = SelfSignedRequest { subject, key_length: KeyLength::Rsa2048, validity };
+    let application_uri = format!("urn:{}", info.application_name);
+    let names = ServerNames { application_uri, ips: vec!["127.0.0.1".parse().unwrap()], dns: vec![] };
+    let key = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
+    let certificate = make_self_signed(&request, &names, &key, chrono::Utc::now()).unwrap();
+    (key, certificate)
+}
+
+fn write(folder: &Path, name: &str, bytes: &[u8]) -> String {
+    fs::create_dir_all(folder).unwrap();
+    let path = folder.join(name);
+    fs::write(&path, bytes).unwrap();
+    path.display().to_string()
+}
+
+#[test]
+fn a_certificate_of_another_tool_is_imported() {
+    let mut desk = Desk::open(1, FleetFirmware::Legacy);
+    let (key, certificate) = made_elsewhere(&desk);
+    let pfx = pkcs12_write("robot", &key, &[&certificate], "right").unwrap();
+    let folder = desk.files.user_specified_folder(&desk.serial(0));
+    write(&folder, "robot.pfx", &pfx);
+    create(&mut desk, "User specified…");
+    type_into(&mut desk.window, "Password of the file", "wrong");
+    desk.click("Import…");
+    desk.wait_for("The password of the private key is wrong");
+    desk.click("Close");
+    type_into(&mut desk.window, "Password of the file", "right");
+    desk.click("Import…");
+    desk.wait_for("Issued to");
+    desk.click("OK");
+    desk.finish("1 done");
+    assert_eq!(desk.in_use(0), Some(CertificateType::UserSpecified));
+
+    // Files that do not belong together.
+    create(&mut desk, "User specified…");
+    desk.click("Certificate and key (.der, .key)");
+    let other = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
+    let certificate = write(&folder, "robot.der", certificate.der());
+    type_into(&mut desk.window, "Certificate file", &certificate);
+    assert!(!is_enabled(&desk.window, "Import…"), "the key is missing");
+    let keys = write(&folder, "robot.key", &other.to_pkcs8_der().unwrap());
+    type_into(&mut desk.window, "Key file", &keys);
+    desk.click("Import…");
+    desk.wait_for("are not a pair");
+    desk.click("Close");
+    write(&folder, "robot.key", &key.to_pkcs8_der().unwrap());
+    desk.click("Import…");
+    desk.wait_for("Issued to");
+    desk.click("OK");
+    desk.finish("1 done");
+}
+
+#[test]
+fn a_user_specified_certificate_is_for_one_legacy_controller() {
+    let disabled = |count, firmware, why: &str| {
+        let mut desk = Desk::open(count, firmware);
+        choose(&mut desk.window, &["Certificate", "Create and save"]);
+        let item = desk.window.get_by_label("User specified…");
+        assert!(item.accesskit_node().is_disabled());
+        item.hover();
+        for _ in 0..60 {
+            desk.window.step();
+        }
+        assert!(shows(&desk.window, why), "{why}");
+    };
+    disabled(2, FleetFirmware::Legacy, "For one controller at a time");
+    disabled(1, FleetFirmware::Current, "Only for firmware before 8.0.0");
+}
