@@ -129,8 +129,6 @@ impl UiCommand {
         match self {
             Self::ConnectionList
             | Self::Activation
-            | Self::ExportSettings
-            | Self::ImportSettings
             | Self::UserSpecified
             | Self::CaSigned
             | Self::ExportSelfSigned
@@ -146,6 +144,10 @@ impl UiCommand {
             | Self::BasicSettings
             | Self::Users
             | Self::SelfSigned => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            Self::ExportSettings | Self::ImportSettings => match model.rows.ticked_count() {
+                0 => Some(T::WhyTick),
+                _ => model.rows.any_ticked_is_current().then_some(T::WhyLegacyOnly),
+            },
             Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
             Self::AddController | Self::Quit | Self::Backup | Self::Options | Self::Shortcuts | Self::About => None,
         }

@@ -9,9 +9,9 @@ use secrecy::SecretString;
 
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
-use super::model::{JobId, Task};
+use super::model::{ExportFound, JobId, Task};
 use crate::jobs::{Enrolled, JobController, JobEvent, Summary};
-use crate::model::{Address, Problem};
+use crate::model::{Address, ControllerInfo, Problem};
 use crate::pki::Fingerprint;
 use crate::workspace::{Configuration, ControllerEntry};
 
@@ -36,6 +36,11 @@ pub enum Command {
         address: Address,
         fingerprint: Fingerprint,
         password: SecretString,
+    },
+    /// Reads what the settings export of a controller on the PC says of itself.
+    LookAtExport {
+        job: JobId,
+        of: Box<ControllerInfo>,
     },
     /// Stops a job after the step in hand.
     Cancel(JobId),
@@ -64,6 +69,10 @@ pub enum Event {
     Enrolled {
         job: JobId,
         result: Result<Box<Enrolled>, Problem>,
+    },
+    ExportSeen {
+        job: JobId,
+        result: Result<ExportFound, Problem>,
     },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
     /// A password works, but only until the program ends.

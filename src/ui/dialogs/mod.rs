@@ -9,6 +9,7 @@ mod password;
 mod processing;
 mod self_signed;
 mod settings;
+mod transfer;
 mod users;
 
 use egui::{Key, Modifiers, Ui};
@@ -59,6 +60,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::Users(form) => users::list(ui, form, model, messages),
         Dialog::AddUser(form) => users::add(ui, form, focus, model),
         Dialog::SelfSigned(form) => self_signed::show(ui, form, model),
+        Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use super::{Purpose, RowId, Task};
+use super::{Purpose, RowId, Task, TransferForm};
 use crate::jobs::Confirmation;
 use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
 use crate::pki::Fingerprint;
@@ -17,6 +17,7 @@ pub enum Dialog {
     Users(UsersForm),
     AddUser(AddUserForm),
     SelfSigned(SelfSignedForm),
+    Transfer(TransferForm),
     Backup { on: bool },
     Options,
     Error(Problem),

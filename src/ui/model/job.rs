@@ -1,5 +1,7 @@
 use std::sync::Arc;
 
+use secrecy::SecretString;
+
 use super::RowId;
 use crate::jobs::{self, Operation, SelfSignedFields, Step, Summary};
 use crate::model::{ErrorCode, Problem};
@@ -22,6 +24,8 @@ pub enum Task {
     AddUser(jobs::AddUser),
     RemoveUsers(jobs::RemoveUsers),
     SelfSigned { fields: SelfSignedFields, backup: bool },
+    ExportSettings { passphrase: Option<SecretString> },
+    ImportSettings { passphrase: Option<SecretString> },
 }
 
 impl Task {
@@ -39,6 +43,12 @@ impl Task {
                 fields: fields.clone(),
                 backup: backup.then(|| workspace.certificate_files()),
             }),
+            Self::ExportSettings { passphrase } => {
+                Arc::new(jobs::ExportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
+            }
+            Self::ImportSettings { passphrase } => {
+                Arc::new(jobs::ImportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
+            }
         }
     }
 
@@ -52,6 +62,8 @@ impl Task {
             Self::AddUser(_) => TextKey::AddUserTitle,
             Self::RemoveUsers(_) => TextKey::DeleteUsers,
             Self::SelfSigned { .. } => TextKey::SelfSignedTitle,
+            Self::ExportSettings { .. } => TextKey::ExportTitle,
+            Self::ImportSettings { .. } => TextKey::ImportTitle,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::{
     AddController, CancelState, Column, Dialog, Job, JobId, JobRow, Message, Model, PasswordForm, ProcessingView,
-    Purpose, RowId, RowState, Task, Typed,
+    Purpose, RowId, RowState, Task, Transfer, Typed,
 };
 use crate::jobs::{JobController, JobEvent, Report, Summary};
 use crate::model::ErrorCode;
@@ -84,6 +84,8 @@ impl Model {
             UiCommand::BasicSettings => return self.open_settings(ticked),
             UiCommand::Users => return self.open_users(ticked),
             UiCommand::SelfSigned => return self.open_self_signed(ticked),
+            UiCommand::ExportSettings => return self.open_transfer(Transfer::Export, ticked),
+            UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -165,6 +167,10 @@ impl Model {
                 vec![]
             }
             Event::Enrolled { job, result } => self.enrolled(job, result),
+            Event::ExportSeen { job, result } => {
+                self.export_seen(job, result);
+                vec![]
+            }
             Event::VirtualStarted(result) => self.virtual_started(result),
             Event::PasswordNotKept(problem) | Event::SaveFailed(problem) => {
                 // Once is enough for the same trouble.

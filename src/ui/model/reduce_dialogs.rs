@@ -96,8 +96,10 @@ impl Model {
             }
             Dialog::Confirm { task, rows, .. } => {
                 // The form that asked for it has done its work.
-                if matches!(self.dialogs.last(), Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_)))
-                {
+                if matches!(
+                    self.dialogs.last(),
+                    Some(Dialog::Settings(_) | Dialog::AddUser(_) | Dialog::SelfSigned(_) | Dialog::Transfer(_))
+                ) {
                     self.dialogs.pop();
                 }
                 self.start(task, rows, Purpose::Show, None)
@@ -114,6 +116,10 @@ impl Model {
                 let backup = self.options.backup;
                 let planned = form.fields().map(|fields| (Task::SelfSigned { fields, backup }, form.rows.clone()));
                 self.ask(Dialog::SelfSigned(form), planned)
+            }
+            Dialog::Transfer(form) => {
+                let planned = form.task().map(|task| (task, form.rows.clone()));
+                self.ask(Dialog::Transfer(form), planned)
             }
             Dialog::Backup { on } => {
                 self.options.backup = on;
