@@ -130,12 +130,7 @@ impl UiCommand {
     /// Why it cannot be done now; what a disabled item says on hover.
     pub fn why_disabled(self, model: &Model) -> Option<T> {
         match self {
-            Self::ExportSettings
-            | Self::ImportSettings
-            | Self::ClientLists
-            | Self::Crl
-            | Self::CertificateAuthority
-            | Self::Verify => Some(T::WhyLater),
+            Self::ClientLists | Self::Crl | Self::CertificateAuthority | Self::Verify => Some(T::WhyLater),
             Self::DeleteControllers
             | Self::Start
             | Self::Stop
@@ -155,6 +150,10 @@ impl UiCommand {
             Self::ConfirmIdentity => model.ticked_unconfirmed().next().is_none().then_some(T::WhyConfirmed),
             Self::Activation if model.rows.ticked_count() == 0 => Some(T::WhyTick),
             Self::Activation => model.ticked_has_current_firmware().then_some(T::WhyActivationOption),
+            Self::ExportSettings | Self::ImportSettings => match model.rows.ticked_count() {
+                0 => Some(T::WhyTick),
+                _ => model.rows.any_ticked_is_current().then_some(T::WhyLegacyOnly),
+            },
             Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
             Self::AddController
             | Self::ConnectionList

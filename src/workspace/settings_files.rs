@@ -24,6 +24,11 @@ impl SettingsFiles {
         self.root.join(serial.as_str()).join(FILE)
     }
 
+    /// The path for a person to read when it is not about one controller.
+    pub fn any_path(&self) -> PathBuf {
+        self.root.join("<serial>").join(FILE)
+    }
+
     /// Replaces the controller's former export.
     pub fn save(&self, serial: &SerialNumber, export: &SettingsExport) -> Result<PathBuf, WorkspaceError> {
         let path = self.path(serial);

@@ -10,10 +10,10 @@ use secrecy::SecretString;
 
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
-use super::model::{JobId, Task};
+use super::model::{ExportFound, JobId, Task};
 use super::picker::FileKind;
 use crate::jobs::{Enrolled, JobController, JobEvent, Summary};
-use crate::model::{Address, Problem};
+use crate::model::{Address, ControllerInfo, Problem};
 use crate::pki::Fingerprint;
 use crate::workspace::{Configuration, ControllerEntry};
 
@@ -38,6 +38,11 @@ pub enum Command {
         address: Address,
         fingerprint: Fingerprint,
         password: SecretString,
+    },
+    /// Reads what the settings export of a controller on the PC says of itself.
+    LookAtExport {
+        job: JobId,
+        of: Box<ControllerInfo>,
     },
     /// Stops a job after the step in hand.
     Cancel(JobId),
@@ -87,6 +92,10 @@ pub enum Event {
     FileRead {
         job: JobId,
         result: Result<(PathBuf, FileContents), Problem>,
+    },
+    ExportSeen {
+        job: JobId,
+        result: Result<ExportFound, Problem>,
     },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
     /// A password works, but only until the program ends.

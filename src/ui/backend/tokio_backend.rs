@@ -10,11 +10,11 @@ use tokio_util::sync::CancellationToken;
 
 use super::{Backend, Command, Event, FileContents, VirtualFleetStarter};
 use crate::jobs::{self, JobContext, JobController};
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ControllerInfo, ErrorCode, Problem};
 use crate::session::Connector;
-use crate::ui::model::{JobId, Task};
+use crate::ui::model::{ExportFound, JobId, Task};
 use crate::ui::picker::FilePicker;
-use crate::workspace::{self, Configuration, Passwords, Workspace, WorkspaceLock};
+use crate::workspace::{self, Configuration, Passwords, SettingsFiles, Workspace, WorkspaceLock};
 
 /// How long closing the window waits for tasks to notice.
 const SHUTDOWN: Duration = Duration::from_millis(500);
@@ -167,6 +167,13 @@ async fn remember(
     .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?
 }
 
+/// What can be said of an export without its passphrase; whatever would keep it from being imported is a problem now.
+fn look_at_export(files: &SettingsFiles, of: &ControllerInfo) -> Result<ExportFound, Problem> {
+    let export = files.load(&of.serial)?;
+    export.check_for(&of.serial, of.series, of.firmware)?;
+    Ok(ExportFound { exported: export.exported, firmware: export.firmware })
+}
+
 impl Backend for TokioBackend {
     fn send(&mut self, command: Command) {
         let emit = self.emit.clone();
@@ -192,6 +199,14 @@ impl Backend for TokioBackend {
                         emit(Event::Enrolled { job, result: result.map(Box::new) });
                     }
                 });
+            }
+            Command::LookAtExport { job, of } => {
+                let files = self.workspace.settings_files();
+                if let Some(runtime) = &self.runtime {
+                    runtime.spawn_blocking(move || {
+                        emit(Event::ExportSeen { job, result: look_at_export(&files, &of) });
+                    });
+                }
             }
             Command::Cancel(job) => {
                 if let Some(token) = self.running.get(&job) {

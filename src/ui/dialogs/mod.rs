@@ -15,6 +15,7 @@ mod password;
 mod processing;
 mod self_signed;
 mod settings;
+mod transfer;
 mod type_select;
 mod user_specified;
 mod users;
@@ -74,6 +75,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::CaSigned(form) => ca_signed::show(ui, form, model, messages),
         Dialog::UserSpecified(form) => user_specified::show(ui, form, focus, model),
         Dialog::ImportReview(review) => import_review::show(ui, review, model),
+        Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

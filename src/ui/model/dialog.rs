@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use super::{
     ActivationForm, CaSignedForm, ConnectionListForm, ExportForm, FileForm, ImportReview, KeysForm, Purpose, RowId,
-    Task, TypeSelectForm, UserSpecifiedForm,
+    Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -29,6 +29,7 @@ pub enum Dialog {
     CaSigned(CaSignedForm),
     UserSpecified(UserSpecifiedForm),
     ImportReview(ImportReview),
+    Transfer(TransferForm),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -47,6 +48,7 @@ impl Dialog {
                 | Self::TypeSelect(_)
                 | Self::ExportSelfSigned(_)
                 | Self::Activation(_)
+                | Self::Transfer(_)
         )
     }
 

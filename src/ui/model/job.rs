@@ -1,6 +1,8 @@
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use secrecy::SecretString;
+
 use super::{ImportSource, RowId};
 use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
 use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
@@ -31,6 +33,8 @@ pub enum Task {
     CreateCsr { fields: CsrFields, format: FileFormat, backup: bool },
     Check(ImportSource),
     Import { source: ImportSource, accept_warnings: bool },
+    ExportSettings { passphrase: Option<SecretString> },
+    ImportSettings { passphrase: Option<SecretString> },
 }
 
 impl Task {
@@ -62,6 +66,12 @@ impl Task {
             }),
             Self::Check(source) => source.check(workspace),
             Self::Import { source, accept_warnings } => source.import(*accept_warnings, workspace),
+            Self::ExportSettings { passphrase } => {
+                Arc::new(jobs::ExportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
+            }
+            Self::ImportSettings { passphrase } => {
+                Arc::new(jobs::ImportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
+            }
         }
     }
 
@@ -80,6 +90,8 @@ impl Task {
             Self::ExportSelfSigned(_) => TextKey::ExportSelfSignedTitle,
             Self::CreateCsr { .. } => TextKey::CsrTitle,
             Self::Check(source) | Self::Import { source, .. } => source.title(),
+            Self::ExportSettings { .. } => TextKey::ExportTitle,
+            Self::ImportSettings { .. } => TextKey::ImportTitle,
         }
     }
 

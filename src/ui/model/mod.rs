@@ -12,6 +12,7 @@ mod job;
 mod reduce;
 mod reduce_dialogs;
 mod rows;
+mod transfer;
 
 #[cfg(test)]
 mod tests;
@@ -32,6 +33,7 @@ pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, User
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
+pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
 
 use super::backend::Event;
 use super::command::UiCommand;

@@ -2,7 +2,7 @@
 
 use super::{
     ActivationForm, AddController, CancelState, Column, Dialog, ExportForm, Job, JobId, JobRow, Message, Model,
-    PasswordForm, ProcessingView, Purpose, RowId, RowState, Task, Typed,
+    PasswordForm, ProcessingView, Purpose, RowId, RowState, Task, Transfer, Typed,
 };
 use crate::jobs::{JobController, JobEvent, Outcome, Report, Summary};
 use crate::model::{ErrorCode, FileFormat};
@@ -97,6 +97,8 @@ impl Model {
                 return vec![];
             }
             UiCommand::TypeSelect => return self.open_type_select(ticked),
+            UiCommand::ExportSettings => return self.open_transfer(Transfer::Export, ticked),
+            UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -192,6 +194,10 @@ impl Model {
             Event::FilePicked { job, result } => self.file_picked(job, result),
             Event::FileRead { job, result } => {
                 self.file_read(job, result);
+                vec![]
+            }
+            Event::ExportSeen { job, result } => {
+                self.export_seen(job, result);
                 vec![]
             }
             Event::VirtualStarted(result) => self.virtual_started(result),

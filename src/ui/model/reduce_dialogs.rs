@@ -150,6 +150,10 @@ impl Model {
             Dialog::CaSigned(form) => self.check_ca_signed(form),
             Dialog::UserSpecified(form) => self.check_user_specified(form),
             Dialog::ImportReview(review) => self.import(review),
+            Dialog::Transfer(form) => {
+                let planned = form.task().map(|task| (task, form.rows.clone()));
+                self.ask(Dialog::Transfer(form), planned)
+            }
             Dialog::Backup { on } => {
                 self.options.backup = on;
                 self.save()

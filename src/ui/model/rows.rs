@@ -2,7 +2,7 @@ use std::cmp::Ordering;
 
 use chrono::{DateTime, Duration, Utc};
 
-use crate::model::{CertificateType, ControllerInfo};
+use crate::model::{CertificateType, ControllerInfo, FirmwareGeneration};
 use crate::ui::model::RowState;
 use crate::workspace::{ControllerEntry, Retrieved};
 
@@ -258,6 +258,12 @@ impl Rows {
 
     pub fn ticked_count(&self) -> usize {
         self.ticked
+    }
+
+    /// One of the ticked controllers is known to have firmware 8.0.0 or later.
+    pub fn any_ticked_is_current(&self) -> bool {
+        let current = |row: &Row| row.info().map(|i| i.firmware.generation()) == Some(FirmwareGeneration::Current);
+        self.list.iter().any(|row| row.ticked && current(row))
     }
 
     pub fn ticked_hidden(&self) -> usize {

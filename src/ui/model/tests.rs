@@ -1,5 +1,7 @@
 //! The rules of the window, without a window.
 
+mod transfer;
+
 use chrono::Duration;
 
 use super::*;

@@ -354,6 +354,22 @@ texts! {
     TypeSelectLegacy: "User-specified certificates exist on firmware before 8.0.0 only", "用户指定证书仅适用于 8.0.0 之前的固件";
     TypeInUse: "in use", "使用中";
     TypeNotStored: "Not stored in the controller", "控制器中未保存";
+    // export and import of settings
+    WhyLegacyOnly: "Only for firmware before 8.0.0; untick controllers with later firmware", "仅适用于固件 8.0.0 之前的控制器，请取消勾选新版固件的控制器";
+    ExportTitle: "Export settings", "导出设置";
+    ImportTitle: "Import settings", "导入设置";
+    ExportButton: "Export", "导出";
+    ImportButton: "Import", "导入";
+    ExportText: "Basic settings, users and activation keys are saved to an encrypted file on this computer. The server goes on running.", "将基本设置、用户和激活密钥加密保存到本机文件。服务器不会停止。";
+    ImportSettingsText: "Basic settings, users and activation keys are put back from the file the same controller was exported to. All of it is taken, or nothing.", "从同一控制器导出的文件恢复基本设置、用户和激活密钥。全部恢复，否则不做任何更改。";
+    File: "File", "文件";
+    FilePerSerial: "One file per controller, in the folder named after its serial number", "每台控制器一个文件，位于以其序列号命名的文件夹中";
+    ExportedAt: "Exported at", "导出日期";
+    Passphrase: "Passphrase", "口令";
+    PassphraseRule: "At least 8 characters, or none", "至少 8 个字符，或留空";
+    ExportPassphraseTip: "If empty, each file is protected by the connection password of its controller. If there is none either, anybody who can read the file can open it.", "留空时以各控制器的连接密码保护文件。若连接密码也未设置，任何能读取该文件的人都能打开。";
+    ImportPassphraseTip: "The one the file was exported with. If empty, the connection password of the controller opens it.", "导出时使用的口令。留空时使用控制器的连接密码。";
+    ImportNothing: "There is no file that can be imported", "没有可导入的文件";
 
     // backup
     BackupTitle: "Backup", "备份";

@@ -4,7 +4,7 @@ use chrono::{DateTime, FixedOffset, Local, Utc};
 
 use super::TextKey as T;
 use crate::jobs::{Step, Summary};
-use crate::model::{CertificateSummary, CertificateType, Language, ServerStatus};
+use crate::model::{CertificateSummary, CertificateType, FirmwareVersion, Language, ServerStatus};
 use crate::workspace::ThemeChoice;
 
 /// Where times are shown as of.
@@ -155,6 +155,14 @@ pub fn user_count(language: Language, count: usize, most: usize) -> String {
     match language {
         Language::En => format!("{count} of at most {most} users"),
         Language::Zh => format!("{count} 个用户，最多 {most} 个"),
+    }
+}
+
+/// When a settings export was made, and of which firmware.
+pub fn exported_at(language: Language, at: &str, firmware: FirmwareVersion) -> String {
+    match language {
+        Language::En => format!("{at}, firmware {firmware}"),
+        Language::Zh => format!("{at}，固件 {firmware}"),
     }
 }
 

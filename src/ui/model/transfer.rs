@@ -1,0 +1,133 @@
+//! Export and import of settings (manual 2.6.4, 2.6.5).
+
+use std::path::PathBuf;
+
+use chrono::{DateTime, Utc};
+use secrecy::SecretString;
+
+use super::{Dialog, JobId, Model, RowId, Task, Typed};
+use crate::jobs::MIN_PASSPHRASE_CHARS;
+use crate::model::{ControllerInfo, FirmwareVersion, Problem};
+use crate::ui::backend::Command;
+use crate::ui::texts::TextKey;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Transfer {
+    Export,
+    Import,
+}
+
+/// Where the settings of one controller or many go to or come from, and what protects them.
+#[derive(Debug)]
+pub struct TransferForm {
+    pub transfer: Transfer,
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    /// With `<serial>` in it when it is not that of one known controller.
+    pub path: PathBuf,
+    pub path_of_one: bool,
+    /// Empty: the connection password protects the file.
+    pub passphrase: Typed,
+    pub show_passphrase: bool,
+    pub preview: Preview,
+}
+
+/// The file of the one controller, as far as it can be read without its passphrase.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub enum Preview {
+    /// Several controllers, or one whose serial number is not known yet.
+    #[default]
+    None,
+    Reading(JobId),
+    Found(ExportFound),
+    /// It cannot be imported.
+    Unfit(Problem),
+}
+
+/// What a settings export says of itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ExportFound {
+    pub exported: DateTime<Utc>,
+    pub firmware: FirmwareVersion,
+}
+
+impl TransferForm {
+    pub fn new(transfer: Transfer, rows: Vec<RowId>, model: &Model) -> Self {
+        let files = model.workspace.settings_files();
+        let one = one_info(&rows, model);
+        Self {
+            transfer,
+            names: model.rows.names(&rows),
+            path: one.map_or_else(|| files.any_path(), |info| files.path(&info.serial)),
+            path_of_one: one.is_some(),
+            rows,
+            passphrase: Typed::default(),
+            show_passphrase: false,
+            preview: Preview::None,
+        }
+    }
+
+    /// An import takes whatever passphrase the file was made with.
+    pub fn passphrase_error(&self) -> Option<TextKey> {
+        let count = self.passphrase.0.chars().count();
+        let short = self.transfer == Transfer::Export && (1..MIN_PASSPHRASE_CHARS).contains(&count);
+        short.then_some(TextKey::PassphraseRule)
+    }
+
+    /// Why the form cannot be sent yet.
+    pub fn incomplete(&self) -> Option<TextKey> {
+        match self.preview {
+            Preview::Reading(_) => Some(TextKey::Reading),
+            Preview::Unfit(_) => Some(TextKey::ImportNothing),
+            Preview::None | Preview::Found(_) => self.passphrase_error(),
+        }
+    }
+
+    pub fn task(&self) -> Option<Task> {
+        if self.incomplete().is_some() {
+            return None;
+        }
+        let passphrase = (!self.passphrase.0.is_empty()).then(|| SecretString::from(self.passphrase.0.clone()));
+        Some(match self.transfer {
+            Transfer::Export => Task::ExportSettings { passphrase },
+            Transfer::Import => Task::ImportSettings { passphrase },
+        })
+    }
+}
+
+fn one_info<'a>(rows: &[RowId], model: &'a Model) -> Option<&'a ControllerInfo> {
+    match rows {
+        [row] => model.rows.get(*row)?.info(),
+        _ => None,
+    }
+}
+
+impl Model {
+    pub(super) fn open_transfer(&mut self, transfer: Transfer, rows: Vec<RowId>) -> Vec<Command> {
+        let mut form = TransferForm::new(transfer, rows, self);
+        let known = one_info(&form.rows, self).filter(|_| transfer == Transfer::Import).cloned();
+        let commands = match known {
+            Some(info) => {
+                let job = self.next_job();
+                form.preview = Preview::Reading(job);
+                vec![Command::LookAtExport { job, of: Box::new(info) }]
+            }
+            None => vec![],
+        };
+        self.dialogs.push(Dialog::Transfer(form));
+        commands
+    }
+
+    pub(super) fn export_seen(&mut self, job: JobId, result: Result<ExportFound, Problem>) {
+        let waiting = self.dialogs.iter_mut().find_map(|dialog| match dialog {
+            Dialog::Transfer(form) if form.preview == Preview::Reading(job) => Some(form),
+            _ => None,
+        });
+        if let Some(form) = waiting {
+            form.preview = match result {
+                Ok(found) => Preview::Found(found),
+                Err(problem) => Preview::Unfit(problem),
+            };
+        }
+    }
+}
