@@ -79,6 +79,12 @@ fn a_request_that_is_wrong_sends_nothing_and_ends_with_2() {
         (&["users", "add", "op", "--password-file", &user_password, "--yes", "weld"], "bad-credential"),
         (&["users", "add", "operator1", "--password-file", "/nowhere", "--yes", "weld"], "file-unreadable"),
         (&["stop", "weld"], "not-confirmed"),
+        (&["cert", "import-ca", "--file", "/nowhere.der", "--yes", "weld"], "file-not-found"),
+        (&["cert", "import-ca", "--file", &user_password, "--yes", "weld"], "file-format"),
+        (&["cert", "import-user", "/nowhere.pfx", "--yes", "weld"], "file-not-found"),
+        (&["cert", "import-user", &user_password, "--yes", "weld"], "file-format"),
+        (&["cert", "import-user", "a", "b", "c", "--yes", "weld"], "several-files"),
+        (&["cert", "export", "weld"], "not-confirmed"),
         (&["clients", "add", "--list", "trusted", "/nowhere.der", "weld"], "file-unreadable"),
         (&["clients", "add", "--list", "trusted", &user_password, "weld"], "bad-certificate"),
         (&["controllers", "add", "weld", "10.0.0.1", "--series", "RC90", "--trust-on-first-use"], "name-taken"),
@@ -101,6 +107,15 @@ fn a_controller_that_fails_ends_with_1_and_says_why() {
     let (code, lines) = desk.json(&["start", "weld"]);
     assert_eq!(code, Some(1));
     assert_error(&lines, "7931");
+    for (arguments, error) in [
+        (&["cert", "select", "ca", "--yes", "weld"][..], "certificate-not-stored"),
+        (&["cert", "export", "--yes", "weld"], "certificate-not-stored"),
+        (&["cert", "import-ca", "--yes", "weld"], "file-not-found"),
+    ] {
+        let (code, lines) = desk.json(arguments);
+        assert_eq!(code, Some(1), "{arguments:?} {lines:?}");
+        assert_error(&lines, error);
+    }
     let people = desk.run(&["--lang", "zh", "start", "weld"]);
     assert!(people.stderr.contains("未配置服务器证书"), "{}", people.stderr);
     fs::write(desk.folder.path().join("password"), "wrong").unwrap();

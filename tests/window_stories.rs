@@ -10,7 +10,7 @@ use std::time::Duration;
 use common::window::{self, SIZE, choose, click, is_enabled, shows, type_into, wait_until, window_in};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::jobs::{AddUser, JobController};
-use opcua_configurator::model::{Credential, Problem, ServerStatus, UserPassword};
+use opcua_configurator::model::{Credential, Language, Problem, ServerStatus, UserPassword};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::ui::backend::{BackendOptions, NewVirtual, TokioBackend, VirtualFleetStarter};
 use opcua_configurator::ui::picker::FixedPicker;
@@ -95,9 +95,13 @@ impl Desk {
         rows.iter().map(|row| row.entry.last.as_ref().map(|last| last.info.status)).collect()
     }
 
-    /// What the workspace remembers.
-    fn saved(&self) -> Configuration {
-        self.workspace.load().unwrap().configuration
+    /// Waits until the workspace remembers something: saving has a thread of its own.
+    fn wait_until_saved(&self, holds: impl Fn(&Configuration) -> bool) {
+        let until = std::time::Instant::now() + PATIENCE;
+        while !holds(&self.workspace.load().unwrap().configuration) {
+            assert!(std::time::Instant::now() < until, "not saved");
+            std::thread::sleep(Duration::from_millis(20));
+        }
     }
 }
 
@@ -149,7 +153,7 @@ fn from_an_empty_window_to_three_running_servers() {
         desk.click("It matches, add");
         wait_until(&mut desk.window, PATIENCE, |window| window.state().model.rows.all().len() == index + 1);
     }
-    assert_eq!(desk.saved().controllers.len(), 3);
+    desk.wait_until_saved(|configuration| configuration.controllers.len() == 3);
 
     // Sorted by name, then the other way round.
     desk.click("Sort by name");
@@ -389,13 +393,7 @@ fn the_language_changes_at_once_and_is_remembered() {
     assert!(shows(&desk.window, "选项") && shows(&desk.window, "获取新信息"));
     desk.click("关闭");
     assert!(shows(&desk.window, "控制器"));
-    wait_until(&mut desk.window, PATIENCE, |_| true);
-    let remembered = || desk.workspace.load().unwrap().configuration.options.language;
-    let until = std::time::Instant::now() + PATIENCE;
-    while remembered() != Some(opcua_configurator::model::Language::Zh) {
-        assert!(std::time::Instant::now() < until, "not saved");
-        std::thread::sleep(Duration::from_millis(20));
-    }
+    desk.wait_until_saved(|configuration| configuration.options.language == Some(Language::Zh));
 }
 
 #[test]

@@ -44,6 +44,12 @@ pub const STATE: Presentation = Presentation {
     },
 };
 
+impl Ending {
+    pub fn of(reports: &[Report]) -> Self {
+        if reports.iter().all(|report| report.result.is_ok()) { Self::AllDone } else { Self::SomeFailed }
+    }
+}
+
 impl Settled {
     pub fn configuration(&self) -> Result<Configuration, Problem> {
         let loaded = self.workspace.load()?;
@@ -69,6 +75,21 @@ impl Settled {
         operation: impl Operation + 'static,
         presentation: &Presentation,
     ) -> Result<Ending, Problem> {
+        let reports = self.reports(configuration, chosen, operation, presentation)?;
+        if !self.output.is_json() {
+            self.print(chosen, &reports, presentation);
+        }
+        Ok(Ending::of(&reports))
+    }
+
+    /// As [`Settled::batch`], but without `--json` the printing is left to the caller.
+    pub fn reports(
+        &self,
+        configuration: &Configuration,
+        chosen: &[ControllerEntry],
+        operation: impl Operation + 'static,
+        presentation: &Presentation,
+    ) -> Result<Vec<Report>, Problem> {
         if let Some(confirmation) = operation.confirmation() {
             self.confirm(confirmation, chosen)?;
         }
@@ -76,11 +97,7 @@ impl Settled {
         let controllers: Vec<JobController> = chosen.iter().map(JobController::from).collect();
         let reports = self.run_job(controllers, Arc::new(operation), context, presentation)?;
         self.remember(chosen, &reports);
-        if !self.output.is_json() {
-            self.print(chosen, &reports, presentation);
-        }
-        let all_done = reports.iter().all(|report| report.result.is_ok());
-        Ok(if all_done { Ending::AllDone } else { Ending::SomeFailed })
+        Ok(reports)
     }
 
     fn run_job(
@@ -194,6 +211,7 @@ impl Settled {
             ),
             (confirmation.overwrites_files, "files of the same name on this computer are replaced"),
             (confirmation.deletes_log, "the server log is deleted"),
+            (confirmation.replaces_settings, "settings and users are replaced by those that were exported"),
         ] {
             if applies {
                 eprintln!("  - {says}");

@@ -39,7 +39,8 @@ pub enum CertCommand {
         arguments: ThingsThenSelect,
     },
     /// Select which of the certificates held the server uses
-    Select {
+    #[command(name = "select")]
+    SelectType {
         #[arg(value_name = "TYPE")]
         kind: Kind,
         #[command(flatten)]
@@ -264,7 +265,7 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
             let operation = ImportUserCertificate { files, password, accept_warnings: settled.yes };
             settled.batch(&configuration, &chosen, operation, &IMPORTED)
         }
-        CertCommand::Select { kind, select } => {
+        CertCommand::SelectType { kind, select } => {
             let chosen = select.resolve(&configuration)?;
             settled.batch(&configuration, &chosen, SelectCertificateType(kind.into()), &STATE)
         }

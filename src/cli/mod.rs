@@ -10,11 +10,13 @@ mod cert;
 mod clients;
 mod controllers;
 mod demo;
+mod log;
 mod output;
 mod passwords;
 mod select;
 mod server;
 mod settings;
+mod settings_transfer;
 mod table;
 mod users;
 mod virtual_fleet;
@@ -100,6 +102,13 @@ enum Command {
     /// List and add trusted client certificates
     #[command(subcommand)]
     Clients(clients::ClientsCommand),
+    /// Show or delete the log of OPC UA servers
+    #[command(subcommand)]
+    Log(log::LogCommand),
+    /// Save settings, users and keys of legacy controllers in the workspace
+    ExportSettings(settings_transfer::TransferArgs),
+    /// Put exported settings, users and keys back into the controllers they came from
+    ImportSettings(settings_transfer::TransferArgs),
     /// Switch the backup of what is made on or off
     #[command(subcommand)]
     Backup(backup::BackupCommand),
@@ -156,6 +165,9 @@ pub fn main() -> ExitCode {
         Some(Command::Users(command)) => users::run(&settled, command),
         Some(Command::Cert(command)) => cert::run(&settled, command),
         Some(Command::Clients(command)) => clients::run(&settled, command),
+        Some(Command::Log(command)) => log::run(&settled, command),
+        Some(Command::ExportSettings(args)) => settings_transfer::export(&settled, &args),
+        Some(Command::ImportSettings(args)) => settings_transfer::import(&settled, &args),
         Some(Command::Backup(command)) => backup::run(&settled, command),
         Some(Command::Completions { shell }) => {
             clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut std::io::stdout());

@@ -21,7 +21,10 @@ const INFO: Presentation = Presentation {
                 info.series.to_string(),
                 info.serial.to_string(),
                 info.firmware.to_string(),
-                info.status.as_str().to_owned(),
+                match info.error {
+                    Some(code) => format!("{} ({})", info.status.as_str(), code.as_str()),
+                    None => info.status.as_str().to_owned(),
+                },
                 kind,
                 expiry,
                 if info.activated { "Yes" } else { "No" }.to_owned(),

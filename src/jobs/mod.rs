@@ -18,6 +18,8 @@
 //! | `export_self_signed` | save the self-signed certificate on the PC |
 //! | `clients` | list and add trusted client certificates |
 //! | `activate` | activate legacy controllers by their keys |
+//! | `server_log` | read the server log |
+//! | `settings_transfer` | export settings to the PC and import them again |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activate;
@@ -34,7 +36,9 @@ mod runner;
 mod select_certificate;
 mod self_signed;
 mod server_control;
+mod server_log;
 mod settings;
+mod settings_transfer;
 mod users;
 
 pub use activate::{Activate, KeySource};
@@ -50,5 +54,7 @@ pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
 pub use select_certificate::{ListCertificates, SelectCertificateType};
 pub use self_signed::{SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};
+pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
+pub use settings_transfer::{ExportSettings, ImportSettings, MIN_PASSPHRASE_CHARS};
 pub use users::{AddUser, ListUsers, RemoveUsers};

@@ -7,7 +7,7 @@ use tokio_util::sync::CancellationToken;
 use super::JobController;
 use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Finding;
-use crate::protocol::{HeldCertificates, ListedCertificate, Revisioned};
+use crate::protocol::{HeldCertificates, ListedCertificate, LogChunk, Revisioned};
 use crate::session::ControllerSession;
 use crate::workspace::{SavedCertificate, SavedCsr};
 
@@ -41,6 +41,8 @@ pub struct Confirmation {
     pub overwrites_files: bool,
     /// The server log in the controller is deleted.
     pub deletes_log: bool,
+    /// Settings and users in the controller are replaced by those of a file.
+    pub replaces_settings: bool,
 }
 
 /// The step a controller is at.
@@ -61,6 +63,12 @@ pub enum Outcome {
     Settings(Revisioned<ServerSettings>),
     Users(Revisioned<Vec<UserName>>),
     Clients(Revisioned<Vec<ListedCertificate>>),
+    /// [`LogChunk::text`] is what was asked for, however many requests that took.
+    Log(LogChunk),
+    /// The settings of the controller are in this file.
+    SettingsExported {
+        path: PathBuf,
+    },
     Certificate {
         summary: CertificateSummary,
         saved: Option<SavedCertificate>,

@@ -92,6 +92,14 @@ pub enum ErrorCode {
     BadActivationFile,
     // connection list (2.5.3)
     BadConnectionList,
+    // settings export (2.6.4, 2.6.5)
+    ExportMissing,
+    ExportRenamed,
+    ExportOfAnother,
+    ExportVersion,
+    ExportDamaged,
+    WrongPassphrase,
+    BadPassphrase,
     // the PC
     WorkspaceReadOnly,
     WorkspaceFull,
@@ -908,6 +916,89 @@ const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ),
     ),
     (
+        ErrorCode::ExportMissing,
+        text(
+            "No settings were exported from this controller",
+            "The controller's folder in the workspace holds no option.json.",
+            "Export the settings first, or copy the exported file into the folder named by the serial number.",
+        ),
+        text(
+            "找不到导入文件",
+            "工作区的控制器文件夹中没有 option.json。",
+            "请先导出设置，或将导出的文件放入以序列号命名的文件夹中。",
+        ),
+    ),
+    (
+        ErrorCode::ExportRenamed,
+        text(
+            "The name of the exported file was changed",
+            "Settings are imported from the file option.json only.",
+            "Give the file its name back.",
+        ),
+        text("文件名错误", "只能从 option.json 导入设置，导出文件的名称已被修改。", "请恢复文件名。"),
+    ),
+    (
+        ErrorCode::ExportOfAnother,
+        text(
+            "The exported settings belong to another controller",
+            "The file was exported from a controller with another serial number or of another series.",
+            "Put each file back into the folder named by its controller's serial number.",
+        ),
+        text(
+            "导出的设置属于其他控制器",
+            "该文件来自序列号或系列不同的控制器。",
+            "请将各文件放回以其控制器序列号命名的文件夹中。",
+        ),
+    ),
+    (
+        ErrorCode::ExportVersion,
+        text(
+            "The exported settings are of another version",
+            "The file has a format this program does not know, or comes from newer firmware than the controller's.",
+            "Update this program or the controller's firmware, or export the settings again.",
+        ),
+        text(
+            "导出的设置版本不同",
+            "文件格式不是本程序支持的版本，或来自比控制器更新的固件。",
+            "请更新本程序或控制器固件，或重新导出设置。",
+        ),
+    ),
+    (
+        ErrorCode::ExportDamaged,
+        text(
+            "The exported settings are damaged",
+            "The file is cut short or was changed, or it is not a settings export.",
+            "Restore the file from a copy, or export the settings again.",
+        ),
+        text(
+            "导出的设置文件已损坏",
+            "文件不完整或已被修改，或不是导出的设置文件。",
+            "请从副本恢复该文件，或重新导出设置。",
+        ),
+    ),
+    (
+        ErrorCode::WrongPassphrase,
+        text(
+            "The passphrase does not open the exported settings",
+            "They were sealed with another passphrase, or with the connection password the controller had then.",
+            "Enter the passphrase of the export.",
+        ),
+        text(
+            "密码短语无法打开导出的设置",
+            "导出时使用了其他密码短语，或当时控制器的连接密码。",
+            "请输入导出时使用的密码短语。",
+        ),
+    ),
+    (
+        ErrorCode::BadPassphrase,
+        text(
+            "The passphrase is too short",
+            "A passphrase that protects an export has at least 8 characters.",
+            "Choose a longer passphrase.",
+        ),
+        text("密码短语过短", "保护导出文件的密码短语至少为 8 个字符。", "请使用更长的密码短语。"),
+    ),
+    (
         ErrorCode::WorkspaceReadOnly,
         text(
             "The workspace cannot be written",
@@ -1052,6 +1143,8 @@ mod tests {
             | Preflight | PreflightWarnings => 14,
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,
+            ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
+            | BadPassphrase => 7,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
             | NoDisplay | NoFilePicker | Cancelled | Internal => 9,
         }
@@ -1060,11 +1153,10 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 11 + 15 + 13 + 14 + 4 + 1 + 9;
-        assert_eq!(codes.len(), all);
+        assert_eq!(codes.len(), 7 + 11 + 15 + 13 + 14 + 4 + 1 + 7 + 9);
         codes.sort();
         codes.dedup();
-        assert_eq!(codes.len(), all);
+        assert_eq!(codes.len(), 81);
         for code in ErrorCode::all() {
             assert!(counted(code) > 0);
             let (en, zh) = (code.explain(Language::En), code.explain(Language::Zh));

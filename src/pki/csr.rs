@@ -112,7 +112,7 @@ pub fn make_csr(request: &CsrRequest, names: &ServerNames, key: &PrivateKey) -> 
 }
 
 /// RSA with PKCS#1 v1.5: what every tool signs requests with.
-fn algorithm(oid: &str) -> Result<&'static RsaParameters, PkiError> {
+pub(super) fn algorithm(oid: &str) -> Result<&'static RsaParameters, PkiError> {
     match oid {
         "1.2.840.113549.1.1.5" => Ok(&RSA_PKCS1_1024_8192_SHA1_FOR_LEGACY_USE_ONLY),
         "1.2.840.113549.1.1.11" => Ok(&RSA_PKCS1_1024_8192_SHA256_FOR_LEGACY_USE_ONLY),

@@ -35,6 +35,7 @@ mod pkcs12;
 mod preflight;
 #[cfg(test)]
 mod samples;
+mod sealed;
 mod self_signed;
 mod tlv;
 
@@ -48,4 +49,5 @@ pub use key_file::{MAX_KEY_FILE_BYTES, read_key_file, read_pair};
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
 pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_key, pkcs12_write, pkcs12_write_key};
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
+pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 pub use self_signed::{ServerNames, self_signed};

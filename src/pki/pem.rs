@@ -1,8 +1,8 @@
 //! The text armour around DER.
 //!
-//! The only place that reads PEM, with `rustls-pemfile`. That crate is archived (RUSTSEC-2025-0134: unmaintained, no
-//! known defect); it is a thin wrapper over the maintained parser in `rustls-pki-types`, and should it ever have to go,
-//! only this file changes.
+//! The only place that reads PEM: certificates and requests with `rustls-pemfile`, private keys by hand. That crate is
+//! archived (RUSTSEC-2025-0134: unmaintained, no known defect); it is a thin wrapper over the maintained parser in
+//! `rustls-pki-types`, and should it ever have to go, only this file changes.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;

@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 use std::net::IpAddr;
 
+use aws_lc_rs::signature::UnparsedPublicKey;
 use chrono::{DateTime, Duration, SecondsFormat, Utc};
 use x509_parser::prelude::{FromDer, GeneralName, X509Certificate};
 
-use super::{Certificate, PkiError, name};
+use super::{Certificate, PkiError, csr, name};
 use crate::model::{Language, SecurityPolicy, offered_key_lengths};
 
 /// What a certificate is to be compared with.
@@ -57,6 +58,8 @@ pub enum Finding {
     ServerAuthMissing,
     ExtendedKeyUsageMissing,
     CertificateAuthority,
+    /// It calls itself self-signed, but the signature is not that of its key: a damaged certificate.
+    Signature,
     NotRsa,
     KeyLength {
         bits: u16,
@@ -96,7 +99,7 @@ pub fn check_usable(
     Ok(())
 }
 
-/// Looks at everything a client looks at, but for who signed it: errors first.
+/// Looks at everything a client looks at, but for the CA that signed it: errors first.
 pub fn preflight(certificate: &Certificate, expected: &Expected<'_>) -> Result<Vec<Finding>, PkiError> {
     let (_, parsed) = X509Certificate::from_der(certificate.der()).map_err(|_| PkiError::NotACertificate)?;
     let mut findings = Vec::new();
@@ -116,6 +119,7 @@ impl Finding {
             | Self::KeyUsage { .. }
             | Self::ServerAuthMissing
             | Self::CertificateAuthority
+            | Self::Signature
             | Self::NotRsa
             | Self::KeyLength { .. }
             | Self::Expired { .. } => Severity::Error,
@@ -141,6 +145,7 @@ impl Finding {
             | Self::ServerAuthMissing
             | Self::ExtendedKeyUsageMissing
             | Self::CertificateAuthority => "BadCertificateUseNotAllowed",
+            Self::Signature => "BadCertificateInvalid",
             Self::NotRsa | Self::KeyLength { .. } | Self::WeakSignature { .. } => "BadCertificatePolicyCheckFailed",
             Self::Expired { .. } | Self::ExpiresSoon { .. } | Self::NotYetValid { .. } => "BadCertificateTimeInvalid",
         }
@@ -174,6 +179,7 @@ impl Finding {
             Self::ServerAuthMissing => "the extended key usage lacks server authentication".to_owned(),
             Self::ExtendedKeyUsageMissing => "the certificate has no extended key usage".to_owned(),
             Self::CertificateAuthority => "it is the certificate of a CA, not of a server".to_owned(),
+            Self::Signature => "the signature is wrong; the certificate is damaged".to_owned(),
             Self::NotRsa => "the key is not an RSA key".to_owned(),
             Self::KeyLength { bits } => format!("the ticked security policies do not allow {bits}-bit keys"),
             Self::WeakSignature { hash, .. } => format!("the certificate is signed with {hash}"),
@@ -205,6 +211,7 @@ impl Finding {
             Self::ServerAuthMissing => "扩展密钥用法缺少服务器身份验证".to_owned(),
             Self::ExtendedKeyUsageMissing => "证书没有扩展密钥用法".to_owned(),
             Self::CertificateAuthority => "这是 CA 的证书，而不是服务器证书".to_owned(),
+            Self::Signature => "签名错误，证书已损坏".to_owned(),
             Self::NotRsa => "密钥不是 RSA 密钥".to_owned(),
             Self::KeyLength { bits } => format!("所选的安全策略不允许 {bits} 位密钥"),
             Self::WeakSignature { hash, .. } => format!("证书使用 {hash} 签名"),
@@ -305,6 +312,9 @@ fn strength(
     } else if !length_fits(certificate.key_bits(), policies) {
         findings.push(Finding::KeyLength { bits: certificate.key_bits() });
     }
+    if certificate.is_self_signed() && !is_signed_by_itself(parsed, certificate) {
+        findings.push(Finding::Signature);
+    }
     let wants_better = policies.iter().any(|policy| !policy.is_weak());
     match parsed.signature_algorithm.algorithm.to_id_string().as_str() {
         "1.2.840.113549.1.1.2" | "1.2.840.113549.1.1.4" => {
@@ -316,6 +326,14 @@ fn strength(
         }
         _ => {}
     }
+}
+
+/// True also for signatures of a kind that is not known here.
+fn is_signed_by_itself(parsed: &X509Certificate<'_>, certificate: &Certificate) -> bool {
+    let algorithm = csr::algorithm(&parsed.signature_algorithm.algorithm.to_id_string());
+    let (Ok(algorithm), Some(public_key)) = (algorithm, certificate.rsa_public_key()) else { return true };
+    let signature = &parsed.signature_value.data;
+    UnparsedPublicKey::new(algorithm, public_key).verify(parsed.tbs_certificate.as_ref(), signature).is_ok()
 }
 
 fn dates(certificate: &Certificate, now: DateTime<Utc>, findings: &mut Vec<Finding>) {
@@ -443,6 +461,15 @@ mod tests {
         let elliptic = crate::pki::tls_identity("robot", now()).unwrap();
         let elliptic = Certificate::from_der(&elliptic.certificate_der).unwrap();
         assert!(checked(&elliptic, &[SecurityPolicy::None], now()).contains(&Finding::NotRsa));
+    }
+
+    #[test]
+    fn a_damaged_self_signed_certificate_is_noticed() {
+        let mut der = made(|_| {}).der().to_vec();
+        let last = der.len() - 1;
+        der[last] ^= 1;
+        let damaged = Certificate::from_der(&der).unwrap();
+        assert_eq!(checked(&damaged, &[SecurityPolicy::Basic256Sha256], now()), [Finding::Signature]);
     }
 
     #[test]

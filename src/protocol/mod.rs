@@ -44,6 +44,9 @@
 //! | `POST` [`CA_SIGNED`] | [`ImportCaSigned`] | [`Installed`] |
 //! | `GET` [`CLIENTS`]`/trusted`, `/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
 //! | `POST` [`CLIENTS`]`/trusted`, `/issuers` | [`AddClients`] | [`Changed`] |
+//! | `POST` [`SETTINGS_EXPORT`] | [`ExportSettings`] | [`SettingsExport`], legacy firmware |
+//! | `POST` [`SETTINGS_IMPORT`] | [`ImportSettings`] | [`Changed`], legacy firmware |
+//! | `GET` [`LOG`], with `?from=` a byte | – | [`LogChunk`] |
 //! | `POST` [`ACTIVATION`] | [`Activate`] | [`Changed`], legacy firmware |
 //!
 //! # Changes
@@ -76,15 +79,23 @@
 mod activation;
 mod base64_bytes;
 mod certificates;
+mod log;
 mod messages;
+mod settings_export;
 
 pub use activation::Activate;
 pub use certificates::{
     CsrMade, HeldCertificate, HeldCertificates, ImportCaSigned, ImportCsr, MakeCsr, SelectCertificate,
 };
+pub use log::{LogChunk, MAX_LOG_CHUNK_BYTES};
 pub use messages::{
     AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
     MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
+};
+
+pub use settings_export::{
+    EXPORT_FORMAT, EXPORT_VERSION, ExportContent, ExportError, ExportSettings, ExportedUser, ImportSettings,
+    MAX_EXPORT_BYTES, SettingsExport,
 };
 
 use crate::model::{ClientList, ErrorCode};
@@ -112,6 +123,9 @@ pub const CSR_IMPORT: &str = "/v1/certificates/csr/import";
 pub const CA_SIGNED: &str = "/v1/certificates/ca-signed";
 pub const CLIENTS: &str = "/v1/clients";
 pub const ACTIVATION: &str = "/v1/activation";
+pub const LOG: &str = "/v1/log";
+pub const SETTINGS_EXPORT: &str = "/v1/settings/export";
+pub const SETTINGS_IMPORT: &str = "/v1/settings/import";
 
 /// What [`Hello::product`] says, so that another HTTPS server is not taken for a controller.
 pub const PRODUCT: &str = "opcua-controller-management";

@@ -16,9 +16,10 @@ use super::{Connector, ControllerSession};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    self, Activate, AddClients, AddUser, Changed, CsrMade, Failure, HeldCertificates, Hello, ImportCaSigned,
-    ImportCertificate, ImportCsr, Installed, ListedCertificate, Login, MakeCsr, MakeSelfSigned, RemoveUsers,
-    Revisioned, SelectCertificate, Session, SetSettings, WireSecret,
+    self, Activate, AddClients, AddUser, Changed, CsrMade, ExportSettings, Failure, HeldCertificates, Hello,
+    ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, Login,
+    MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, Session, SetSettings, SettingsExport,
+    WireSecret,
 };
 
 /// How long the driver waits.
@@ -300,6 +301,21 @@ impl ControllerSession for Link {
 
     async fn activate(&mut self, change: Activate) -> Result<Changed, Problem> {
         self.change(protocol::ACTIVATION, &change).await
+    }
+
+    async fn log(&mut self, from: Option<u64>) -> Result<LogChunk, Problem> {
+        match from {
+            None => self.get(protocol::LOG).await,
+            Some(from) => self.get(&format!("{}?from={from}", protocol::LOG)).await,
+        }
+    }
+
+    async fn export_settings(&mut self, request: ExportSettings) -> Result<SettingsExport, Problem> {
+        self.change(protocol::SETTINGS_EXPORT, &request).await
+    }
+
+    async fn import_settings(&mut self, change: ImportSettings) -> Result<Changed, Problem> {
+        self.change(protocol::SETTINGS_IMPORT, &change).await
     }
 
     async fn close(&mut self) {

@@ -14,8 +14,9 @@ pub use management::{ManagementConnector, Timeouts};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    Activate, AddClients, AddUser, Changed, CsrMade, HeldCertificates, ImportCaSigned, ImportCertificate, ImportCsr,
-    Installed, ListedCertificate, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, SetSettings,
+    Activate, AddClients, AddUser, Changed, CsrMade, ExportSettings, HeldCertificates, ImportCaSigned,
+    ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, MakeCsr, MakeSelfSigned,
+    RemoveUsers, Revisioned, SelectCertificate, SetSettings, SettingsExport,
 };
 
 /// Opens sessions.
@@ -92,6 +93,18 @@ pub trait ControllerSession: Send + Sync {
     }
     /// Legacy firmware only.
     async fn activate(&mut self, _change: Activate) -> Result<Changed, Problem> {
+        not_offered()
+    }
+    /// The server log from this byte on, or its end.
+    async fn log(&mut self, _from: Option<u64>) -> Result<LogChunk, Problem> {
+        not_offered()
+    }
+    /// Legacy firmware only.
+    async fn export_settings(&mut self, _request: ExportSettings) -> Result<SettingsExport, Problem> {
+        not_offered()
+    }
+    /// Legacy firmware only.
+    async fn import_settings(&mut self, _change: ImportSettings) -> Result<Changed, Problem> {
         not_offered()
     }
     /// Ends the session in the controller. Failing to do so is harmless: it expires there.

@@ -7,7 +7,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes, HttpBody as _};
-use axum::extract::{Extension, FromRequestParts, Path};
+use axum::extract::{Extension, FromRequestParts, Path, RawQuery};
 use axum::http::request::Parts;
 use axum::http::{StatusCode, header};
 use axum::response::{IntoResponse, Response};
@@ -24,12 +24,14 @@ use super::changes;
 use super::controller::{Controller, Effect, Outcome};
 use super::login::{Sessions, Throttle};
 use super::password::is_password;
+use super::settings_transfer;
 use crate::model::activation::ActivationKeys;
 use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
-    self, Activate, AddClients, AddUser, Base64Bytes, Changed, CsrMade, Failure, HeldCertificates, Hello,
-    ImportCaSigned, ImportCertificate, ImportCsr, Installed, ListedCertificate, Login, MakeCsr, MakeSelfSigned,
-    RemoveUsers, Revisioned, SESSION_IDLE_SECS, SelectCertificate, Session, SetSettings, WireSecret,
+    self, Activate, AddClients, AddUser, Base64Bytes, Changed, CsrMade, ExportSettings, Failure, HeldCertificates,
+    Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, Login,
+    MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SESSION_IDLE_SECS, SelectCertificate, Session, SetSettings,
+    SettingsExport, WireSecret,
 };
 
 /// How long a wrong password waits for its answer.
@@ -59,6 +61,9 @@ pub static ROUTER: LazyLock<Router> = LazyLock::new(|| {
         .route(protocol::CA_SIGNED, post(import_ca_signed))
         .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients).post(add_clients))
         .route(protocol::ACTIVATION, post(activate))
+        .route(protocol::LOG, get(log))
+        .route(protocol::SETTINGS_EXPORT, post(export_settings))
+        .route(protocol::SETTINGS_IMPORT, post(import_settings))
         .fallback(unknown_path)
         .method_not_allowed_fallback(unknown_method)
 });
@@ -343,6 +348,37 @@ async fn activate(caller: Caller, body: Body) -> Answer<Changed> {
     let keys = ActivationKeys { licence, activation };
     let outcome =
         caller.controller().change(revision, Effect::Restart, move |state, _| changes::activate(state, keys)).await;
+    let (changed, ()) = caller.settle(outcome).await?;
+    Ok(Json(changed))
+}
+
+async fn log(caller: Caller, RawQuery(query): RawQuery) -> Answer<LogChunk> {
+    let from = match query.as_deref() {
+        None | Some("") => None,
+        Some(query) => Some(
+            query
+                .strip_prefix("from=")
+                .and_then(|from| from.parse().ok())
+                .ok_or_else(|| Problem::with_detail(ErrorCode::Refused, "from=BYTE is all that can be asked for"))?,
+        ),
+    };
+    Ok(Json(caller.controller().log(from).await?))
+}
+
+async fn export_settings(caller: Caller, body: Body) -> Answer<SettingsExport> {
+    let ExportSettings { passphrase } = read(body, Malformed::secret(ErrorCode::Refused)).await?;
+    Ok(Json(caller.controller().export(passphrase).await?))
+}
+
+async fn import_settings(caller: Caller, body: Body) -> Answer<Changed> {
+    let ImportSettings { revision, export, passphrase } =
+        read(body, Malformed::secret(ErrorCode::ExportDamaged)).await?;
+    let outcome = caller
+        .controller()
+        .change(revision, Effect::Restart, move |state, around| {
+            settings_transfer::import(state, around, &export, &passphrase.0)
+        })
+        .await;
     let (changed, ()) = caller.settle(outcome).await?;
     Ok(Json(changed))
 }

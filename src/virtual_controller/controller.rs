@@ -12,7 +12,9 @@ use tokio_util::sync::CancellationToken;
 use super::api::Api;
 use super::faults::{DropPoint, Faults};
 use super::new_controller::NewController;
-use super::opcua::{DeviceIdentity, OpcUaConfig, OpcUaServer, OpcUaUser, StartError};
+use super::opcua::{DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser, StartError};
+use super::server_log::ServerLog;
+use super::settings_transfer;
 use super::state::{State, Surroundings};
 use super::store::{Store, StoreError};
 use super::{listener as management, memory, tls};
@@ -21,7 +23,9 @@ use crate::model::{
     Problem, SerialNumber, ServerSettings, ServerStatus, StartupMode, UserName,
 };
 use crate::pki::Fingerprint;
-use crate::protocol::{Changed, HeldCertificate, HeldCertificates, ListedCertificate, Revisioned};
+use crate::protocol::{
+    Changed, HeldCertificate, HeldCertificates, ListedCertificate, LogChunk, Revisioned, SettingsExport, WireSecret,
+};
 
 /// Where a virtual controller lives and answers, and what it is if its folder holds none yet.
 #[derive(Debug, Clone)]
@@ -91,10 +95,12 @@ impl VirtualController {
         let config = tls::server_config(&state.management)?;
         let fingerprint = Fingerprint::of(&state.management.certificate.0);
         let auto = state.settings.startup == StartupMode::Auto;
+        let log = Arc::new(ServerLog::new(&spec.folder, faults.clone()));
         let controller = Arc::new(Controller {
             state: RwLock::new(Arc::new(state)),
             store: Arc::new(store),
             faults,
+            log,
             folder: spec.folder,
             bind: spec.bind,
             management_port: address.port(),
@@ -105,6 +111,7 @@ impl VirtualController {
             tracing::warn!(serial = %controller.state().identity.serial, %problem, "the OPC UA server did not start");
         }
         let off = CancellationToken::new();
+        tokio::spawn(stop_when_log_is_full(Arc::clone(&controller), off.clone()));
         let api =
             tokio::spawn(management::serve(listener, config, Arc::new(Api::new(Arc::clone(&controller))), off.clone()));
         Ok(Self { controller, address, fingerprint, off, api: Mutex::new(Some(api)) })
@@ -188,6 +195,7 @@ pub(super) struct Controller {
     state: RwLock<Arc<State>>,
     store: Arc<Store>,
     faults: Faults,
+    log: Arc<ServerLog>,
     folder: PathBuf,
     bind: IpAddr,
     management_port: u16,
@@ -350,12 +358,34 @@ impl Controller {
 
     /// Deletes the server log.
     pub(super) async fn delete_log(&self) {
-        let path = self.folder.join(LOG_FILE);
-        match tokio::fs::remove_file(&path).await {
-            Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                tracing::warn!(path = %path.display(), %error, "the server log was not deleted");
-            }
-            _ => {}
+        let log = Arc::clone(&self.log);
+        let deleted = spawn_blocking(move || log.delete()).await;
+        if let Err(error) = deleted.map_err(std::io::Error::other).flatten() {
+            tracing::warn!(%error, "the server log was not deleted");
+        }
+    }
+
+    /// The server log from byte `from` on, or its end.
+    pub(super) async fn log(&self, from: Option<u64>) -> Result<LogChunk, Problem> {
+        let log = Arc::clone(&self.log);
+        let read = spawn_blocking(move || log.read(from)).await.map_err(std::io::Error::other).flatten();
+        read.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))
+    }
+
+    /// Settings, users and keys, sealed.
+    pub(super) async fn export(&self, passphrase: WireSecret) -> Result<SettingsExport, Problem> {
+        let (state, around) = (self.state(), self.surroundings());
+        spawn_blocking(move || settings_transfer::export(&state, &around, &passphrase.0))
+            .await
+            .unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error)))
+    }
+
+    /// What a server does by itself whose log is full.
+    async fn stop_if_log_is_full(&self) {
+        let mut plant = self.server.lock().await;
+        if plant.is_running() && self.state().settings.server_log && self.log.is_full() {
+            plant.stop().await;
+            *self.standing.lock() = Standing::Failed(ErrorCode::ServerLogFull);
         }
     }
 
@@ -493,7 +523,14 @@ impl Controller {
     }
 
     async fn run(&self, state: &State) -> Result<OpcUaServer, Problem> {
-        let config = opcua_config(state, &self.surroundings(), &self.folder)?;
+        let mut config = opcua_config(state, &self.surroundings(), &self.folder)?;
+        if state.settings.server_log {
+            if self.log.is_full() {
+                return Err(ErrorCode::ServerLogFull.into());
+            }
+            let log = Arc::clone(&self.log);
+            config.events = Events::new(move |event| log.write(event));
+        }
         OpcUaServer::start(config).await.map_err(|error| match &error {
             StartError::PortInUse(port) => Problem::with_detail(ErrorCode::PortConflict, port),
             StartError::InvalidParameter(reason) => Problem::with_detail(ErrorCode::InvalidParameter, reason),
@@ -518,12 +555,13 @@ impl Controller {
     /// A server that died by itself is noticed here.
     fn status(&self) -> (ServerStatus, Option<ErrorCode>) {
         let standing = *self.standing.lock();
+        let notice = self.state().settings.server_log.then_some(ErrorCode::ServerLogOn);
         match standing {
-            Standing::Stopped => (ServerStatus::Stop, None),
+            Standing::Stopped => (ServerStatus::Stop, notice),
             Standing::Failed(code) => (ServerStatus::Error, Some(code)),
             Standing::Running => match self.server.try_lock() {
                 Ok(plant) if !plant.is_running() => (ServerStatus::Error, Some(ErrorCode::ServerError)),
-                _ => (ServerStatus::Run, None),
+                _ => (ServerStatus::Run, notice),
             },
         }
     }
@@ -566,7 +604,6 @@ impl Plant {
     }
 }
 
-const LOG_FILE: &str = "server.log";
 const OPCUA_FOLDER: &str = "opcua";
 
 fn opcua_config(state: &State, around: &Surroundings, folder: &Path) -> Result<OpcUaConfig, Problem> {
@@ -596,6 +633,7 @@ fn opcua_config(state: &State, around: &Surroundings, folder: &Path) -> Result<O
             serial: state.identity.serial.clone(),
             firmware: state.identity.firmware,
         },
+        events: Events::default(),
         pki_folder: folder.join(OPCUA_FOLDER),
     })
 }
@@ -607,6 +645,15 @@ fn trusted_clients(state: &State) -> Vec<Vec<u8>> {
 /// What the fault switch says when the server is told to fail.
 fn fault() -> Problem {
     Problem::with_detail(ErrorCode::ServerError, "a fault switch is on")
+}
+
+async fn stop_when_log_is_full(controller: Arc<Controller>, off: CancellationToken) {
+    loop {
+        tokio::select! {
+            () = off.cancelled() => return,
+            () = controller.log.filled() => controller.stop_if_log_is_full().await,
+        }
+    }
 }
 
 fn finished<T>(joined: Result<Result<T, Outcome>, tokio::task::JoinError>) -> Result<T, Outcome> {

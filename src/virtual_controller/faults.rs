@@ -23,6 +23,8 @@ pub struct Switches {
     pub disk_full: bool,
     /// The OPC UA server fails to start (580).
     pub server_error: bool,
+    /// The server log is full at so many bytes, instead of 1 MiB.
+    pub log_limit: Option<u64>,
     /// How long every request waits before the controller looks at it.
     pub latency: Duration,
     /// How far the controller's clock is ahead; negative: behind.

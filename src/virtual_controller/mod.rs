@@ -8,6 +8,7 @@
 //! | `state` | [`State`]: everything a controller remembers, and what follows from it |
 //! | `changes` | every change a controller accepts, as a function on a copy of its state |
 //! | `certificate_changes` | those about server certificates |
+//! | `settings_transfer` | settings sealed for the PC, and put back |
 //! | `store` | [`Store`]: the state on disk, replaced whole |
 //! | `secret_bytes` | [`SecretBytes`]: key material that shows nowhere |
 //! | `new_controller` | [`NewController`]: what a controller is when it is first switched on |
@@ -19,6 +20,7 @@
 //! | `api` | the paths of [`crate::protocol`], and bodies within bounds |
 //! | `listener` | connections: accepted, bounded in number and time, encrypted |
 //! | `tls` | the management identity as a TLS server |
+//! | `server_log` | the log of the OPC UA server, and what happens when it is full |
 //! | `opcua` | the OPC UA server |
 //! | `memory` | what stopped servers leave free, given back |
 //! | `ports` | TCP ports nobody uses |
@@ -39,6 +41,9 @@
 //! - A CSR made in current firmware does not touch the certificate in use. Legacy firmware has room for one key of a
 //!   CA-signed certificate only: a new CSR takes the old certificate away, and a server that used it stops.
 //! - A change on a server in error leaves it in error; the next start or stop that succeeds ends that.
+//! - While the server log is on, the controller says so with 581 beside a status that is not Error: a notice, since
+//!   everything works. When the log is full the server stops by itself with 582, and does not start again until the log
+//!   is deleted or switched off.
 //! - A running server refuses settings and certificates it could not run with (7932, 7933); a stopped one takes any
 //!   settings that are complete, and says so when it is started.
 
@@ -59,6 +64,8 @@ pub mod opcua;
 mod password;
 mod ports;
 mod secret_bytes;
+mod server_log;
+mod settings_transfer;
 mod state;
 mod store;
 #[cfg(test)]
@@ -73,5 +80,6 @@ pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyL
 pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
 pub use password::hash_connection_password;
 pub use secret_bytes::SecretBytes;
+pub use server_log::LOG_LIMIT;
 pub use state::{Identity, KeyPair, Listed, PendingCsr, State, Surroundings, User};
 pub use store::{Staged, Store, StoreError};

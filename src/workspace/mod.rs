@@ -5,7 +5,11 @@
 //!   epson_opcua_config.json          controllers and options
 //!   connections.csv                  a connection list to import, if somebody put one there (manual 2.5.3)
 //!   .lock                            held by whoever may write the configuration
+//!   <serial>/option.json             settings export of one controller (manual 2.6.4)
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
+//!   <serial>/Cert/CSR/…              the signing request made last
+//!   <serial>/Cert/CASigned/…         where what the CA issued for it is put
+//!   <serial>/Cert/UserSpecified/…    where what other tools made is put
 //! ```
 //!
 //! Every file is written under a temporary name, flushed and renamed, readable by its owner only: a reader sees the
@@ -17,6 +21,7 @@ mod configuration;
 mod connection_list;
 mod import_files;
 mod passwords;
+mod settings_files;
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read as _};
@@ -36,6 +41,7 @@ pub use connection_list::{
 };
 pub use import_files::read_import_file;
 pub use passwords::{KeyringPasswords, MemoryPasswords, Passwords};
+pub use settings_files::SettingsFiles;
 
 use crate::model::{ErrorCode, Problem};
 
@@ -132,6 +138,10 @@ impl Workspace {
     /// Where a connection list is looked for when none is picked by hand (manual 2.5.3).
     pub fn connection_list_path(&self) -> PathBuf {
         self.root.join(CONNECTION_LIST)
+    }
+
+    pub fn settings_files(&self) -> SettingsFiles {
+        SettingsFiles::new(self.root.clone())
     }
 
     pub fn certificate_files(&self) -> CertificateFiles {

@@ -101,6 +101,13 @@ impl Cell {
         self.run(&[&["cert", "self-signed"][..], &subject, &rest].concat());
     }
 
+    /// Makes a signing request, and gives the file it was saved to.
+    pub fn make_csr(&self, bits: &str, format: &str) -> PathBuf {
+        let subject = ["--country", "JP", "--state", "Nagano", "--locality", "Suwa", "--organisation", "Example"];
+        let made = self.run(&[&["cert", "csr"][..], &subject, &["--bits", bits, "--format", format]].concat());
+        PathBuf::from(made["saved"]["csr"].as_str().expect("a path"))
+    }
+
     pub fn add_user(&self, name: &str, password: &str) {
         let file = self.folder().join("user-password");
         fs::write(&file, password).expect("the user's password file");

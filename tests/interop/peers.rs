@@ -181,6 +181,11 @@ impl OpenSsl {
         assert!(verified.trim_end().ends_with(": OK"), "{verified}");
     }
 
+    /// Runs a command of OpenSSL in a folder, where the files it names are. Panics unless it succeeds.
+    pub fn call(&self, folder: &Path, arguments: &[&str]) -> String {
+        self.run(Command::new("openssl").current_dir(folder).args(arguments))
+    }
+
     fn run(&self, command: &mut Command) -> String {
         let Finished { code, stdout, stderr } = Running::start(command).expect("openssl was found").finish(ANSWER);
         assert_eq!(code, Some(0), "{command:?}\n{stdout}\n{stderr}");

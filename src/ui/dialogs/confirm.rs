@@ -19,6 +19,7 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
             deletes_log,
             invalidates_ca_signed,
             overwrites_files,
+            replaces_settings,
         } = confirmation;
         let stops = if matches!(task, Task::Stop) { T::ConfirmStop } else { T::ConfirmStops };
         let remarks = [
@@ -28,6 +29,7 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
             (deletes_log, T::ConfirmDeletesLog),
             (invalidates_ca_signed, T::ConfirmInvalidatesCaSigned),
             (overwrites_files, T::ConfirmOverwrites),
+            (replaces_settings, T::ConfirmReplacesSettings),
         ];
         note(ui, palette(ui).warning, |ui| {
             for (_, remark) in remarks.into_iter().filter(|(applies, _)| *applies) {

@@ -197,6 +197,7 @@ texts! {
     ConfirmReplaces: "The self-signed certificate in the controller is replaced. Clients have to trust the new one.", "将覆盖控制器中的自签名证书。客户端需要重新信任新证书。";
     ConfirmBackup: "Backup files of the same name in the workspace are overwritten.", "工作区中的同名备份文件将被覆盖。";
     ConfirmInvalidatesCaSigned: "The present CA-signed certificate becomes invalid. Firmware 8.0.0 and later goes on using it until the new one is imported.", "当前的 CA 签名证书将失效。固件 8.0.0 及以上版本在导入新证书之前仍使用原证书。";
+    ConfirmReplacesSettings: "Settings and users in the controller are replaced by those of the file.", "控制器中的设置和用户将被文件中的内容替换。";
     ConfirmOverwrites: "Files of the same name on this computer are overwritten.", "本机上的同名文件将被覆盖。";
     ConfirmDeletesLog: "The server log in the controller is deleted.", "将删除控制器中的服务器日志。";
 

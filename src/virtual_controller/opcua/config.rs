@@ -9,7 +9,7 @@ use rsa::pkcs8::{DecodePrivateKey, EncodePublicKey};
 use x509_parser::prelude::{FromDer, X509Certificate};
 use zeroize::Zeroizing;
 
-use super::StartError;
+use super::{Events, StartError};
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, SerialNumber, UserTokenPolicy};
 
 /// Everything one server is made of.
@@ -34,6 +34,8 @@ pub struct OpcUaConfig {
     /// The client certificates that are let in, DER; exactly these.
     pub trusted_clients: Vec<Vec<u8>>,
     pub identity: DeviceIdentity,
+    /// Told what happens while the server runs.
+    pub events: Events,
     /// A folder of this server alone. Starting creates it, or removes from it what an earlier run left.
     pub pki_folder: PathBuf,
 }

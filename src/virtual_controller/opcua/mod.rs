@@ -8,6 +8,7 @@
 //! | `config` | what a server is made of, checked before anything is started |
 //! | `server` | start, stop, and whether it still runs |
 //! | `relay` | the connections of the clients, passed on to the server |
+//! | `events` | what happens in a running server, for its log |
 //! | `endpoints` | security policies and user tokens as OPC UA endpoints, and what a client may ask for |
 //! | `users` | password hashes, logging in, lock-out |
 //! | `certificate_store` | the private folder with the certificates of server and clients |
@@ -18,6 +19,7 @@ mod address_space;
 mod certificate_store;
 mod config;
 mod endpoints;
+mod events;
 mod nodesets;
 mod relay;
 mod server;
@@ -26,5 +28,6 @@ mod tests;
 mod users;
 
 pub use config::{DeviceIdentity, OpcUaConfig, OpcUaUser};
+pub use events::{Event, Events};
 pub use server::{OpcUaServer, StartError};
 pub use users::{HashError, hash_password};

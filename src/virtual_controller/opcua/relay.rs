@@ -6,19 +6,29 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::task::JoinSet;
 use tokio::time::{sleep, timeout};
 
+use super::{Event, Events};
+
 /// Passes bytes between clients and the OPC UA crate's server, which listens on a loopback port of its own.
 ///
 /// The crate never lets go of a client that has stopped reading: stopping would take forever and keep a core busy.
 /// The clients' connections are therefore ours; dropping this future closes them all, and the port.
-pub(super) async fn relay(clients: TcpListener, server: SocketAddr) {
+pub(super) async fn relay(clients: TcpListener, server: SocketAddr, events: Events) {
     let mut connections = JoinSet::new();
     loop {
         tokio::select! {
             accepted = clients.accept() => match accepted {
-                Ok((client, _)) if connections.len() < MAX_CONNECTIONS => {
-                    connections.spawn(pass(client, server));
+                Ok((client, address)) if connections.len() < MAX_CONNECTIONS => {
+                    events.tell(Event::Connected { client: address });
+                    let events = events.clone();
+                    connections.spawn(async move {
+                        pass(client, server).await;
+                        events.tell(Event::Disconnected { client: address });
+                    });
                 }
-                Ok((_, address)) => tracing::warn!(%address, "too many OPC UA connections, one more refused"),
+                Ok((_, address)) => {
+                    tracing::warn!(%address, "too many OPC UA connections, one more refused");
+                    events.tell(Event::TooManyConnections { client: address });
+                }
                 Err(e) => {
                     // Most likely out of file descriptors, which passes.
                     tracing::warn!("cannot accept an OPC UA connection: {e}");
@@ -63,7 +73,7 @@ mod tests {
         let clients = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let server = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let address = clients.local_addr().unwrap();
-        let relay = tokio::spawn(relay(clients, server.local_addr().unwrap()));
+        let relay = tokio::spawn(relay(clients, server.local_addr().unwrap(), Events::default()));
         let client = TcpStream::connect(address).await.unwrap();
         (client, server.accept().await.unwrap().0, relay)
     }

@@ -19,6 +19,7 @@ use super::address_space::Controller;
 use super::certificate_store::{OWN_CERTIFICATE, OWN_KEY, PkiFolder};
 use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
+use super::events::{Event, Events};
 use super::nodesets::NodeSet;
 use super::relay::relay;
 use super::users::Users;
@@ -39,6 +40,7 @@ pub struct OpcUaServer {
     address: SocketAddr,
     handle: ServerHandle,
     pki: PkiFolder,
+    events: Events,
     server: JoinHandle<Result<(), String>>,
     relay: JoinHandle<()>,
 }
@@ -51,6 +53,8 @@ impl OpcUaServer {
         let address = clients.local_addr().map_err(failed)?;
         let inner = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await.map_err(failed)?;
         let inner_address = inner.local_addr().map_err(failed)?;
+        let events = config.events.clone();
+        let policies = config.policies.iter().map(|p| p.as_str()).collect::<Vec<_>>().join(", ");
         // Reads and writes files, checks the key, and builds some ten thousand nodes.
         let (server, handle, pki) =
             tokio::task::spawn_blocking(move || build(&config, address)).await.map_err(failed)??;
@@ -62,9 +66,10 @@ impl OpcUaServer {
         stop_unless_ready.disarm();
         // Endpoint URLs are made with this port: it must be the one clients know before the first of them asks.
         handle.info().port.store(address.port(), Ordering::Relaxed);
-        let relay = tokio::spawn(relay(clients, inner_address));
-        let running = Self { address, handle, pki, server, relay };
+        let relay = tokio::spawn(relay(clients, inner_address, events.clone()));
+        let running = Self { address, handle, pki, events, server, relay };
         tracing::info!(endpoint = running.endpoint(), "OPC UA server started");
+        running.events.tell(Event::Started { endpoint: &running.endpoint(), policies: &policies });
         Ok(running)
     }
 
@@ -100,6 +105,7 @@ impl OpcUaServer {
             self.server.abort();
         }
         tracing::info!(endpoint = self.endpoint(), "OPC UA server stopped");
+        self.events.tell(Event::Stopped { endpoint: &self.endpoint() });
     }
 }
 
@@ -187,7 +193,7 @@ fn builder(
         .without_node_managers()
         .with_node_manager(controller)
         .with_node_manager(InMemoryNodeManagerBuilder::new(CoreNodeManagerBuilder))
-        .with_authenticator(Arc::new(Users::new(tokens, &config.users)))
+        .with_authenticator(Arc::new(Users::new(tokens, &config.users, config.events.clone())))
         .application_name(&config.application_name)
         .application_uri(&config.application_uri)
         .product_uri(PRODUCT_URI)

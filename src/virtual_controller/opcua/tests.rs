@@ -63,6 +63,7 @@ fn config(folder: &TempDir) -> OpcUaConfig {
             serial: "SN0000123".parse().unwrap(),
             firmware: FirmwareVersion::new(8, 0, 1),
         },
+        events: Events::default(),
         pki_folder: folder.path().join("pki"),
     }
 }
@@ -282,9 +283,12 @@ async fn namespace_1_is_the_servers_own_and_the_controller_lies_in_the_device_se
 async fn a_user_is_let_in_with_the_right_password_only() {
     let folder = tempfile::tempdir().unwrap();
     let user = |name: &str| OpcUaUser { name: name.to_owned(), password_hash: hash_password("Passw0rd").unwrap() };
+    let told = std::sync::Arc::new(parking_lot::Mutex::new(String::new()));
+    let log = told.clone();
     let server = start(OpcUaConfig {
         user_tokens: BTreeSet::from([UserTokenPolicy::UserName]),
         users: vec![user("operator1"), user("operator2")],
+        events: Events::new(move |event| *log.lock() += &format!("{event}\n")),
         ..config(&folder)
     })
     .await;
@@ -298,6 +302,18 @@ async fn a_user_is_let_in_with_the_right_password_only() {
     assert_eq!(Client::log_in(&server, "operator1", "Passw0rd").await, Err(StatusCode::BadUserAccessDenied));
     assert_eq!(Client::log_in(&server, "operator2", "Passw0rd").await, Ok(()));
     server.stop().await;
+    let told = told.lock().clone();
+    for line in [
+        "server started: opc.tcp://127.0.0.1:",
+        "session of operator1 activated: ",
+        "session of an anonymous or unknown user refused: no such user\n",
+        "session of operator1 refused: wrong password\n",
+        "session of operator1 refused: locked out after wrong passwords\n",
+        "server stopped: ",
+    ] {
+        assert!(told.contains(line), "{line}\n{told}");
+    }
+    assert!(!told.contains("nobody00") && !told.contains("assw0rd"), "{told}");
 }
 
 #[tokio::test(flavor = "multi_thread")]

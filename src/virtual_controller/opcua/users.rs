@@ -13,6 +13,7 @@ use zeroize::Zeroizing;
 
 use super::config::OpcUaUser;
 use super::endpoints::UserTokens;
+use super::events::{Event, Events};
 
 /// Why a password could not be hashed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -46,14 +47,16 @@ pub(super) struct Users {
     tokens: UserTokens,
     hashes: HashMap<String, String>,
     lockouts: Mutex<HashMap<String, Lockout>>,
+    events: Events,
 }
 
 impl Users {
-    pub(super) fn new(tokens: UserTokens, users: &[OpcUaUser]) -> Self {
+    pub(super) fn new(tokens: UserTokens, users: &[OpcUaUser], events: Events) -> Self {
         Self {
             tokens,
             hashes: users.iter().map(|user| (user.name.clone(), user.password_hash.clone())).collect(),
             lockouts: Mutex::default(),
+            events,
         }
     }
 
@@ -63,35 +66,54 @@ impl Users {
         let right = verify(hash, password).await;
         if known.is_none() {
             tracing::warn!("login of an unknown user refused");
+            self.refused(None, "no such user");
             return false;
         }
         let verdict = self.lockouts.lock().entry(name.to_owned()).or_default().judge(right, Instant::now());
         match verdict {
             Verdict::Welcome => {}
-            Verdict::Wrong => tracing::warn!(user = name, "login refused: wrong password"),
-            Verdict::Locked => tracing::warn!(user = name, "login refused: locked out after wrong passwords"),
+            Verdict::Wrong => {
+                tracing::warn!(user = name, "login refused: wrong password");
+                self.refused(Some(name), "wrong password");
+            }
+            Verdict::Locked => {
+                tracing::warn!(user = name, "login refused: locked out after wrong passwords");
+                self.refused(Some(name), "locked out after wrong passwords");
+            }
         }
         verdict == Verdict::Welcome
+    }
+
+    fn refused(&self, user: Option<&str>, reason: &str) {
+        self.events.tell(Event::LoginRefused { user, reason });
+    }
+
+    fn welcome(&self, user: Option<&str>, endpoint: &ServerEndpoint) {
+        let (policy, mode) = (&endpoint.security_policy, &endpoint.security_mode);
+        self.events.tell(Event::LoggedIn { user, policy, mode });
     }
 }
 
 #[async_trait]
 impl AuthManager for Users {
-    async fn authenticate_anonymous_token(&self, _endpoint: &ServerEndpoint) -> Result<(), Error> {
+    async fn authenticate_anonymous_token(&self, endpoint: &ServerEndpoint) -> Result<(), Error> {
         if self.tokens.anonymous() {
+            self.welcome(None, endpoint);
             Ok(())
         } else {
+            self.refused(None, "anonymous users are not let in");
             Err(Error::new(StatusCode::BadIdentityTokenRejected, "anonymous users are not let in"))
         }
     }
 
     async fn authenticate_username_identity_token(
         &self,
-        _endpoint: &ServerEndpoint,
+        endpoint: &ServerEndpoint,
         name: &str,
         password: &Password,
     ) -> Result<UserToken, Error> {
         if self.tokens.user_name() && self.log_in(name, Zeroizing::new(password.get().to_owned())).await {
+            self.welcome(Some(name), endpoint);
             Ok(UserToken(name.to_owned()))
         } else {
             Err(Error::new(StatusCode::BadUserAccessDenied, "user name or password wrong"))

@@ -1,8 +1,10 @@
 //! Stories about whole controllers, told over their management protocol.
 
 mod bench;
+mod certificates;
 mod changes;
 mod crowd;
+mod keys_log_and_settings;
 mod persistence;
 mod sessions;
 mod starting;

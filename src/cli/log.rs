@@ -1,0 +1,65 @@
+use clap::Subcommand;
+use serde_json::json;
+
+use super::batch::{Presentation, STATE, Shown};
+use super::select::Select;
+use super::{Ending, Settled};
+use crate::jobs::{LogPart, Outcome, ReadLog, SetSettings, SettingsChange};
+use crate::model::Problem;
+
+#[derive(Debug, Subcommand)]
+pub enum LogCommand {
+    /// Show what the OPC UA server has logged; "settings set --server-log on" makes it log
+    Show {
+        /// The last 256 KiB only
+        #[arg(long)]
+        end: bool,
+        #[command(flatten)]
+        select: Select,
+    },
+    /// Delete the server log; the OPC UA server is stopped, and started again if it was running
+    Delete(Select),
+}
+
+const LOG: Presentation = Presentation {
+    header: &["LOG"],
+    show: |outcome, _| {
+        let Outcome::Log(log) = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        Shown {
+            json: json!({ "size": log.size, "from": log.from, "text": log.text }),
+            cells: vec![format!("{} bytes", log.size)],
+        }
+    },
+};
+
+pub fn run(settled: &Settled, command: LogCommand) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    match command {
+        LogCommand::Show { end, select } => {
+            let part = if end { LogPart::End } else { LogPart::From(0) };
+            let chosen = select.resolve(&configuration)?;
+            let reports = settled.reports(&configuration, &chosen, ReadLog { part }, &LOG)?;
+            if !settled.output.is_json() {
+                for (entry, report) in chosen.iter().zip(&reports) {
+                    match &report.result {
+                        Ok(Outcome::Log(log)) if chosen.len() > 1 => {
+                            settled.output.text(&format!("==> {} <==\n{}", entry.name, log.text));
+                        }
+                        Ok(Outcome::Log(log)) if log.text.is_empty() => {}
+                        Ok(Outcome::Log(log)) => settled.output.text(&log.text),
+                        Ok(_) => {}
+                        Err(problem) => settled.output.explain(Some(entry.name.as_str()), problem),
+                    }
+                }
+            }
+            Ok(Ending::of(&reports))
+        }
+        LogCommand::Delete(select) => {
+            let change = SettingsChange { delete_log: true, ..SettingsChange::default() };
+            let operation = SetSettings { change, ..SetSettings::default() };
+            settled.batch(&configuration, &select.resolve(&configuration)?, operation, &STATE)
+        }
+    }
+}

@@ -1,0 +1,56 @@
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use super::batch::{Presentation, STATE, Shown};
+use super::passwords::read_secret;
+use super::select::Select;
+use super::{Ending, Settled};
+use crate::jobs::{ExportSettings, ImportSettings, MIN_PASSPHRASE_CHARS, Outcome};
+use crate::model::{ErrorCode, Problem};
+
+#[derive(Debug, Args)]
+pub struct TransferArgs {
+    /// File with the passphrase that protects the exports, at least 8 characters, "-" for standard input; without it
+    /// the connection password does
+    #[arg(long, value_name = "FILE")]
+    passphrase_file: Option<PathBuf>,
+    #[command(flatten)]
+    select: Select,
+}
+
+const EXPORTED: Presentation = Presentation {
+    header: &["SERIAL", "FILE"],
+    show: |outcome, info| {
+        let Outcome::SettingsExported { path } = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        Shown {
+            json: json!({ "serial": info.serial, "file": path }),
+            cells: vec![info.serial.to_string(), path.display().to_string()],
+        }
+    },
+};
+
+pub fn export(settled: &Settled, args: &TransferArgs) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    let chosen = args.select.resolve(&configuration)?;
+    let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
+    if let Some(passphrase) = &passphrase {
+        use secrecy::ExposeSecret as _;
+        if passphrase.expose_secret().chars().count() < MIN_PASSPHRASE_CHARS {
+            return Err(ErrorCode::BadPassphrase.into());
+        }
+    }
+    let operation = ExportSettings { files: settled.workspace.settings_files(), passphrase };
+    settled.batch(&configuration, &chosen, operation, &EXPORTED)
+}
+
+pub fn import(settled: &Settled, args: &TransferArgs) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    let chosen = args.select.resolve(&configuration)?;
+    let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
+    let operation = ImportSettings { files: settled.workspace.settings_files(), passphrase };
+    settled.batch(&configuration, &chosen, operation, &STATE)
+}

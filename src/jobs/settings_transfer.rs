@@ -1,0 +1,97 @@
+use async_trait::async_trait;
+use secrecy::{ExposeSecret as _, SecretString};
+
+use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem};
+use crate::protocol::{self, WireSecret};
+use crate::workspace::SettingsFiles;
+
+/// The shortest passphrase an export may be sealed with, in characters.
+pub const MIN_PASSPHRASE_CHARS: usize = 8;
+
+/// Saves the settings, users and keys of legacy controllers to the workspace (manual 2.6.4). The controller seals
+/// them: passwords' hashes never lie open on the PC.
+#[derive(Debug, Clone)]
+pub struct ExportSettings {
+    pub files: SettingsFiles,
+    /// `None`: each controller's connection password, as with its key files; with an empty one the file mode alone
+    /// protects the export.
+    pub passphrase: Option<SecretString>,
+}
+
+/// Puts exports back into the controllers they were made by, whole or not at all (manual 2.6.5).
+#[derive(Debug, Clone)]
+pub struct ImportSettings {
+    pub files: SettingsFiles,
+    /// What the exports were sealed with; `None`: each controller's connection password.
+    pub passphrase: Option<SecretString>,
+}
+
+fn legacy(firmware: FirmwareVersion) -> Result<(), Problem> {
+    match firmware.generation() {
+        FirmwareGeneration::Legacy => Ok(()),
+        FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
+    }
+}
+
+#[async_trait]
+impl Operation for ExportSettings {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { overwrites_backup: true, ..Confirmation::default() })
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        let short = |p: &SecretString| p.expose_secret().chars().count() < MIN_PASSPHRASE_CHARS;
+        if self.passphrase.as_ref().is_some_and(short) {
+            return Err(ErrorCode::BadPassphrase.into());
+        }
+        controller.known.as_ref().map_or(Ok(()), |known| legacy(known.firmware))
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let info = run.session.info().await?;
+        legacy(info.firmware)?;
+        let passphrase = WireSecret(self.passphrase.as_ref().unwrap_or(run.password).clone());
+        let export = run.session.export_settings(protocol::ExportSettings { passphrase }).await?;
+        // Another one's would be refused at the import, when it is too late.
+        export.check_for(&info.serial, info.series, info.firmware)?;
+        run.begin(Step::SaveBackup)?;
+        let files = self.files.clone();
+        let path = run.on_a_core(move || files.save(&info.serial, &export)).await??;
+        Ok(Outcome::SettingsExported { path })
+    }
+}
+
+#[async_trait]
+impl Operation for ImportSettings {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation { stops_server: true, replaces_settings: true, ..Confirmation::default() })
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        controller.known.as_ref().map_or(Ok(()), |known| legacy(known.firmware))
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let info = run.session.info().await?;
+        legacy(info.firmware)?;
+        let (files, revision) = (self.files.clone(), info.revision);
+        let passphrase = self.passphrase.as_ref().unwrap_or(run.password).clone();
+        let tried = passphrase.clone();
+        // Whatever is wrong with the file is found before anything is sent.
+        let export = run
+            .on_a_core(move || -> Result<_, Problem> {
+                let export = files.load(&info.serial)?;
+                export.check_for(&info.serial, info.series, info.firmware)?;
+                export.open(&tried)?;
+                Ok(export)
+            })
+            .await??;
+        run.begin(Step::Apply)?;
+        let change = protocol::ImportSettings { revision, export, passphrase: WireSecret(passphrase) };
+        run.session.import_settings(change).await?;
+        Ok(Outcome::Done)
+    }
+}

@@ -1,0 +1,197 @@
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+
+use chrono::SecondsFormat;
+use parking_lot::Mutex;
+use tokio::sync::Notify;
+
+use super::faults::Faults;
+use super::opcua::Event;
+use crate::protocol::{LogChunk, MAX_LOG_CHUNK_BYTES};
+
+/// The log of a controller's OPC UA server (manual 2.6.1, 6.3): one file in its folder, one event a line, times in UTC
+/// by the controller's clock.
+///
+/// It never grows beyond its limit, [`LOG_LIMIT`] unless a fault switch says otherwise: the last line says that it is
+/// full, and [`ServerLog::filled`] ends, so that the server can be stopped.
+#[derive(Debug)]
+pub struct ServerLog {
+    path: PathBuf,
+    faults: Faults,
+    file: Mutex<Option<File>>,
+    full: Notify,
+}
+
+/// Bytes after which the server stops. The manual names no number; this is about ten thousand events.
+pub const LOG_LIMIT: u64 = 1024 * 1024;
+
+/// Kept free for the last line; no line is longer than half of it.
+const ROOM: u64 = 1024;
+const MAX_LINE_CHARS: usize = 120;
+
+impl ServerLog {
+    pub fn new(folder: &Path, faults: Faults) -> Self {
+        Self { path: folder.join("server.log"), faults, file: Mutex::new(None), full: Notify::new() }
+    }
+
+    /// Writes one line, unless the log is full. A log that cannot be written is no reason to fail.
+    pub fn write(&self, event: Event<'_>) {
+        if let Err(error) = self.append(event) {
+            tracing::warn!(path = %self.path.display(), %error, "the server log was not written");
+        }
+    }
+
+    pub fn is_full(&self) -> bool {
+        fs::metadata(&self.path).is_ok_and(|file| file.len() >= self.threshold())
+    }
+
+    /// Ends when the log has become full.
+    pub async fn filled(&self) {
+        self.full.notified().await;
+    }
+
+    /// The log from byte `from` on, or its end, as much as fits into an answer; whole lines where that is possible.
+    pub fn read(&self, from: Option<u64>) -> io::Result<LogChunk> {
+        let mut file = match File::open(&self.path) {
+            Ok(file) => file,
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(LogChunk::default()),
+            Err(error) => return Err(error),
+        };
+        let size = file.metadata()?.len();
+        let most = MAX_LOG_CHUNK_BYTES as u64;
+        let mut begin = from.unwrap_or_else(|| size.saturating_sub(most)).min(size);
+        file.seek(SeekFrom::Start(begin))?;
+        let mut bytes = Vec::new();
+        file.take(most).read_to_end(&mut bytes)?;
+        let next = begin + bytes.len() as u64;
+        let mut text = bytes.as_slice();
+        if from.is_none()
+            && begin > 0
+            && let Some(end) = text.iter().position(|b| *b == b'\n')
+        {
+            text = &text[end + 1..];
+            begin += end as u64 + 1;
+        }
+        let next = match text.iter().rposition(|b| *b == b'\n') {
+            Some(end) if next < size => {
+                text = &text[..=end];
+                begin + text.len() as u64
+            }
+            _ => next,
+        };
+        Ok(LogChunk { size, from: begin, next, text: String::from_utf8_lossy(text).into_owned() })
+    }
+
+    pub fn delete(&self) -> io::Result<()> {
+        let mut file = self.file.lock();
+        *file = None;
+        match fs::remove_file(&self.path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+            _ => Ok(()),
+        }
+    }
+
+    /// From this size on nothing but the last line is written.
+    fn threshold(&self) -> u64 {
+        self.faults.get().log_limit.unwrap_or(LOG_LIMIT).saturating_sub(ROOM)
+    }
+
+    fn append(&self, event: Event<'_>) -> io::Result<()> {
+        let mut slot = self.file.lock();
+        let file = match &mut *slot {
+            Some(file) => file,
+            none => none.insert(open(&self.path)?),
+        };
+        let threshold = self.threshold();
+        let size = file.metadata()?.len();
+        if size >= threshold {
+            return Ok(());
+        }
+        let level = if event.is_warning() { "WARN" } else { "INFO" };
+        let what: String = event.to_string().chars().filter(|c| !c.is_control()).take(MAX_LINE_CHARS).collect();
+        file.write_all(self.line(level, &what).as_bytes())?;
+        if file.metadata()?.len() >= threshold {
+            file.write_all(self.line("WARN", "the log is full; the server stops").as_bytes())?;
+            self.full.notify_one();
+        }
+        Ok(())
+    }
+
+    fn line(&self, level: &str, what: &str) -> String {
+        format!("{} {level} {what}\n", self.faults.now().to_rfc3339_opts(SecondsFormat::Millis, true))
+    }
+}
+
+fn open(path: &Path) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.append(true).create(true);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options.open(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn log(folder: &Path, limit: u64) -> ServerLog {
+        let faults = Faults::default();
+        faults.update(|switches| switches.log_limit = Some(limit));
+        ServerLog::new(folder, faults)
+    }
+
+    fn connected(log: &ServerLog) {
+        log.write(Event::Connected { client: "192.168.0.9:50000".parse().unwrap() });
+    }
+
+    #[tokio::test]
+    async fn a_log_is_full_below_its_limit_and_says_so_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let log = log(folder.path(), 4096);
+        while !log.is_full() {
+            connected(&log);
+        }
+        tokio::time::timeout(std::time::Duration::from_secs(5), log.filled()).await.expect("said so");
+        let size = log.read(None).unwrap().size;
+        assert!((3072..=4096).contains(&size), "{size}");
+        connected(&log);
+        let chunk = log.read(None).unwrap();
+        assert_eq!(chunk.size, size);
+        assert!(chunk.text.ends_with("WARN the log is full; the server stops\n"), "{}", chunk.text);
+        assert_eq!(chunk.text.matches("is full").count(), 1);
+        log.delete().unwrap();
+        log.delete().unwrap();
+        assert!(!log.is_full());
+        assert_eq!(log.read(None).unwrap(), LogChunk::default());
+        connected(&log);
+        assert_eq!(log.read(None).unwrap().text.lines().count(), 1);
+    }
+
+    #[test]
+    fn a_long_log_is_read_in_pieces_that_fit_together() {
+        let folder = tempfile::tempdir().unwrap();
+        let log = log(folder.path(), LOG_LIMIT);
+        while !log.is_full() {
+            connected(&log);
+        }
+        let whole = fs::read_to_string(folder.path().join("server.log")).unwrap();
+        let (mut text, mut from, mut pieces) = (String::new(), 0, 0);
+        loop {
+            let chunk = log.read(Some(from)).unwrap();
+            assert_eq!((chunk.from, chunk.size), (from, whole.len() as u64));
+            assert!(chunk.text.len() <= MAX_LOG_CHUNK_BYTES && chunk.text.ends_with('\n'));
+            text += &chunk.text;
+            (from, pieces) = (chunk.next, pieces + 1);
+            if from == chunk.size {
+                break;
+            }
+        }
+        assert_eq!(text, whole);
+        assert!(pieces >= 4);
+        let tail = log.read(None).unwrap();
+        assert!(whole.ends_with(&tail.text) && tail.from > 0 && tail.next == tail.size);
+        assert_eq!(tail.from as usize + tail.text.len(), whole.len());
+        assert_eq!(log.read(Some(u64::MAX)).unwrap().text, "");
+    }
+}

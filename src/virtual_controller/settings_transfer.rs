@@ -1,0 +1,93 @@
+//! The controller's end of exporting and importing settings (manual 2.6.4, 2.6.5). Slow: for a blocking thread.
+
+use argon2::Params;
+use argon2::password_hash::PasswordHash;
+use secrecy::SecretString;
+
+use super::changes;
+use super::state::{State, Surroundings, User};
+use crate::model::{ErrorCode, FirmwareGeneration, MAX_USERS, Problem};
+use crate::protocol::{ExportContent, ExportedUser, SettingsExport};
+
+/// Seals what manual 2.6.1 to 2.6.3 sets.
+pub fn export(state: &State, around: &Surroundings, passphrase: &SecretString) -> Result<SettingsExport, Problem> {
+    legacy(state)?;
+    let user = |user: &User| ExportedUser { name: user.name.clone(), password_hash: user.password_hash.clone() };
+    let content = ExportContent {
+        settings: state.settings.clone(),
+        users: state.users.iter().map(user).collect(),
+        activation: state.activation_keys.clone(),
+    };
+    let of = (state.identity.serial.clone(), state.identity.series, state.identity.firmware);
+    Ok(SettingsExport::new(of, around.now, &content, passphrase)?)
+}
+
+/// Puts back what this controller sealed, after every check a single change would have met. Only the password of the
+/// server log is not asked for again: that it was on then was somebody's will.
+pub fn import(
+    state: &mut State,
+    around: &Surroundings,
+    export: &SettingsExport,
+    passphrase: &SecretString,
+) -> Result<(), Problem> {
+    legacy(state)?;
+    export.check_for(&state.identity.serial, state.identity.series, state.identity.firmware)?;
+    let ExportContent { settings, users, activation } = export.open(passphrase)?;
+    settings.check().map_err(|error| Problem::with_detail(ErrorCode::BadSettings, error))?;
+    state.check_port(settings.port.get(), around)?;
+    if users.len() > MAX_USERS {
+        return Err(ErrorCode::TooManyUsers.into());
+    }
+    state.settings = settings;
+    state.users.clear();
+    for ExportedUser { name, password_hash } in users {
+        if state.users.iter().any(|user| user.name == name) {
+            return Err(Problem::with_detail(ErrorCode::UserExists, name));
+        }
+        check_hash(&password_hash)?;
+        state.users.push(User { name, password_hash });
+    }
+    match activation {
+        Some(keys) => changes::activate(state, keys),
+        None => Ok(()),
+    }
+}
+
+fn legacy(state: &State) -> Result<(), Problem> {
+    match state.generation() {
+        FirmwareGeneration::Legacy => Ok(()),
+        FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
+    }
+}
+
+/// A hash from outside must not be one that takes all memory at each login.
+fn check_hash(hash: &str) -> Result<(), Problem> {
+    let affordable = |params: &Params| {
+        params.m_cost() <= MAX_MEMORY_KIB && params.t_cost() <= MAX_PASSES && params.p_cost() <= MAX_LANES
+    };
+    let parsed = PasswordHash::new(hash).ok().filter(|hash| hash.algorithm == argon2::ARGON2ID_IDENT);
+    match parsed.and_then(|hash| Params::try_from(&hash).ok()) {
+        Some(params) if affordable(&params) => Ok(()),
+        _ => Err(Problem::with_detail(ErrorCode::BadCredential, "a password is not an argon2id hash of usual cost")),
+    }
+}
+
+const MAX_MEMORY_KIB: u32 = 65_536;
+const MAX_PASSES: u32 = 8;
+const MAX_LANES: u32 = 4;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hash_of_any_cost_is_not_taken() {
+        let hash = |cost: &str| {
+            format!("$argon2id$v=19${cost}$bm9ib2R5bm9ib2R5bm9ibw$AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA")
+        };
+        assert_eq!(check_hash(&hash("m=19456,t=2,p=1")), Ok(()));
+        for bad in [hash("m=4194304,t=2,p=1"), hash("m=19456,t=4000,p=1"), "Passw0rd".to_owned(), String::new()] {
+            assert_eq!(check_hash(&bad).unwrap_err().code, ErrorCode::BadCredential, "{bad}");
+        }
+    }
+}

@@ -1,0 +1,64 @@
+use std::fs::{self, File};
+use std::io::{self, Read as _};
+use std::path::{Path, PathBuf};
+
+use super::{WorkspaceError, write_atomic};
+use crate::model::{ErrorCode, Problem, SerialNumber};
+use crate::protocol::{MAX_EXPORT_BYTES, SettingsExport};
+
+/// The settings exports kept on the PC, one a controller: `<workspace>/<serial>/option.json` (manual 2.6.4, 2.6.5,
+/// appendix B-1).
+#[derive(Debug, Clone)]
+pub struct SettingsFiles {
+    root: PathBuf,
+}
+
+const FILE: &str = "option.json";
+
+impl SettingsFiles {
+    pub(super) fn new(root: PathBuf) -> Self {
+        Self { root }
+    }
+
+    pub fn path(&self, serial: &SerialNumber) -> PathBuf {
+        self.root.join(serial.as_str()).join(FILE)
+    }
+
+    /// Replaces the controller's former export.
+    pub fn save(&self, serial: &SerialNumber, export: &SettingsExport) -> Result<PathBuf, WorkspaceError> {
+        let path = self.path(serial);
+        write_atomic(&path, &export.to_json())?;
+        Ok(path)
+    }
+
+    /// The controller's export, whole, but of whom and whether it opens is still to be seen. An export under another
+    /// name is not looked for, but said to be there (manual 2.6.5).
+    pub fn load(&self, serial: &SerialNumber) -> Result<SettingsExport, Problem> {
+        let path = self.path(serial);
+        match read(&path) {
+            Ok(bytes) => Ok(SettingsExport::from_json(&bytes)?),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => match renamed(&path) {
+                Some(found) => Err(Problem::with_detail(ErrorCode::ExportRenamed, found.display())),
+                None => Err(Problem::with_detail(ErrorCode::ExportMissing, path.display())),
+            },
+            Err(error) => Err(Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {error}", path.display()))),
+        }
+    }
+}
+
+fn read(path: &Path) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(MAX_EXPORT_BYTES as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// A file beside `path` that is an export under a name of somebody's own.
+fn renamed(path: &Path) -> Option<PathBuf> {
+    let files = fs::read_dir(path.parent()?).ok()?.filter_map(Result::ok).map(|entry| entry.path());
+    files
+        .filter(|file| file.is_file())
+        .take(MAX_LOOKED_AT)
+        .find(|file| read(file).is_ok_and(|bytes| SettingsExport::from_json(&bytes).is_ok()))
+}
+
+const MAX_LOOKED_AT: usize = 100;
