@@ -22,7 +22,9 @@ use opcua_configurator::pki::{
 };
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
 use opcua_configurator::virtual_controller::FleetFirmware;
-use opcua_configurator::workspace::{CertificateFiles, Configuration, ControllerEntry, Retrieved, Workspace};
+use opcua_configurator::workspace::{
+    CertificateFiles, Configuration, ControllerEntry, Passwords as _, Retrieved, Workspace,
+};
 use plant::Plant;
 use rcgen::{CertificateParams, SanType};
 
@@ -206,6 +208,45 @@ fn warnings_are_asked_about_and_errors_stop_an_import() {
     desk.click("Import anyway");
     desk.finish("1 done");
     assert_eq!(desk.in_use(0), Some(CertificateType::CaSigned));
+}
+
+#[test]
+fn a_controller_that_does_not_answer_keeps_no_other_out() {
+    let mut desk = Desk::open(2, FleetFirmware::Current);
+    desk.make_self_signed();
+    let forget = |desk: &Desk| desk.plant.passwords.forget(desk.plant.controller(1).fingerprint());
+    forget(&desk);
+    choose(&mut desk.window, &["Certificate", "Type select…"]);
+    desk.wait_for("Connection password needed");
+    desk.click("Cancel");
+    assert!(shows(&desk.window, "Stored in 1 of 2 controllers") && shows(&desk.window, "cell 2: "));
+    desk.click("Cancel");
+
+    choose(&mut desk.window, &["Certificate", "Type select…"]);
+    desk.wait_for("Connection password needed");
+    type_into(&mut desk.window, "Connection password", plant::PASSWORD);
+    desk.click("OK");
+    desk.wait_for("Stored in 2 of 2 controllers");
+    desk.click("Cancel");
+
+    // The same before an import.
+    create(&mut desk, "CA signed…");
+    desk.create_csr("2 done");
+    let ca = Ca::new();
+    for index in 0..2 {
+        desk.put(index, &ca.sign(&desk.csr(index)));
+    }
+    forget(&desk);
+    desk.click("Import…");
+    desk.wait_for("Connection password needed");
+    desk.click("Cancel");
+    desk.wait_for("1 of 2 certificates can be imported");
+    desk.click("OK");
+    desk.finish("1 done");
+    assert_eq!(
+        [desk.in_use(0), desk.in_use(1)].map(|kind| kind.unwrap()),
+        [CertificateType::CaSigned, CertificateType::SelfSigned]
+    );
 }
 
 #[test]

@@ -15,8 +15,8 @@ pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Ve
     dialog(ui, "ca signed", &title, theme::DIALOG_WIDE, buttons, |ui| {
         card(ui, text(T::CsrCard), |ui| {
             ui.add(Label::new(text(T::CsrText)).wrap());
-            let folder = model.folder_of(&signed.rows, |files, serial| files.csr_folder(serial), "CSR");
-            path_line(ui, &folder, model.language);
+            let (folder, real) = model.folder_of(&signed.rows, |files, serial| files.csr_folder(serial), "CSR");
+            path_line(ui, &folder, real, model.language);
             fine_print(ui, text(T::ConfirmInvalidatesCaSigned));
             let button = egui::Button::new(text(T::CreateCsr));
             if ui.add_enabled(!signed.checks.running, button).clicked() {
@@ -26,8 +26,9 @@ pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Ve
         ui.add_space(theme::SPACE);
         card(ui, text(T::ImportCard), |ui| {
             ui.add(Label::new(text(if single { T::ImportFromFolder } else { T::ImportTextMany })).wrap());
-            let folder = model.folder_of(&signed.rows, |files, serial| files.ca_signed_folder(serial), "CASigned");
-            path_line(ui, &folder, model.language);
+            let (folder, real) =
+                model.folder_of(&signed.rows, |files, serial| files.ca_signed_folder(serial), "CASigned");
+            path_line(ui, &folder, real, model.language);
             if single {
                 form(ui, "ca signed", |ui| {
                     labelled(ui, text(T::CertificateFile), |ui| {

@@ -20,9 +20,9 @@ pub fn show(ui: &Ui, export: &mut ExportForm, model: &Model) -> Answer {
                 None
             });
             labelled(ui, text(T::GoesTo), |ui| {
-                let folder =
+                let (folder, real) =
                     model.folder_of(&export.rows, |files, serial| files.self_signed_folder(serial), "SelfSigned");
-                path_line(ui, &folder, model.language);
+                path_line(ui, &folder, real, model.language);
                 None
             });
         });

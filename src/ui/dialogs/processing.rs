@@ -73,7 +73,7 @@ fn saved(ui: &mut Ui, job: &Job, model: &Model) {
     };
     ui.add_space(theme::SPACE);
     ui.label(RichText::new(T::SavedIn.text(model.language)).size(theme::SMALL_TEXT).color(palette(ui).weak));
-    path_line(ui, folder, model.language);
+    path_line(ui, folder, true, model.language);
 }
 
 fn cancelling(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {

@@ -37,6 +37,11 @@ pub fn show(ui: &Ui, form: &mut TypeSelectForm, model: &Model) -> Answer {
             }
             _ => {}
         }
+        for (row, problem) in form.held.iter().filter_map(|(row, held)| Some((row, held.as_ref().err()?))) {
+            let name = model.rows.get(*row).map(|row| row.entry.name.as_str()).unwrap_or_default();
+            let said = texts::not_read(model.language, name, problem.code.explain(model.language).message);
+            ui.add(Label::new(RichText::new(said).size(theme::SMALL_TEXT).color(palette(ui).error)).wrap());
+        }
         if form.rows.len() > 1 && model.any_current(&form.rows) {
             fine_print(ui, text(T::TypeSelectLegacy));
         }
@@ -69,9 +74,8 @@ fn one(ui: &mut Ui, form: &mut TypeSelectForm, kind: CertificateType, model: &Mo
     });
 }
 
-/// The controllers that do not store it, or did not answer.
+/// The controllers that do not store it, of those that answered.
 fn lacking<'a>(form: &TypeSelectForm, kind: CertificateType, model: &'a Model) -> Vec<&'a str> {
-    let stores = |row| form.held.get(row).is_some_and(|h| h.as_ref().is_ok_and(|h| h.stored.contains_key(&kind)));
-    let rows = form.rows.iter().filter(|row| !stores(row));
-    rows.filter_map(|row| model.rows.get(*row)).map(|row| row.entry.name.as_str()).collect()
+    let rows = form.known().filter(|(_, held)| !held.stored.contains_key(&kind));
+    rows.filter_map(|(row, _)| model.rows.get(row)).map(|row| row.entry.name.as_str()).collect()
 }

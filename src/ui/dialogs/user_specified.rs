@@ -38,8 +38,9 @@ fn fields(ui: &mut Ui, user: &mut UserSpecifiedForm, focus: bool, model: &Model)
         None
     });
     labelled(ui, text(T::Folder), |ui| {
-        let folder = model.folder_of(&[user.row], |files, serial| files.user_specified_folder(serial), "UserSpecified");
-        path_line(ui, &folder, model.language);
+        let (folder, real) =
+            model.folder_of(&[user.row], |files, serial| files.user_specified_folder(serial), "UserSpecified");
+        path_line(ui, &folder, real, model.language);
         None
     });
     let (label, hint) = match user.kind {

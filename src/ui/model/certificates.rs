@@ -93,22 +93,22 @@ impl Model {
         CertificateType::ALL.into_iter().filter(move |kind| *kind != CertificateType::UserSpecified || !any_current)
     }
 
-    /// A folder of the one controller, or what the folders of several look like.
+    /// A folder of the one controller, or what the folders of several look like, which is nothing to copy.
     pub fn folder_of(
         &self,
         rows: &[RowId],
         of: impl Fn(&CertificateFiles, &SerialNumber) -> PathBuf,
         kind: &str,
-    ) -> PathBuf {
+    ) -> (PathBuf, bool) {
         let info = match rows {
             [row] => self.rows.get(*row).and_then(|row| row.info()),
             _ => None,
         };
         match info {
-            Some(info) => of(&self.workspace.certificate_files(), &info.serial),
+            Some(info) => (of(&self.workspace.certificate_files(), &info.serial), true),
             None => {
                 let serial = format!("<{}>", TextKey::SerialFolder.text(self.language));
-                self.workspace.root().join(serial).join("Cert").join(kind)
+                (self.workspace.root().join(serial).join("Cert").join(kind), false)
             }
         }
     }

@@ -226,6 +226,14 @@ pub fn type_lacking(language: Language, names: &[&str]) -> String {
     }
 }
 
+/// Why a controller's certificates are not known.
+pub fn not_read(language: Language, name: &str, message: &str) -> String {
+    match language {
+        Language::En => format!("{name}: {message}"),
+        Language::Zh => format!("{name}：{message}"),
+    }
+}
+
 pub fn importable(language: Language, count: usize, all: usize) -> String {
     match language {
         Language::En => format!("{count} of {} can be imported", certificates(all)),

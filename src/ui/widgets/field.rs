@@ -58,11 +58,11 @@ pub fn secret_field(ui: &mut Ui, text: &mut String, shown: &mut bool, hint: &str
 }
 
 /// A path in full, and a button that copies it.
-pub fn path_line(ui: &mut Ui, path: &Path, language: Language) {
+pub fn path_line(ui: &mut Ui, path: &Path, copy: bool, language: Language) {
     let path = path.display().to_string();
     let (size, center) = (vec2(ui.available_width(), theme::BUTTON_HEIGHT), egui::Align::Center);
     ui.allocate_ui_with_layout(size, egui::Layout::right_to_left(center), |ui| {
-        if ui.button(T::Copy.text(language)).clicked() {
+        if copy && ui.button(T::Copy.text(language)).clicked() {
             ui.ctx().copy_text(path.clone());
         }
         ui.with_layout(egui::Layout::left_to_right(center), |ui| {
