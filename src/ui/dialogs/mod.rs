@@ -8,6 +8,7 @@ mod options;
 mod password;
 mod processing;
 mod self_signed;
+mod server_log;
 mod settings;
 mod transfer;
 mod users;
@@ -45,6 +46,8 @@ fn enter_confirms(ui: &Ui) -> bool {
 fn enter_submits(dialog: &Dialog, model: &Model) -> bool {
     match dialog {
         Dialog::Processing(_) => model.job.as_ref().is_none_or(|job| job.summary.is_some()),
+        // Its text field filters.
+        Dialog::ServerLog(_) => false,
         _ => true,
     }
 }
@@ -60,6 +63,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::Users(form) => users::list(ui, form, model, messages),
         Dialog::AddUser(form) => users::add(ui, form, focus, model),
         Dialog::SelfSigned(form) => self_signed::show(ui, form, model),
+        Dialog::ServerLog(log) => server_log::show(ui, log, model, messages),
         Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use super::{Purpose, RowId, Task, TransferForm};
+use super::{LogView, Purpose, RowId, Task, TransferForm};
 use crate::jobs::Confirmation;
 use crate::model::{ControllerSeries, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy};
 use crate::pki::Fingerprint;
@@ -18,6 +18,7 @@ pub enum Dialog {
     AddUser(AddUserForm),
     SelfSigned(SelfSignedForm),
     Transfer(TransferForm),
+    ServerLog(LogView),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -28,7 +29,7 @@ pub enum Dialog {
 impl Dialog {
     /// A form that may wait for what is in a controller. At most one is open.
     pub(super) fn is_form(&self) -> bool {
-        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_))
+        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_) | Self::ServerLog(_))
     }
 }
 

@@ -26,6 +26,8 @@ pub enum Task {
     SelfSigned { fields: SelfSignedFields, backup: bool },
     ExportSettings { passphrase: Option<SecretString> },
     ImportSettings { passphrase: Option<SecretString> },
+    ReadLog,
+    DeleteLog,
 }
 
 impl Task {
@@ -49,6 +51,11 @@ impl Task {
             Self::ImportSettings { passphrase } => {
                 Arc::new(jobs::ImportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
             }
+            Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
+            Self::DeleteLog => Arc::new(jobs::SetSettings {
+                change: jobs::SettingsChange { delete_log: true, ..Default::default() },
+                ..Default::default()
+            }),
         }
     }
 
@@ -64,6 +71,8 @@ impl Task {
             Self::SelfSigned { .. } => TextKey::SelfSignedTitle,
             Self::ExportSettings { .. } => TextKey::ExportTitle,
             Self::ImportSettings { .. } => TextKey::ImportTitle,
+            Self::ReadLog => TextKey::ServerLog,
+            Self::DeleteLog => TextKey::DeleteLog,
         }
     }
 
@@ -84,6 +93,7 @@ pub enum Purpose {
     /// How many users there are, for a warning; nobody minds if it fails.
     CountUsers,
     LoadPolicies,
+    LoadLog,
 }
 
 /// Where a job is with one controller.

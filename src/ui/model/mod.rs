@@ -6,6 +6,7 @@ mod job;
 mod reduce;
 mod reduce_dialogs;
 mod rows;
+mod server_log;
 mod transfer;
 
 #[cfg(test)]
@@ -22,6 +23,7 @@ pub use dialog::{
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
+pub use server_log::LogView;
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
 
 use super::backend::Event;
@@ -81,6 +83,10 @@ pub enum Message {
     DeleteUsers,
     /// Open the dialog for one more user.
     NewUser,
+    /// Read the server log again.
+    RefreshLog,
+    /// Delete the server log that is shown.
+    DeleteLog,
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.

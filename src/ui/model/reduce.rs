@@ -35,6 +35,8 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::Close => commands = model.close(),
         Message::DeleteUsers => commands = model.delete_users(),
         Message::NewUser => model.new_user(),
+        Message::RefreshLog => commands = model.refresh_log(),
+        Message::DeleteLog => commands = model.delete_log(),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -86,6 +88,7 @@ impl Model {
             UiCommand::SelfSigned => return self.open_self_signed(ticked),
             UiCommand::ExportSettings => return self.open_transfer(Transfer::Export, ticked),
             UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
+            UiCommand::ServerLog => return ticked.first().map(|row| self.open_log(*row)).unwrap_or_default(),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -246,7 +249,7 @@ impl Model {
                 }
             }
             Purpose::CountUsers => self.job = None,
-            Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies => {
+            Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies | Purpose::LoadLog => {
                 let problem =
                     self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));
                 if let Some(problem) = problem {
