@@ -18,6 +18,7 @@ pub enum UiCommand {
     GetInfo,
     BasicSettings,
     Users,
+    ServerLog,
     Activation,
     ExportSettings,
     ImportSettings,
@@ -39,7 +40,7 @@ pub enum UiCommand {
 }
 
 impl UiCommand {
-    pub const ALL: [Self; 28] = [
+    pub const ALL: [Self; 29] = [
         Self::AddController,
         Self::DeleteControllers,
         Self::ConnectionList,
@@ -50,6 +51,7 @@ impl UiCommand {
         Self::GetInfo,
         Self::BasicSettings,
         Self::Users,
+        Self::ServerLog,
         Self::Activation,
         Self::ExportSettings,
         Self::ImportSettings,
@@ -90,6 +92,7 @@ impl UiCommand {
             Self::GetInfo => (T::GetInfo, T::GetInfoTip),
             Self::BasicSettings => (T::BasicSettings, T::BasicSettingsTip),
             Self::Users => (T::Users, T::UsersTip),
+            Self::ServerLog => (T::ServerLogCommand, T::ServerLogTip),
             Self::Activation => (T::Activation, T::ActivationTip),
             Self::ExportSettings => (T::ExportSettings, T::ExportSettingsTip),
             Self::ImportSettings => (T::ImportSettings, T::ImportSettingsTip),
@@ -153,6 +156,11 @@ impl UiCommand {
             Self::ExportSettings | Self::ImportSettings => match model.rows.ticked_count() {
                 0 => Some(T::WhyTick),
                 _ => model.rows.any_ticked_is_current().then_some(T::WhyLegacyOnly),
+            },
+            Self::ServerLog => match model.rows.ticked_count() {
+                0 => Some(T::WhyTick),
+                1 => None,
+                _ => Some(T::WhyOne),
             },
             Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
             Self::AddController

@@ -85,6 +85,10 @@ pub const DIALOG: f32 = 520.0;
 pub const DIALOG_WIDE: f32 = 680.0;
 /// What a dialog leaves of the window's height for its own frame.
 pub const DIALOG_MARGIN: f32 = 120.0;
+/// Of the server log's window: its width, its lines' height, and what it leaves of the window's height.
+pub const DIALOG_LOG: f32 = 980.0;
+pub const LOG_HEIGHT: f32 = 520.0;
+pub const LOG_MARGIN: f32 = 260.0;
 pub const LABEL_WIDTH: f32 = 150.0;
 pub const LIST_HEIGHT: f32 = 10.0 * LIST_ROW;
 pub const LIST_ROW: f32 = 26.0;

@@ -14,6 +14,7 @@ mod options;
 mod password;
 mod processing;
 mod self_signed;
+mod server_log;
 mod settings;
 mod transfer;
 mod type_select;
@@ -53,6 +54,8 @@ fn enter_confirms(ui: &Ui) -> bool {
 fn enter_submits(dialog: &Dialog, model: &Model) -> bool {
     match dialog {
         Dialog::Processing(_) => model.job.as_ref().is_none_or(|job| job.summary.is_some()),
+        // Its text field filters.
+        Dialog::ServerLog(_) => false,
         _ => true,
     }
 }
@@ -75,6 +78,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::CaSigned(form) => ca_signed::show(ui, form, model, messages),
         Dialog::UserSpecified(form) => user_specified::show(ui, form, focus, model),
         Dialog::ImportReview(review) => import_review::show(ui, review, model),
+        Dialog::ServerLog(log) => server_log::show(ui, log, model, messages),
         Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),

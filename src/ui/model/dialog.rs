@@ -1,8 +1,8 @@
 use std::collections::BTreeSet;
 
 use super::{
-    ActivationForm, CaSignedForm, ConnectionListForm, ExportForm, FileForm, ImportReview, KeysForm, Purpose, RowId,
-    Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
+    ActivationForm, CaSignedForm, ConnectionListForm, ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose,
+    RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -30,6 +30,7 @@ pub enum Dialog {
     UserSpecified(UserSpecifiedForm),
     ImportReview(ImportReview),
     Transfer(TransferForm),
+    ServerLog(LogView),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -59,7 +60,10 @@ impl Dialog {
 
     /// A form that may wait for what is in a controller. At most one is open.
     pub(super) fn is_form(&self) -> bool {
-        matches!(self, Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_) | Self::TypeSelect(_))
+        matches!(
+            self,
+            Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_) | Self::TypeSelect(_) | Self::ServerLog(_)
+        )
     }
 
     /// The file it asks for, if it does.

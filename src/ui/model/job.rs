@@ -35,6 +35,8 @@ pub enum Task {
     Import { source: ImportSource, accept_warnings: bool },
     ExportSettings { passphrase: Option<SecretString> },
     ImportSettings { passphrase: Option<SecretString> },
+    ReadLog,
+    DeleteLog,
 }
 
 impl Task {
@@ -72,6 +74,11 @@ impl Task {
             Self::ImportSettings { passphrase } => {
                 Arc::new(jobs::ImportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
             }
+            Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
+            Self::DeleteLog => Arc::new(jobs::SetSettings {
+                change: jobs::SettingsChange { delete_log: true, ..Default::default() },
+                ..Default::default()
+            }),
         }
     }
 
@@ -92,6 +99,8 @@ impl Task {
             Self::Check(source) | Self::Import { source, .. } => source.title(),
             Self::ExportSettings { .. } => TextKey::ExportTitle,
             Self::ImportSettings { .. } => TextKey::ImportTitle,
+            Self::ReadLog => TextKey::ServerLog,
+            Self::DeleteLog => TextKey::DeleteLog,
         }
     }
 
@@ -116,6 +125,7 @@ pub enum Purpose {
     LoadCertificates,
     /// Certificates from elsewhere are looked at before their import; likewise.
     Check,
+    LoadLog,
 }
 
 /// Where a job is with one controller.

@@ -12,6 +12,7 @@ mod job;
 mod reduce;
 mod reduce_dialogs;
 mod rows;
+mod server_log;
 mod transfer;
 
 #[cfg(test)]
@@ -33,6 +34,7 @@ pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, User
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
+pub use server_log::LogView;
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
 
 use super::backend::Event;
@@ -100,6 +102,10 @@ pub enum Message {
     SkipIdentity,
     /// Open the dialog for a certificate signing request.
     NewCsr,
+    /// Read the server log again.
+    RefreshLog,
+    /// Delete the server log that is shown.
+    DeleteLog,
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.

@@ -39,6 +39,8 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::ReadFile => commands = model.read_typed(),
         Message::SkipIdentity => commands = model.skip_identity(),
         Message::NewCsr => commands = model.new_csr(),
+        Message::RefreshLog => commands = model.refresh_log(),
+        Message::DeleteLog => commands = model.delete_log(),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -99,6 +101,7 @@ impl Model {
             UiCommand::TypeSelect => return self.open_type_select(ticked),
             UiCommand::ExportSettings => return self.open_transfer(Transfer::Export, ticked),
             UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
+            UiCommand::ServerLog => return ticked.first().map(|row| self.open_log(*row)).unwrap_or_default(),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -289,7 +292,7 @@ impl Model {
             Purpose::CountUsers => self.job = None,
             Purpose::LoadCertificates => self.certificates_ended(),
             Purpose::Check => self.checks_ended(),
-            Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies => {
+            Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies | Purpose::LoadLog => {
                 let problem =
                     self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));
                 if let Some(problem) = problem {

@@ -233,8 +233,15 @@ impl Model {
         };
         if job.summary.is_some() {
             let changed_users = matches!(job.task, Task::AddUser(_) | Task::RemoveUsers(_));
+            let deleted_log = matches!(job.task, Task::DeleteLog);
             self.end_processing();
-            return if changed_users { self.reload_users() } else { vec![] };
+            return if changed_users {
+                self.reload_users()
+            } else if deleted_log {
+                self.refresh_log()
+            } else {
+                vec![]
+            };
         }
         match job.cancel {
             CancelState::No => job.cancel = CancelState::Asking,
@@ -385,7 +392,14 @@ impl Model {
 
     /// Closes a form that has nothing to show.
     pub(super) fn drop_form(&mut self) {
-        self.dialogs.retain(|dialog| !dialog.is_form());
+        self.dialogs.retain_mut(|dialog| match dialog {
+            // What was read before is still worth reading.
+            Dialog::ServerLog(log) if log.is_read() => {
+                log.reading = false;
+                true
+            }
+            dialog => !dialog.is_form(),
+        });
     }
 
     /// What a form waited for.
@@ -418,6 +432,12 @@ impl Model {
                     form.reading = false;
                     form.revision = Some(users.revision);
                     form.users = users.value;
+                }
+                vec![]
+            }
+            (Purpose::LoadLog, Outcome::Log(chunk)) => {
+                if let Some(Dialog::ServerLog(log)) = self.form() {
+                    log.fill(chunk);
                 }
                 vec![]
             }

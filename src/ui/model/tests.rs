@@ -1,5 +1,6 @@
 //! The rules of the window, without a window.
 
+mod server_log;
 mod transfer;
 
 use chrono::Duration;

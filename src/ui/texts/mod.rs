@@ -371,6 +371,16 @@ texts! {
     ImportPassphraseTip: "The one the file was exported with. If empty, the connection password of the controller opens it.", "导出时使用的口令。留空时使用控制器的连接密码。";
     ImportNothing: "There is no file that can be imported", "没有可导入的文件";
 
+    // server log
+    ServerLogCommand: "Server log…", "服务器日志…";
+    ServerLogTip: "Read the log of the OPC UA server, and delete it", "查看和删除 OPC UA 服务器日志";
+    WhyOne: "Tick one controller only", "请只勾选一台控制器";
+    LogFilter: "Filter lines", "筛选行";
+    LogEmpty: "The log is empty. It is switched on in the basic settings.", "日志为空。可在[基本设置]中打开日志。";
+    LogNothingFound: "No line matches the filter", "没有匹配的行";
+    Refresh: "Refresh", "刷新";
+    DeleteLogButton: "Delete…", "删除…";
+
     // backup
     BackupTitle: "Backup", "备份";
     BackupOn: "Keep copies of certificates made here", "保留在此创建的证书副本";

@@ -166,6 +166,30 @@ pub fn exported_at(language: Language, at: &str, firmware: FirmwareVersion) -> S
     }
 }
 
+/// How long the server log is, how much of its end is here, and how many lines a filter found.
+pub fn log_size(language: Language, size: u64, here: u64, lines: usize, found: Option<usize>) -> String {
+    let bytes = match (language, here < size) {
+        (Language::En, true) => format!("The last {} of {}", byte_count(here), byte_count(size)),
+        (Language::Zh, true) => format!("共 {}，显示最后 {}", byte_count(size), byte_count(here)),
+        (_, false) => byte_count(size),
+    };
+    match (language, found) {
+        (Language::En, None) => format!("{bytes}, {lines} line{}", s(lines)),
+        (Language::En, Some(found)) => format!("{bytes}, {found} of {lines} line{}", s(lines)),
+        (Language::Zh, None) => format!("{bytes}，{lines} 行"),
+        (Language::Zh, Some(found)) => format!("{bytes}，显示 {found} / {lines} 行"),
+    }
+}
+
+fn byte_count(bytes: u64) -> String {
+    const KIB: u64 = 1024;
+    match bytes {
+        0..KIB => format!("{bytes} B"),
+        KIB..0x10_0000 => format!("{:.1} KiB", bytes as f64 / KIB as f64),
+        _ => format!("{:.1} MiB", bytes as f64 / (KIB * KIB) as f64),
+    }
+}
+
 pub fn version(language: Language, version: &str) -> String {
     match language {
         Language::En => format!("Version {version}"),

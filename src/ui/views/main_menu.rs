@@ -30,7 +30,7 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
         menu(
             ui,
             T::MenuServer,
-            &[&[C::BasicSettings, C::Users, C::Activation], &[C::ExportSettings, C::ImportSettings]],
+            &[&[C::BasicSettings, C::Users, C::ServerLog, C::Activation], &[C::ExportSettings, C::ImportSettings]],
             messages,
         );
         ui.menu_button(text(T::MenuOptions), |ui| options(ui, model, messages));
