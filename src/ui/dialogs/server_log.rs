@@ -36,17 +36,28 @@ fn tools(ui: &mut Ui, log: &mut LogView, model: &Model, messages: &mut Vec<Messa
         if filter.changed() {
             log.find();
         }
-        if ui.add_enabled(!log.reading, Button::new(text(T::Refresh))).clicked() {
+        let reading = log.reading.then_some(T::Reading);
+        let empty = (log.size().0 == 0).then_some(T::LogEmpty);
+        let clicked = |ui: &mut Ui, label: T, why: Option<T>| {
+            let button = ui.add_enabled(why.is_none(), Button::new(text(label)));
+            button.on_disabled_hover_text(why.map_or("", text)).clicked()
+        };
+        if clicked(ui, T::Refresh, reading) {
             messages.push(Message::RefreshLog);
         }
-        if ui.add_enabled(log.shown() > 0, Button::new(text(T::Copy))).clicked() {
+        if clicked(ui, T::Copy, nothing_shown(log)) {
             ui.copy_text(log.copied());
         }
-        let (size, _) = log.size();
-        if ui.add_enabled(size > 0 && !log.reading, Button::new(text(T::DeleteLogButton))).clicked() {
+        if clicked(ui, T::DeleteLogButton, reading.or(empty)) {
             messages.push(Message::DeleteLog);
         }
     });
+}
+
+/// Why no line is shown.
+fn nothing_shown(log: &LogView) -> Option<T> {
+    let key = if log.lines() == 0 { T::LogEmpty } else { T::LogNothingFound };
+    (log.shown() == 0).then_some(key)
 }
 
 fn lines(ui: &mut Ui, log: &LogView, model: &Model) {
@@ -55,8 +66,7 @@ fn lines(ui: &mut Ui, log: &LogView, model: &Model) {
     let frame = Frame::new().fill(palette.stripe).stroke(Stroke::new(1.0, palette.line)).corner_radius(8);
     frame.inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
         ui.set_min_size(vec2(ui.available_width(), height));
-        if log.shown() == 0 {
-            let key = if log.lines() == 0 { T::LogEmpty } else { T::LogNothingFound };
+        if let Some(key) = nothing_shown(log) {
             ui.add(Label::new(RichText::new(key.text(model.language)).color(palette.weak)).wrap());
             return;
         }

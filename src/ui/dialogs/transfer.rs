@@ -55,7 +55,13 @@ fn fields(ui: &mut Ui, transfer: &mut TransferForm, focus: bool, model: &Model) 
             ui.label(texts::exported_at(model.language, &at, found.firmware));
             None
         }),
-        Preview::None | Preview::Unfit(_) => {}
+        // The row stays: else the field below would lose the keyboard.
+        Preview::Unfit(_) => labelled(ui, text(T::ExportedAt), |ui| {
+            ui.add_space(theme::SPACE / 2.0);
+            ui.label("—");
+            None
+        }),
+        Preview::None => {}
     }
     labelled(ui, text(T::Passphrase), |ui| {
         let TransferForm { passphrase, show_passphrase, .. } = transfer;

@@ -199,7 +199,7 @@ texts! {
     ConfirmReplaces: "The self-signed certificate in the controller is replaced. Clients have to trust the new one.", "将覆盖控制器中的自签名证书。客户端需要重新信任新证书。";
     ConfirmBackup: "Backup files of the same name in the workspace are overwritten.", "工作区中的同名备份文件将被覆盖。";
     ConfirmInvalidatesCaSigned: "The present CA-signed certificate becomes invalid. Firmware 8.0.0 and later goes on using it until the new one is imported.", "当前的 CA 签名证书将失效。固件 8.0.0 及以上版本在导入新证书之前仍使用原证书。";
-    ConfirmReplacesSettings: "Settings and users in the controller are replaced by those of the file.", "控制器中的设置和用户将被文件中的内容替换。";
+    ConfirmReplacesSettings: "Settings and users in the controller are replaced by those of the file, and so are the activation keys if it holds any.", "控制器中的设置和用户将被文件中的内容替换；若文件含激活密钥，也将一并替换。";
     ConfirmOverwrites: "Files of the same name on this computer are overwritten.", "本机上的同名文件将被覆盖。";
     ConfirmDeletesLog: "The server log in the controller is deleted.", "将删除控制器中的服务器日志。";
 
@@ -361,7 +361,7 @@ texts! {
     ExportButton: "Export", "导出";
     ImportButton: "Import", "导入";
     ExportText: "Basic settings, users and activation keys are saved to an encrypted file on this computer. The server goes on running.", "将基本设置、用户和激活密钥加密保存到本机文件。服务器不会停止。";
-    ImportSettingsText: "Basic settings, users and activation keys are put back from the file the same controller was exported to. All of it is taken, or nothing.", "从同一控制器导出的文件恢复基本设置、用户和激活密钥。全部恢复，否则不做任何更改。";
+    ImportSettingsText: "Basic settings, users and activation keys are put back from a file exported from the same controller. Either all of it is taken or nothing.", "从同一控制器导出的文件恢复基本设置、用户和激活密钥。全部恢复，否则不做任何更改。";
     File: "File", "文件";
     FilePerSerial: "One file per controller, in the folder named after its serial number", "每台控制器一个文件，位于以其序列号命名的文件夹中";
     ExportedAt: "Exported at", "导出日期";

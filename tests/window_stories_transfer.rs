@@ -1,0 +1,218 @@
+//! Export and import of settings, and the server log, through the real window against virtual controllers.
+
+mod common;
+#[path = "common/plant.rs"]
+mod plant;
+
+use std::collections::BTreeSet;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use common::window::{self, SIZE, choose, click, is_enabled, shows, type_into, wait_until, window_in};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use opcua_configurator::jobs::{
+    AddUser, Operation, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, StopServer,
+};
+use opcua_configurator::model::{Credential, KeyLength, SecurityPolicy, ServerSettings, UserPassword, Validity};
+use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
+use opcua_configurator::virtual_controller::FleetFirmware;
+use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
+use plant::Plant;
+
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// A plant, and a window that knows it: "cell 1", "cell 2", …
+struct Desk {
+    window: window::Window<TokioBackend>,
+    plant: Plant,
+    runtime: tokio::runtime::Runtime,
+    workspace: Workspace,
+    _folder: tempfile::TempDir,
+}
+
+impl Desk {
+    fn new(count: usize, firmware: FleetFirmware) -> Self {
+        let runtime = tokio::runtime::Runtime::new().unwrap();
+        let plant = runtime.block_on(Plant::start(count, firmware));
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path().join("OPCUA"));
+        let backend = BackendOptions {
+            workspace: workspace.clone(),
+            lock: workspace.lock().unwrap(),
+            passwords: plant.passwords.clone(),
+            connector: Arc::new(plant.connector),
+            starter: None,
+            picker: Arc::new(opcua_configurator::ui::picker::FixedPicker(Ok(None))),
+        };
+        let backend = TokioBackend::new(backend, || {}).unwrap();
+        let mut configuration = Configuration::default();
+        for (index, listed) in plant.listed().into_iter().enumerate() {
+            let controller = plant.controller(index);
+            configuration.controllers.push(ControllerEntry {
+                name: listed.name,
+                address: listed.address,
+                series: controller.series(),
+                fingerprint: listed.fingerprint,
+                last: Some(Retrieved { at: window::now(), info: controller.info() }),
+            });
+        }
+        let window = window_in(workspace.clone(), backend, configuration, SIZE);
+        Self { window, plant, runtime, workspace, _folder: folder }
+    }
+
+    fn click(&mut self, label: &str) {
+        click(&mut self.window, label);
+    }
+
+    fn choose(&mut self, item: &str) {
+        choose(&mut self.window, &["Server settings", item]);
+    }
+
+    fn wait_for(&mut self, text: &str) {
+        wait_until(&mut self.window, PATIENCE, |window| shows(window, text));
+    }
+
+    fn confirm_and_finish(&mut self, summary: &str) {
+        self.click("OK");
+        self.wait_for("Completed");
+        assert!(shows(&self.window, summary), "no {summary:?} in the summary");
+        self.click("Close");
+    }
+
+    /// Somebody else's work.
+    fn run(&self, operation: impl Operation + 'static) {
+        for report in self.runtime.block_on(self.plant.run(operation)) {
+            assert!(report.result.is_ok(), "{report:?}");
+        }
+    }
+
+    fn add_user(&self, name: &str) {
+        let credential = Credential { name: name.parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() };
+        self.run(AddUser { credential, based_on: None });
+    }
+
+    fn users(&self, index: usize) -> usize {
+        self.plant.controller(index).state().users.len()
+    }
+
+    fn file(&self, index: usize) -> PathBuf {
+        self.workspace.settings_files().path(&self.plant.controller(index).serial())
+    }
+}
+
+#[test]
+fn settings_of_many_are_exported_and_put_back() {
+    let mut desk = Desk::new(2, FleetFirmware::Legacy);
+    desk.add_user("operator1");
+    desk.click("Tick all");
+    desk.choose("Export…");
+    type_into(&mut desk.window, "Passphrase", "short");
+    assert!(shows(&desk.window, "At least 8 characters, or none") && !is_enabled(&desk.window, "Export"));
+    type_into(&mut desk.window, "Passphrase", "correct horse");
+    desk.click("Export");
+    assert!(shows(&desk.window, "Backup files of the same name"));
+    desk.confirm_and_finish("2 done");
+    assert!(desk.file(0).is_file() && desk.file(1).is_file());
+
+    desk.add_user("operator2");
+    desk.choose("Import…");
+    type_into(&mut desk.window, "Passphrase", "wrong horse");
+    desk.click("Import");
+    desk.click("OK");
+    desk.wait_for("2 failed");
+    desk.click("Close");
+    assert_eq!((desk.users(0), desk.users(1)), (2, 2), "nothing was changed");
+
+    desk.choose("Import…");
+    type_into(&mut desk.window, "Passphrase", "correct horse");
+    desk.click("Import");
+    assert!(shows(&desk.window, "are replaced by those of the file"));
+    desk.confirm_and_finish("2 done");
+    assert_eq!((desk.users(0), desk.users(1)), (1, 1));
+}
+
+#[test]
+fn the_file_of_one_controller_is_looked_at_before_it_is_imported() {
+    let mut desk = Desk::new(1, FleetFirmware::Legacy);
+    desk.click("Tick cell 1");
+    desk.choose("Import…");
+    desk.wait_for("option.json");
+    wait_until(&mut desk.window, PATIENCE, |window| shows(window, "Remedy"));
+    assert!(!is_enabled(&desk.window, "Import"));
+    desk.click("Cancel");
+
+    // Without a passphrase the connection password protects the file.
+    desk.choose("Export…");
+    desk.click("Export");
+    desk.confirm_and_finish("1 done");
+    desk.add_user("operator1");
+    desk.choose("Import…");
+    desk.wait_for(&format!("firmware {}", desk.plant.controller(0).firmware()));
+    desk.click("Import");
+    desk.confirm_and_finish("1 done");
+    assert_eq!(desk.users(0), 0);
+}
+
+#[test]
+fn current_firmware_says_why_not() {
+    let mut desk = Desk::new(1, FleetFirmware::Current);
+    desk.click("Tick cell 1");
+    desk.click("Server settings");
+    for item in ["Export…", "Import…"] {
+        let node = desk.window.get_by_label(item);
+        assert!(node.accesskit_node().is_disabled());
+        node.hover();
+        for _ in 0..60 {
+            desk.window.step();
+        }
+        assert!(shows(&desk.window, "Only for firmware before 8.0.0"), "{item}");
+    }
+}
+
+#[test]
+fn the_log_is_read_filtered_refreshed_and_deleted() {
+    let mut desk = Desk::new(1, FleetFirmware::Legacy);
+    desk.click("Tick cell 1");
+    desk.choose("Server log…");
+    desk.wait_for("The log is empty");
+    assert!(!is_enabled(&desk.window, "Delete…") && shows(&desk.window, "0 B, 0 lines"));
+
+    let fields = SelfSignedFields {
+        common_name: None,
+        country: "JP".into(),
+        state: "Nagano".into(),
+        locality: "Suwa".into(),
+        organisation: "Example".into(),
+        key_length: KeyLength::Rsa2048,
+        validity: Validity::try_from(5).unwrap(),
+    };
+    desk.run(SelfSigned { fields, backup: None });
+    desk.run(SetSettings {
+        change: SettingsChange {
+            server_log: Some(true),
+            security_policies: Some(BTreeSet::from([SecurityPolicy::Basic256Sha256])),
+            ..SettingsChange::default()
+        },
+        log_password: Some(ServerSettings::LOG_PASSWORD.to_owned()),
+        ..SetSettings::default()
+    });
+    desk.run(StartServer);
+    desk.run(StopServer);
+    desk.click("Refresh");
+    desk.wait_for("server started");
+    assert!(shows(&desk.window, "server stopped"));
+    type_into(&mut desk.window, "Filter lines", "SERVER STOPPED");
+    assert!(shows(&desk.window, "server stopped") && !shows(&desk.window, "server started"));
+    type_into(&mut desk.window, "Filter lines", "nobody says this");
+    assert!(shows(&desk.window, "No line matches the filter"));
+    desk.window.key_press(egui::Key::Enter);
+    desk.window.run_ok();
+    assert!(shows(&desk.window, "No line matches the filter"), "Enter does not close it");
+
+    desk.click("Delete…");
+    assert!(shows(&desk.window, "The server log in the controller is deleted"));
+    desk.confirm_and_finish("1 done");
+    desk.wait_for("The log is empty");
+    desk.click("Close");
+}
