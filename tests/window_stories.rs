@@ -3,124 +3,29 @@
 mod common;
 #[path = "common/plant.rs"]
 mod plant;
+#[path = "common/window_desk.rs"]
+mod window_desk;
 
 use std::sync::Arc;
 use std::time::Duration;
 
-use common::window::{self, SIZE, choose, click, is_enabled, shows, type_into, wait_until, window_in};
+use common::window::{choose, click, is_enabled, shows, type_into, wait_until};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use opcua_configurator::jobs::{AddUser, JobController};
+use opcua_configurator::jobs::AddUser;
 use opcua_configurator::model::{Credential, Language, Problem, ServerStatus, UserPassword};
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::ui::backend::{BackendOptions, NewVirtual, TokioBackend, VirtualFleetStarter};
+use opcua_configurator::ui::backend::{NewVirtual, VirtualFleetStarter};
 use opcua_configurator::ui::picker::FixedPicker;
-use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware, VirtualController};
-use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
+use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
+use opcua_configurator::workspace::{Configuration, ControllerEntry};
 use plant::Plant;
-
-type Window = window::Window<TokioBackend>;
-
-/// Long enough for a busy machine to make keys.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-struct Desk {
-    window: Window,
-    plant: Plant,
-    runtime: tokio::runtime::Runtime,
-    workspace: Workspace,
-    _folder: tempfile::TempDir,
-}
+use window_desk::{Desk, PATIENCE, listed};
 
 impl Desk {
-    /// A plant, and a window whose list is empty.
-    fn empty(count: usize, firmware: FleetFirmware) -> Self {
-        Self::open(count, firmware, |_| Configuration::default(), None)
-    }
-
-    /// A plant, and a window that knows it: "cell 1", "cell 2", …
-    fn with_controllers(count: usize, firmware: FleetFirmware) -> Self {
-        Self::open(count, firmware, listed, None)
-    }
-
-    fn open(
-        count: usize,
-        firmware: FleetFirmware,
-        configuration: impl Fn(&Plant) -> Configuration,
-        starter: Option<Arc<dyn VirtualFleetStarter>>,
-    ) -> Self {
-        let runtime = tokio::runtime::Runtime::new().unwrap();
-        let plant = runtime.block_on(Plant::start(count, firmware));
-        let folder = tempfile::tempdir().unwrap();
-        let workspace = Workspace::new(folder.path().join("OPCUA"));
-        let offers_virtual = starter.is_some();
-        let backend = BackendOptions {
-            workspace: workspace.clone(),
-            lock: workspace.lock().unwrap(),
-            passwords: plant.passwords.clone(),
-            connector: Arc::new(plant.connector),
-            starter,
-            picker: Arc::new(FixedPicker(Ok(None))),
-        };
-        let backend = TokioBackend::new(backend, || {}).unwrap();
-        let mut window = window_in(workspace.clone(), backend, configuration(&plant), SIZE);
-        window.state_mut().model.virtual_available = offers_virtual;
-        window.step();
-        Self { window, plant, runtime, workspace, _folder: folder }
-    }
-
-    fn wait_for(&mut self, text: &str) {
-        wait_until(&mut self.window, PATIENCE, |window| shows(window, text));
-    }
-
-    fn click(&mut self, label: &str) {
-        click(&mut self.window, label);
-    }
-
-    fn tick(&mut self, names: &[&str]) {
-        for name in names {
-            self.click(&format!("Tick {name}"));
-        }
-    }
-
-    /// Confirms, waits for the summary, checks it and closes it.
-    fn confirm_and_finish(&mut self, summary: &str) {
-        self.click("OK");
-        self.wait_for("Completed");
-        assert!(shows(&self.window, summary), "no {summary:?} in the summary");
-        self.click("Close");
-    }
-
     fn statuses(&self) -> Vec<Option<ServerStatus>> {
         let rows = self.window.state().model.rows.all();
         rows.iter().map(|row| row.entry.last.as_ref().map(|last| last.info.status)).collect()
     }
-
-    /// Waits until the workspace remembers something: saving has a thread of its own.
-    fn wait_until_saved(&self, holds: impl Fn(&Configuration) -> bool) {
-        let until = std::time::Instant::now() + PATIENCE;
-        while !holds(&self.workspace.load().unwrap().configuration) {
-            assert!(std::time::Instant::now() < until, "not saved");
-            std::thread::sleep(Duration::from_millis(20));
-        }
-    }
-}
-
-fn entry(controller: &VirtualController, listed: &JobController) -> ControllerEntry {
-    ControllerEntry {
-        name: listed.name.clone(),
-        address: listed.address.clone(),
-        series: controller.series(),
-        fingerprint: listed.fingerprint,
-        last: Some(Retrieved { at: window::now(), info: controller.info() }),
-    }
-}
-
-fn listed(plant: &Plant) -> Configuration {
-    let mut configuration = Configuration::default();
-    for (index, listed) in plant.listed().iter().enumerate() {
-        configuration.controllers.push(entry(plant.controller(index), listed));
-    }
-    configuration
 }
 
 /// Fills in the form and sends it off.
@@ -324,15 +229,15 @@ fn a_failing_controller_is_explained_with_cause_and_remedy() {
 
 #[test]
 fn a_changed_fingerprint_stops_everything() {
-    let mut desk = Desk::open(
-        1,
-        FleetFirmware::Current,
+    let mut desk = Desk::start(
+        || Plant::start(1, FleetFirmware::Current),
         |plant| {
             let mut configuration = listed(plant);
             configuration.controllers[0].fingerprint = Some(plant::nobody());
             configuration
         },
         None,
+        |_| FixedPicker(Ok(None)),
     );
     opcua_configurator::workspace::Passwords::set(
         desk.plant.passwords.as_ref(),
@@ -435,8 +340,13 @@ impl VirtualFleetStarter for OneVirtual {
 fn the_welcome_page_offers_virtual_controllers() {
     let outer = tokio::runtime::Runtime::new().unwrap();
     let plant = outer.block_on(Plant::start(1, FleetFirmware::Current));
-    let starter = OneVirtual(entry(plant.controller(0), &plant.listed()[0]));
-    let mut desk = Desk::open(0, FleetFirmware::Current, |_| Configuration::default(), Some(Arc::new(starter)));
+    let starter: Arc<dyn VirtualFleetStarter> = Arc::new(OneVirtual(listed(&plant).controllers.remove(0)));
+    let mut desk = Desk::start(
+        || Plant::start(0, FleetFirmware::Current),
+        |_| Configuration::default(),
+        Some(starter),
+        |_| FixedPicker(Ok(None)),
+    );
     desk.click("Try it with virtual controllers");
     wait_until(&mut desk.window, PATIENCE, |window| window.state().model.rows.all().len() == 1);
     desk.tick(&["cell 1"]);

@@ -4,64 +4,38 @@ mod common;
 #[allow(dead_code, reason = "these stories run their jobs through the window")]
 #[path = "common/plant.rs"]
 mod plant;
+#[path = "common/window_desk.rs"]
+mod window_desk;
 
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Duration;
 
-use common::window::{self, SIZE, choose, click, is_enabled, shows, type_into, wait_until, window_in};
+use common::window::{self, SIZE, choose, is_enabled, shows, type_into, wait_until, window_in};
 use egui_kittest::kittest::Queryable as _;
 use opcua_configurator::model::ErrorCode;
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::{FleetFirmware, demo_keys};
-use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
+use opcua_configurator::workspace::{Configuration, Workspace};
 use plant::Plant;
+use window_desk::{Desk, PATIENCE, list, listed};
 
-/// Long enough for a busy machine to make keys.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-struct Desk {
-    window: window::Window<TokioBackend>,
-    plant: Plant,
-    workspace: Workspace,
-    file: PathBuf,
-    _runtime: tokio::runtime::Runtime,
-    _folder: tempfile::TempDir,
-}
+const PICKED: &str = "picked.csv";
 
 impl Desk {
     /// A window over controllers that are not activated; the desktop's dialog always chooses `Desk::file`.
     fn legacy(count: usize) -> Self {
-        Self::open(|| Plant::not_activated(count), |plant| listed(plant, true))
+        Self::open(|| Plant::not_activated(count), listed)
     }
 
-    fn open<F: Future<Output = Plant>>(start: impl FnOnce() -> F, list: impl Fn(&Plant) -> Configuration) -> Self {
-        let runtime = tokio::runtime::Runtime::new().unwrap();
-        let plant = runtime.block_on(start());
-        let folder = tempfile::tempdir().unwrap();
-        let workspace = Workspace::new(folder.path().join("OPCUA"));
-        let file = folder.path().join("picked.csv");
-        let backend = BackendOptions {
-            workspace: workspace.clone(),
-            lock: workspace.lock().unwrap(),
-            passwords: plant.passwords.clone(),
-            connector: Arc::new(plant.connector),
-            starter: None,
-            picker: Arc::new(FixedPicker(Ok(Some(file.clone())))),
-        };
-        let backend = TokioBackend::new(backend, || {}).unwrap();
-        let window = window_in(workspace.clone(), backend, list(&plant), SIZE);
-        Self { window, plant, workspace, file, _runtime: runtime, _folder: folder }
+    fn open<F: Future<Output = Plant>>(plant: impl FnOnce() -> F, list: impl FnOnce(&Plant) -> Configuration) -> Self {
+        Self::start(plant, list, None, |folder| FixedPicker(Ok(Some(folder.join(PICKED)))))
     }
 
-    fn wait_for(&mut self, text: &str) {
-        wait_until(&mut self.window, PATIENCE, |window| shows(window, text));
-    }
-
-    fn click(&mut self, label: &str) {
-        click(&mut self.window, label);
+    fn file(&self) -> PathBuf {
+        self.folder.path().join(PICKED)
     }
 
     fn activated(&self, index: usize) -> bool {
@@ -73,22 +47,6 @@ impl Desk {
         let keys = demo_keys(&serial);
         format!("{serial},{},{}\n", keys.licence, keys.activation)
     }
-}
-
-/// The plant's controllers; `known`: their information was read before.
-fn listed(plant: &Plant, known: bool) -> Configuration {
-    let mut configuration = Configuration::default();
-    for (index, listed) in plant.listed().into_iter().enumerate() {
-        let controller = plant.controller(index);
-        configuration.controllers.push(ControllerEntry {
-            name: listed.name,
-            address: listed.address,
-            series: controller.series(),
-            fingerprint: listed.fingerprint,
-            last: known.then(|| Retrieved { at: window::now(), info: controller.info() }),
-        });
-    }
-    configuration
 }
 
 #[test]
@@ -129,7 +87,7 @@ fn many_are_activated_from_a_file_with_mistakes_that_are_shown_before_anything_i
     // The second line is damaged, the third controller's is missing.
     let file = desk.line(0) + &desk.line(1).replacen('-', "", 4).replacen(',', "!,", 2) + "OTHER1,x\n";
     let stranger = "R7A9999999,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n";
-    fs::write(&desk.file, format!("OPCUA.Activation.Ver.1.0\r\n{file}{stranger}")).unwrap();
+    fs::write(desk.file(), format!("OPCUA.Activation.Ver.1.0\r\n{file}{stranger}")).unwrap();
 
     desk.click("Tick all");
     choose(&mut desk.window, &["Server settings", "Activation…"]);
@@ -139,7 +97,7 @@ fn many_are_activated_from_a_file_with_mistakes_that_are_shown_before_anything_i
     type_into(&mut desk.window, "File", "nowhere.csv");
     desk.click("Read file");
     desk.wait_for("The file cannot be read");
-    let wrong = desk.file.with_file_name("wrong.csv");
+    let wrong = desk.file().with_file_name("wrong.csv");
     fs::write(&wrong, "Name,Type,Address\n").unwrap();
     type_into(&mut desk.window, "File", &wrong.display().to_string());
     desk.click("Read file");
@@ -160,7 +118,7 @@ fn many_are_activated_from_a_file_with_mistakes_that_are_shown_before_anything_i
 
 #[test]
 fn current_firmware_is_not_activated_by_keys() {
-    let mut desk = Desk::open(|| Plant::start(2, FleetFirmware::Current), |plant| listed(plant, true));
+    let mut desk = Desk::open(|| Plant::start(2, FleetFirmware::Current), |plant| list(plant, true));
     desk.click("Server settings");
     assert!(!is_enabled(&desk.window, "Activation…"), "nothing is ticked");
     desk.window.key_press(egui::Key::Escape);
@@ -246,7 +204,7 @@ fn a_desktop_without_a_file_dialog_says_what_to_do_instead() {
         picker,
     };
     let backend = TokioBackend::new(backend, || {}).unwrap();
-    desk.window = window_in(workspace, backend, listed(&desk.plant, false), SIZE);
+    desk.window = window_in(workspace, backend, list(&desk.plant, false), SIZE);
     desk.click("Tick all");
     choose(&mut desk.window, &["Server settings", "Activation…"]);
     desk.click("Choose…");

@@ -6,85 +6,35 @@ mod common;
 #[allow(dead_code, reason = "not every story needs all of it")]
 #[path = "common/plant.rs"]
 mod plant;
+#[path = "common/window_desk.rs"]
+mod window_desk;
 
 use std::fs;
 use std::path::Path;
-use std::sync::Arc;
-use std::time::Duration;
 
 use ca::Ca;
-use common::window::{self, SIZE, choose, click, is_enabled, shows, type_into, wait_until, window_in};
+use common::window::{choose, is_enabled, shows, type_into, wait_until};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::jobs::{SelfSigned, SelfSignedFields};
 use opcua_configurator::model::{CertificateType, KeyLength, SelfSignedRequest, SerialNumber, Subject, Validity};
 use opcua_configurator::pki::{
     Certificate, Csr, PrivateKey, ServerNames, pkcs12_write, self_signed as make_self_signed,
 };
-use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
 use opcua_configurator::virtual_controller::FleetFirmware;
-use opcua_configurator::workspace::{
-    CertificateFiles, Configuration, ControllerEntry, Passwords as _, Retrieved, Workspace,
-};
-use plant::Plant;
+use opcua_configurator::workspace::{CertificateFiles, Passwords as _};
 use rcgen::{CertificateParams, SanType};
-
-/// Long enough for a busy machine to make keys.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-struct Desk {
-    window: window::Window<TokioBackend>,
-    plant: Plant,
-    runtime: tokio::runtime::Runtime,
-    files: CertificateFiles,
-    _folder: tempfile::TempDir,
-}
+use window_desk::{Desk, PATIENCE};
 
 impl Desk {
-    /// A plant, and a window that knows it: "cell 1", "cell 2", …, all ticked.
+    /// A plant, and a window that knows it, all ticked.
     fn open(count: usize, firmware: FleetFirmware) -> Self {
-        let runtime = tokio::runtime::Runtime::new().unwrap();
-        let plant = runtime.block_on(Plant::start(count, firmware));
-        let folder = tempfile::tempdir().unwrap();
-        let workspace = Workspace::new(folder.path().join("OPCUA"));
-        let backend = BackendOptions {
-            workspace: workspace.clone(),
-            lock: workspace.lock().unwrap(),
-            passwords: plant.passwords.clone(),
-            connector: Arc::new(plant.connector),
-            starter: None,
-            picker: Arc::new(opcua_configurator::ui::picker::FixedPicker(Ok(None))),
-        };
-        let backend = TokioBackend::new(backend, || {}).unwrap();
-        let mut configuration = Configuration::default();
-        for (index, listed) in plant.listed().into_iter().enumerate() {
-            let controller = plant.controller(index);
-            configuration.controllers.push(ControllerEntry {
-                name: listed.name,
-                address: listed.address,
-                series: controller.series(),
-                fingerprint: listed.fingerprint,
-                last: Some(Retrieved { at: window::now(), info: controller.info() }),
-            });
-        }
-        let files = workspace.certificate_files();
-        let mut window = window_in(workspace, backend, configuration, SIZE);
-        click(&mut window, "Tick all");
-        Self { window, plant, runtime, files, _folder: folder }
+        let mut desk = Self::with_controllers(count, firmware);
+        desk.click("Tick all");
+        desk
     }
 
-    fn wait_for(&mut self, text: &str) {
-        wait_until(&mut self.window, PATIENCE, |window| shows(window, text));
-    }
-
-    fn click(&mut self, label: &str) {
-        click(&mut self.window, label);
-    }
-
-    /// Waits for the summary, checks it and closes it.
-    fn finish(&mut self, summary: &str) {
-        self.wait_for("Completed");
-        assert!(shows(&self.window, summary), "no {summary:?} in the summary");
-        self.click("Close");
+    fn files(&self) -> CertificateFiles {
+        self.workspace.certificate_files()
     }
 
     fn serial(&self, index: usize) -> SerialNumber {
@@ -114,12 +64,12 @@ impl Desk {
     }
 
     fn csr(&self, index: usize) -> Csr {
-        Csr::from_any(&fs::read(self.files.csr_folder(&self.serial(index)).join("3_csr.der")).unwrap()).unwrap()
+        Csr::from_any(&fs::read(self.files().csr_folder(&self.serial(index)).join("3_csr.der")).unwrap()).unwrap()
     }
 
     /// Puts a certificate where the import looks for it.
     fn put(&self, index: usize, certificate: &[u8]) {
-        let folder = self.files.ca_signed_folder(&self.serial(index));
+        let folder = self.files().ca_signed_folder(&self.serial(index));
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join("from_ca.der"), certificate).unwrap();
     }
@@ -274,7 +224,7 @@ fn self_signed_certificates_are_exported() {
     desk.click("Copy");
     desk.finish("2 done");
     for index in 0..2 {
-        let pem = fs::read(desk.files.self_signed_folder(&desk.serial(index)).join("1_cert.pem")).unwrap();
+        let pem = fs::read(desk.files().self_signed_folder(&desk.serial(index)).join("1_cert.pem")).unwrap();
         let summary = Certificate::from_any(&pem).unwrap().summary();
         assert_eq!(Some(summary), desk.plant.controller(index).info().certificate.map(|c| c.summary));
     }
@@ -311,7 +261,7 @@ fn a_certificate_of_another_tool_is_imported() {
     let mut desk = Desk::open(1, FleetFirmware::Legacy);
     let (key, certificate) = made_elsewhere(&desk);
     let pfx = pkcs12_write("robot", &key, &[&certificate], "right").unwrap();
-    let folder = desk.files.user_specified_folder(&desk.serial(0));
+    let folder = desk.files().user_specified_folder(&desk.serial(0));
     write(&folder, "robot.pfx", &pfx);
     create(&mut desk, "User specified…");
     type_into(&mut desk.window, "Password of the file", "wrong");

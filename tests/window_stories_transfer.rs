@@ -3,88 +3,24 @@
 mod common;
 #[path = "common/plant.rs"]
 mod plant;
+#[path = "common/window_desk.rs"]
+mod window_desk;
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
-use std::sync::Arc;
-use std::time::Duration;
 
-use common::window::{self, SIZE, choose, click, is_enabled, shows, type_into, wait_until, window_in};
+use common::window::{choose, is_enabled, shows, type_into, wait_until};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::jobs::{
-    AddUser, Operation, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, StopServer,
+    AddUser, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, StopServer,
 };
 use opcua_configurator::model::{Credential, KeyLength, SecurityPolicy, ServerSettings, UserPassword, Validity};
-use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
 use opcua_configurator::virtual_controller::FleetFirmware;
-use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
-use plant::Plant;
-
-const PATIENCE: Duration = Duration::from_secs(60);
-
-/// A plant, and a window that knows it: "cell 1", "cell 2", …
-struct Desk {
-    window: window::Window<TokioBackend>,
-    plant: Plant,
-    runtime: tokio::runtime::Runtime,
-    workspace: Workspace,
-    _folder: tempfile::TempDir,
-}
+use window_desk::{Desk, PATIENCE};
 
 impl Desk {
-    fn new(count: usize, firmware: FleetFirmware) -> Self {
-        let runtime = tokio::runtime::Runtime::new().unwrap();
-        let plant = runtime.block_on(Plant::start(count, firmware));
-        let folder = tempfile::tempdir().unwrap();
-        let workspace = Workspace::new(folder.path().join("OPCUA"));
-        let backend = BackendOptions {
-            workspace: workspace.clone(),
-            lock: workspace.lock().unwrap(),
-            passwords: plant.passwords.clone(),
-            connector: Arc::new(plant.connector),
-            starter: None,
-            picker: Arc::new(opcua_configurator::ui::picker::FixedPicker(Ok(None))),
-        };
-        let backend = TokioBackend::new(backend, || {}).unwrap();
-        let mut configuration = Configuration::default();
-        for (index, listed) in plant.listed().into_iter().enumerate() {
-            let controller = plant.controller(index);
-            configuration.controllers.push(ControllerEntry {
-                name: listed.name,
-                address: listed.address,
-                series: controller.series(),
-                fingerprint: listed.fingerprint,
-                last: Some(Retrieved { at: window::now(), info: controller.info() }),
-            });
-        }
-        let window = window_in(workspace.clone(), backend, configuration, SIZE);
-        Self { window, plant, runtime, workspace, _folder: folder }
-    }
-
-    fn click(&mut self, label: &str) {
-        click(&mut self.window, label);
-    }
-
     fn choose(&mut self, item: &str) {
         choose(&mut self.window, &["Server settings", item]);
-    }
-
-    fn wait_for(&mut self, text: &str) {
-        wait_until(&mut self.window, PATIENCE, |window| shows(window, text));
-    }
-
-    fn confirm_and_finish(&mut self, summary: &str) {
-        self.click("OK");
-        self.wait_for("Completed");
-        assert!(shows(&self.window, summary), "no {summary:?} in the summary");
-        self.click("Close");
-    }
-
-    /// Somebody else's work.
-    fn run(&self, operation: impl Operation + 'static) {
-        for report in self.runtime.block_on(self.plant.run(operation)) {
-            assert!(report.result.is_ok(), "{report:?}");
-        }
     }
 
     fn add_user(&self, name: &str) {
@@ -103,7 +39,7 @@ impl Desk {
 
 #[test]
 fn settings_of_many_are_exported_and_put_back() {
-    let mut desk = Desk::new(2, FleetFirmware::Legacy);
+    let mut desk = Desk::with_controllers(2, FleetFirmware::Legacy);
     desk.add_user("operator1");
     desk.click("Tick all");
     desk.choose("Export…");
@@ -134,7 +70,7 @@ fn settings_of_many_are_exported_and_put_back() {
 
 #[test]
 fn the_file_of_one_controller_is_looked_at_before_it_is_imported() {
-    let mut desk = Desk::new(1, FleetFirmware::Legacy);
+    let mut desk = Desk::with_controllers(1, FleetFirmware::Legacy);
     desk.click("Tick cell 1");
     desk.choose("Import…");
     desk.wait_for("option.json");
@@ -156,7 +92,7 @@ fn the_file_of_one_controller_is_looked_at_before_it_is_imported() {
 
 #[test]
 fn current_firmware_says_why_not() {
-    let mut desk = Desk::new(1, FleetFirmware::Current);
+    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
     desk.click("Tick cell 1");
     desk.click("Server settings");
     for item in ["Export…", "Import…"] {
@@ -172,7 +108,7 @@ fn current_firmware_says_why_not() {
 
 #[test]
 fn the_log_is_read_filtered_refreshed_and_deleted() {
-    let mut desk = Desk::new(1, FleetFirmware::Legacy);
+    let mut desk = Desk::with_controllers(1, FleetFirmware::Legacy);
     desk.click("Tick cell 1");
     desk.choose("Server log…");
     desk.wait_for("The log is empty");

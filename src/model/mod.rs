@@ -12,6 +12,7 @@ mod certificate;
 mod client_list;
 mod controller;
 mod country;
+mod error_texts;
 mod info;
 mod language;
 mod problem;

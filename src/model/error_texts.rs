@@ -1,0 +1,879 @@
+//! The registry of errors: what a person reads about each, in English and Chinese (manual 6.1 and 6.2).
+
+use super::{ErrorCode, Explanation};
+
+const fn text(message: &'static str, cause: &'static str, remedy: &'static str) -> Explanation {
+    Explanation { message, cause, remedy }
+}
+
+/// Code, English, Chinese.
+pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
+    (
+        ErrorCode::NotActivated,
+        text(
+            "The OPC UA server is not activated",
+            "The controller has no valid OPC UA licence.",
+            "Activate the OPC UA function, then start the server again.",
+        ),
+        text("OPC UA 服务器未激活", "控制器没有有效的 OPC UA 许可。", "请先激活 OPC UA 功能，然后重新启动服务器。"),
+    ),
+    (
+        ErrorCode::NoCertificate,
+        text(
+            "No server certificate is configured",
+            "The controller holds no certificate of the selected type.",
+            "Create or import a server certificate, or select another certificate type.",
+        ),
+        text("未配置服务器证书", "控制器中没有所选类型的证书。", "请创建或导入服务器证书，或选择其他认证类型。"),
+    ),
+    (
+        ErrorCode::InvalidParameter,
+        text(
+            "The OPC UA server has an invalid parameter",
+            "A value in the server settings or in the server certificate does not fit.",
+            "Check the basic settings and the server certificate.",
+        ),
+        text("OPC UA 服务器参数无效", "服务器设置或服务器证书中有不合适的值。", "请检查基本设置和服务器证书。"),
+    ),
+    (
+        ErrorCode::PortConflict,
+        text(
+            "The port of the OPC UA server is already in use",
+            "Another function of the controller uses the same TCP port.",
+            "Choose another port in the basic settings.",
+        ),
+        text("OPC UA 服务器端口冲突", "控制器的其他功能正在使用同一 TCP 端口。", "请在基本设置中选择其他端口。"),
+    ),
+    (
+        ErrorCode::ServerError,
+        text(
+            "The OPC UA server failed",
+            "The server inside the controller met an internal error.",
+            "Restart the controller. If it happens again, switch on the server log and send it to support.",
+        ),
+        text(
+            "OPC UA 服务器错误",
+            "控制器内的服务器发生内部错误。",
+            "请重新启动控制器。若再次发生，请打开服务器日志并联系技术支持。",
+        ),
+    ),
+    (
+        ErrorCode::ServerLogOn,
+        text(
+            "The server log is switched on",
+            "The OPC UA server writes its log, which fills the controller's storage in time.",
+            "Switch the server log off in the basic settings, then restart the controller.",
+        ),
+        text(
+            "OPC UA 服务器日志已打开",
+            "服务器正在写日志，会逐渐占满控制器的存储空间。",
+            "请在基本设置中关闭服务器日志，然后重新启动控制器。",
+        ),
+    ),
+    (
+        ErrorCode::ServerLogFull,
+        text(
+            "The server log is over its size limit",
+            "The log file reached its limit and the OPC UA server stopped itself.",
+            "Switch the server log off and delete it in the basic settings, then restart the controller.",
+        ),
+        text(
+            "OPC UA 服务器日志超出大小限制",
+            "日志文件达到上限，OPC UA 服务器已自行停止。",
+            "请在基本设置中关闭并删除服务器日志，然后重新启动控制器。",
+        ),
+    ),
+    (
+        ErrorCode::Unreachable,
+        text(
+            "The controller cannot be reached",
+            "It is switched off, the network cable is unplugged, or the address is wrong.",
+            "Switch the controller on, check the cable and the address, then try again.",
+        ),
+        text("无法连接控制器", "控制器未打开、网线未连接或地址错误。", "请打开控制器，检查网线和地址，然后重试。"),
+    ),
+    (
+        ErrorCode::Timeout,
+        text(
+            "The controller does not answer",
+            "It accepted the connection but sent no answer in time.",
+            "Wait until the controller has finished what it is doing, then try again. If it stays silent, restart it.",
+        ),
+        text(
+            "控制器没有响应",
+            "控制器接受了连接，但未在规定时间内响应。",
+            "请等待控制器完成当前处理后重试。若仍无响应，请重新启动控制器。",
+        ),
+    ),
+    (
+        ErrorCode::ConnectionLost,
+        text(
+            "The connection was lost during the operation",
+            "The network cable was pulled, or the controller was restarted, before the answer arrived.",
+            "Check the connection, get new information to see what was done, then repeat what is missing.",
+        ),
+        text(
+            "处理过程中连接断开",
+            "在收到响应之前，网线断开或控制器被重新启动。",
+            "请检查连接，点击[获取新信息]确认已完成的处理，然后重做未完成的部分。",
+        ),
+    ),
+    (
+        ErrorCode::NotAController,
+        text(
+            "What answers at this address is not a controller",
+            "Something answers, but not with the controller-management protocol.",
+            "Check the address and the port. The port is that of the controller's management, not of its OPC UA server.",
+        ),
+        text(
+            "该地址的设备不是控制器",
+            "有设备响应，但不是控制器管理协议。",
+            "请检查地址和端口。端口应为控制器的管理端口，而不是 OPC UA 服务器端口。",
+        ),
+    ),
+    (
+        ErrorCode::ProtocolVersion,
+        text(
+            "The controller speaks another version of the management protocol",
+            "Its firmware is newer or older than this program supports.",
+            "Update this program, or the controller's firmware.",
+        ),
+        text("控制器的管理协议版本不同", "固件版本比本程序支持的更新或更旧。", "请更新本程序或控制器固件。"),
+    ),
+    (
+        ErrorCode::FingerprintChanged,
+        text(
+            "The controller's identity has changed",
+            "The fingerprint is not the one confirmed when the controller was added. The controller was replaced, or \
+             somebody is between you and it.",
+            "Compare the fingerprint with the one the controller shows. If the change is right, delete the controller \
+             and add it again; if not, tell your network administrator.",
+        ),
+        text(
+            "控制器的身份已改变",
+            "指纹与添加控制器时确认的不同。控制器可能已更换，或网络中有人冒充控制器。",
+            "请与控制器上显示的指纹核对。若更改正确，请删除后重新添加该控制器；否则请联系网络管理员。",
+        ),
+    ),
+    (
+        ErrorCode::FingerprintUnknown,
+        text(
+            "The controller's fingerprint has not been confirmed",
+            "A controller is only talked to once its fingerprint was compared and accepted.",
+            "Compare the fingerprint with the one the controller shows, then confirm it.",
+        ),
+        text("尚未确认控制器的指纹", "只有核对并接受指纹后，才能与控制器通信。", "请与控制器上显示的指纹核对后确认。"),
+    ),
+    (
+        ErrorCode::WrongPassword,
+        text(
+            "The connection password is wrong",
+            "The controller did not accept the password for Ethernet connections.",
+            "Enter the password that is set in the controller.",
+        ),
+        text("连接密码错误", "控制器未接受以太网连接密码。", "请输入控制器中设置的密码。"),
+    ),
+    (
+        ErrorCode::PasswordMissing,
+        text(
+            "The connection password is not known",
+            "This computer has no keyring to keep it in, so it is asked for each time the program starts.",
+            "Enter the connection password of the controller.",
+        ),
+        text("缺少连接密码", "本机没有可保存密码的密钥环，因此每次启动程序都需要输入。", "请输入控制器的连接密码。"),
+    ),
+    (
+        ErrorCode::LockedOut,
+        text(
+            "The controller refuses further attempts for a while",
+            "A wrong connection password was sent too often.",
+            "Wait for a minute, then try again with the right password.",
+        ),
+        text("控制器暂时拒绝登录", "多次发送了错误的连接密码。", "请等待一分钟，然后使用正确的密码重试。"),
+    ),
+    (
+        ErrorCode::SessionExpired,
+        text(
+            "The session with the controller has ended",
+            "The controller was restarted or the session was idle for too long.",
+            "Repeat the operation.",
+        ),
+        text("与控制器的会话已结束", "控制器已重新启动，或会话空闲时间过长。", "请重新操作。"),
+    ),
+    (
+        ErrorCode::FirmwareNotSupported,
+        text(
+            "The controller's firmware does not support OPC UA",
+            "The firmware is older than the first version with an OPC UA server.",
+            "Update the firmware: RC90 and RC700 from 7.5.4, T/VT from 7.5.54, RC800 from 8.0.0.",
+        ),
+        text(
+            "控制器固件版本不支持 OPC UA",
+            "固件版本早于首个包含 OPC UA 服务器的版本。",
+            "请更新固件：RC90、RC700 从 7.5.4 起，T/VT 从 7.5.54 起，RC800 从 8.0.0 起。",
+        ),
+    ),
+    (
+        ErrorCode::FirmwareTooNew,
+        text(
+            "This function is not available on firmware 8.0.0 or later",
+            "The controller makes its keys itself and is activated as a controller option.",
+            "Use the function that replaces it for current firmware.",
+        ),
+        text(
+            "固件 8.0.0 及以上版本不提供此功能",
+            "控制器自行生成密钥，并通过控制器选项激活。",
+            "请使用新版固件对应的功能。",
+        ),
+    ),
+    (
+        ErrorCode::FirmwareTooOld,
+        text(
+            "This function needs firmware 8.0.0 or later",
+            "The controller's firmware is older.",
+            "Update the firmware, or leave this controller out.",
+        ),
+        text("此功能需要固件 8.0.0 或更高版本", "控制器固件版本较旧。", "请更新固件，或取消选择该控制器。"),
+    ),
+    (
+        ErrorCode::TaskRunning,
+        text(
+            "A task is running in the controller",
+            "The controller cannot be configured while it runs a program.",
+            "Wait for the task to finish or stop it, then try again.",
+        ),
+        text("控制器正在运行任务", "任务运行中，无法配置控制器。", "请等待任务结束或停止任务，然后重试。"),
+    ),
+    (
+        ErrorCode::TeachPendantConnected,
+        text(
+            "A teach pendant is connected to the controller",
+            "The controller cannot be configured while a teach pendant has control.",
+            "Disconnect the teach pendant, then try again.",
+        ),
+        text("控制器已连接示教器", "示教器控制期间，无法配置控制器。", "请断开示教器，然后重试。"),
+    ),
+    (
+        ErrorCode::ChangedMeanwhile,
+        text(
+            "The controller was changed by somebody else",
+            "Its configuration is newer than the one this change was based on. Nothing was changed.",
+            "Get new information, check the settings, then make the change again.",
+        ),
+        text(
+            "控制器已被他人更改",
+            "控制器的配置比本次更改所依据的版本更新。未做任何更改。",
+            "请获取新信息并检查设置，然后重新更改。",
+        ),
+    ),
+    (
+        ErrorCode::TooManyUsers,
+        text(
+            "The controller has the most users it can take",
+            "A controller takes at most 10 users.",
+            "Delete a user that is no longer needed, then add the new one.",
+        ),
+        text("用户数量已达上限", "每台控制器最多可注册 10 个用户。", "请删除不再需要的用户，然后再添加。"),
+    ),
+    (
+        ErrorCode::UserExists,
+        text(
+            "A user of this name already exists",
+            "The controller already has a user with the same name.",
+            "Choose another name, or delete the existing user first.",
+        ),
+        text("用户名已存在", "控制器中已有同名用户。", "请使用其他名称，或先删除已有用户。"),
+    ),
+    (
+        ErrorCode::UserNotFound,
+        text(
+            "The user does not exist",
+            "The controller has no user of this name; it may have been deleted meanwhile.",
+            "Open the user list again.",
+        ),
+        text("用户不存在", "控制器中没有该用户，可能已被删除。", "请重新打开用户列表。"),
+    ),
+    (
+        ErrorCode::ListFull,
+        text(
+            "More certificates than the controller can take",
+            "The list in the controller would grow over its limit. Nothing was sent.",
+            "Delete certificates that are no longer needed, or add fewer.",
+        ),
+        text(
+            "证书数量超过控制器上限",
+            "控制器中的列表将超过上限。未发送任何内容。",
+            "请删除不再需要的证书，或减少要添加的数量。",
+        ),
+    ),
+    (
+        ErrorCode::DuplicateCertificate,
+        text(
+            "The certificate is already in the list",
+            "The controller already holds exactly this certificate.",
+            "Nothing needs to be done.",
+        ),
+        text("证书已在列表中", "控制器中已有完全相同的证书。", "无需处理。"),
+    ),
+    (
+        ErrorCode::DiskFull,
+        text(
+            "The controller's storage is full",
+            "The change could not be saved in the controller. Nothing was changed.",
+            "Delete the server log or other files in the controller, then try again.",
+        ),
+        text(
+            "控制器存储空间已满",
+            "无法在控制器中保存更改。未做任何更改。",
+            "请删除控制器中的服务器日志或其他文件，然后重试。",
+        ),
+    ),
+    (
+        ErrorCode::Refused,
+        text(
+            "The controller refused the operation",
+            "The controller's own rules do not allow it in its present state.",
+            "See the detail, then check the controller's state.",
+        ),
+        text("控制器拒绝了该操作", "控制器的当前状态不允许该操作。", "请查看详细信息并检查控制器状态。"),
+    ),
+    (
+        ErrorCode::LogPassword,
+        text(
+            "The password for the server log is wrong",
+            "Switching the server log on needs the password given in the manual.",
+            "Enter the password again. In normal use the server log stays off.",
+        ),
+        text(
+            "服务器日志密码错误",
+            "打开服务器日志需要手册中给出的密码。",
+            "请重新输入密码。正常使用时请保持服务器日志关闭。",
+        ),
+    ),
+    (
+        ErrorCode::RequestTooLarge,
+        text(
+            "The request is too large for the controller",
+            "More data was sent than the controller accepts at once.",
+            "Send fewer or smaller files.",
+        ),
+        text("请求过大", "发送的数据超过控制器一次可接收的大小。", "请减少文件数量或大小。"),
+    ),
+    (
+        ErrorCode::BadName,
+        text(
+            "The name cannot be used",
+            "A name has 1 to 32 characters and no control characters.",
+            "Enter another name.",
+        ),
+        text("名称无效", "名称须为 1 至 32 个字符，且不含控制字符。", "请输入其他名称。"),
+    ),
+    (
+        ErrorCode::BadAddress,
+        text(
+            "The address is not valid",
+            "An address is an IP address or a host name, with or without a port.",
+            "Enter an address such as 192.168.0.1 or robot-7:7943.",
+        ),
+        text("地址无效", "地址须为 IP 地址或主机名，可带端口。", "请输入如 192.168.0.1 或 robot-7:7943 的地址。"),
+    ),
+    (
+        ErrorCode::BadPort,
+        text(
+            "The port number must be between 0 and 65535",
+            "The port is not a number, is out of range, or belongs to the system (0 to 1023).",
+            "Enter a port from 1024 to 65535 in half-width digits.",
+        ),
+        text(
+            "端口号必须介于 0 和 65535 之间",
+            "端口不是数字、超出范围，或属于系统端口（0 至 1023）。",
+            "请输入 1024 至 65535 的半角数字。",
+        ),
+    ),
+    (
+        ErrorCode::BadSettings,
+        text(
+            "The server settings are not complete",
+            "At least one security policy and one user token policy must be chosen.",
+            "Complete the settings.",
+        ),
+        text("服务器设置不完整", "至少须选择一种安全策略和一种用户令牌策略。", "请完成设置。"),
+    ),
+    (
+        ErrorCode::BadCredential,
+        text(
+            "The user name or password is not allowed",
+            "Both have 8 to 32 half-width letters and digits, no symbols.",
+            "Enter another user name or password.",
+        ),
+        text("用户名或密码无效", "两者均须为 8 至 32 个半角字母或数字，不可使用符号。", "请重新输入用户名或密码。"),
+    ),
+    (
+        ErrorCode::BadCertificateRequest,
+        text(
+            "A certificate field has a value that is not allowed",
+            "Full-width characters, symbols outside the printable ones, or a value out of range were entered.",
+            "Correct the field.",
+        ),
+        text("参数错误", "证书字段中输入了全角字符、不可用的符号或超出范围的值。", "请重新输入正确的值。"),
+    ),
+    (
+        ErrorCode::BadCertificate,
+        text(
+            "The file holds no usable certificate",
+            "It is damaged, or not an X.509 certificate in PEM or DER.",
+            "Choose another file, or export the certificate again.",
+        ),
+        text(
+            "文件中没有可用的证书",
+            "文件已损坏，或不是 PEM、DER 格式的 X.509 证书。",
+            "请选择其他文件，或重新导出证书。",
+        ),
+    ),
+    (
+        ErrorCode::BadFingerprint,
+        text(
+            "This is not a fingerprint",
+            "A fingerprint is the SHA-256 of the controller's identity: 64 hexadecimal digits.",
+            "Copy the fingerprint as the controller shows it.",
+        ),
+        text("指纹格式无效", "指纹是控制器身份的 SHA-256，为 64 位十六进制数字。", "请按控制器显示的内容复制指纹。"),
+    ),
+    (
+        ErrorCode::NameTaken,
+        text("Another controller already has this name", "Names in the list are unique.", "Choose another name."),
+        text("名称已被使用", "列表中的名称不可重复。", "请使用其他名称。"),
+    ),
+    (
+        ErrorCode::AddressTaken,
+        text(
+            "Another controller already has this address",
+            "The same address and port are registered under another name.",
+            "Check the address, or delete the other entry.",
+        ),
+        text("地址已被使用", "相同的地址和端口已以其他名称注册。", "请检查地址，或删除另一条目。"),
+    ),
+    (
+        ErrorCode::UnknownController,
+        text(
+            "No controller of this name is in the list",
+            "The name is mistyped, or the controller was added in another workspace.",
+            "See the list of controllers for the names.",
+        ),
+        text("列表中没有该名称的控制器", "名称输入错误，或该控制器在其他工作区中。", "请在控制器列表中确认名称。"),
+    ),
+    (
+        ErrorCode::FileUnreadable,
+        text(
+            "The file cannot be read",
+            "It does not exist, or this account may not read it.",
+            "Check the file's name and its permissions.",
+        ),
+        text("无法读取文件", "文件不存在，或当前账户没有读取权限。", "请检查文件名和权限。"),
+    ),
+    (
+        ErrorCode::NotConfirmed,
+        text(
+            "The operation was not confirmed",
+            "It changes the controllers, and there is no terminal to ask on.",
+            "Repeat the command with --yes.",
+        ),
+        text("操作未确认", "该操作会更改控制器，且没有可询问的终端。", "请加上 --yes 重新执行命令。"),
+    ),
+    (
+        ErrorCode::CsrMismatch,
+        text(
+            "The certificate and the CSR do not match",
+            "The certificate was not issued for the CSR that the controller holds.",
+            "Import the certificate that the CA issued for this controller's latest CSR.",
+        ),
+        text(
+            "证书和 CSR 不匹配",
+            "控制器中保存的 CSR 与待导入证书未配对。",
+            "请导入 CA 为该控制器最新的 CSR 签发的证书。",
+        ),
+    ),
+    (
+        ErrorCode::NoCsr,
+        text(
+            "The controller holds no CSR",
+            "A CA-signed certificate can only be imported for a CSR that was made before.",
+            "Create a CSR, have it signed by the CA, then import the certificate.",
+        ),
+        text("控制器中没有 CSR", "只有先创建 CSR，才能导入 CA 签名证书。", "请创建 CSR 并由 CA 签发证书，然后再导入。"),
+    ),
+    (
+        ErrorCode::CertificateNotStored,
+        text(
+            "Update failed: the file does not exist",
+            "The controller holds no certificate of this type.",
+            "Create or import the certificate first.",
+        ),
+        text("更新失败：文件不存在", "控制器中不存在选定的证书文件类型。", "请先创建或导入要用作服务器证书的证书。"),
+    ),
+    (
+        ErrorCode::CertificateExpired,
+        text(
+            "The certificate has expired",
+            "Its validity ended before the date of the controller's clock.",
+            "Have a new certificate issued. If the controller's clock is wrong, set it.",
+        ),
+        text("证书已过期", "证书的有效期早于控制器的当前日期。", "请重新签发证书。若控制器时钟有误，请先校准时钟。"),
+    ),
+    (
+        ErrorCode::KeyLengthNotAllowed,
+        text(
+            "The key length does not fit the security policies",
+            "One of the ticked security policies does not allow keys of this length.",
+            "Use a certificate with another key length, or change the security policies in the basic settings.",
+        ),
+        text(
+            "密钥长度与安全策略不符",
+            "所选的某个安全策略不允许该密钥长度。",
+            "请使用其他密钥长度的证书，或在基本设置中更改安全策略。",
+        ),
+    ),
+    (
+        ErrorCode::KeyMismatch,
+        text(
+            "The certificate and the private key are not a pair",
+            "The certificate was issued for another key.",
+            "Choose the key and the certificate that belong together.",
+        ),
+        text("证书与私钥不匹配", "该证书是为其他私钥签发的。", "请选择配对的证书和私钥。"),
+    ),
+    (
+        ErrorCode::WrongKeyPassword,
+        text(
+            "The password of the private key is wrong",
+            "The file cannot be opened with this password, or none was given. Where the file does not allow to tell, it \
+             may also be damaged.",
+            "Enter the password that was set when the file was made.",
+        ),
+        text(
+            "输入的密码不正确",
+            "无法使用该密码打开文件，或未输入密码。文件也可能已损坏。",
+            "请重新输入创建文件时设置的密码。",
+        ),
+    ),
+    (
+        ErrorCode::FileNotFound,
+        text(
+            "The file to be imported was not found",
+            "There is no such file in the import folder of this controller.",
+            "Put the file into the folder named in the detail.",
+        ),
+        text("找不到导入文件", "在该控制器的导入源文件夹中没有要导入的文件。", "请将文件放入详细信息所示的文件夹。"),
+    ),
+    (
+        ErrorCode::SeveralFiles,
+        text(
+            "More files than can be imported",
+            "The import folder holds several files of this kind; exactly one is expected.",
+            "Leave only the file that is to be imported in the folder.",
+        ),
+        text(
+            "尝试导入超过限制的文件",
+            "导入源文件夹中有多个此类文件，只能有一个。",
+            "请在文件夹中仅保留要导入的文件。",
+        ),
+    ),
+    (
+        ErrorCode::BadFileName,
+        text(
+            "The file name cannot be used",
+            "It contains characters other than half-width letters, digits and underscores.",
+            "Rename the file.",
+        ),
+        text("文件名错误", "文件名中使用了除半角字母数字和下划线以外的字符。", "请更改文件名。"),
+    ),
+    (
+        ErrorCode::FileFormat,
+        text(
+            "The file has the wrong format",
+            "Its content is damaged, or is not what was chosen to be imported.",
+            "See the detail, then convert or export the file again.",
+        ),
+        text("文件格式无效", "文件已损坏，或与所选的文件格式不一致。", "请查看详细信息，然后转换或重新导出文件。"),
+    ),
+    (
+        ErrorCode::OneControllerOnly,
+        text(
+            "This works on one controller at a time",
+            "Each controller needs a certificate of its own.",
+            "Choose one controller only.",
+        ),
+        text("此功能一次只能用于一台控制器", "每台控制器需要各自的证书。", "请只选择一台控制器。"),
+    ),
+    (
+        ErrorCode::Preflight,
+        text(
+            "OPC UA clients would refuse the certificate",
+            "It does not fit the controller it is meant for. Nothing was sent.",
+            "See the detail for what is wrong, then have the certificate issued again.",
+        ),
+        text(
+            "OPC UA 客户端将拒绝该证书",
+            "证书与目标控制器不相符。未发送任何内容。",
+            "请查看详细信息，然后重新签发证书。",
+        ),
+    ),
+    (
+        ErrorCode::PreflightWarnings,
+        text(
+            "Some OPC UA clients may complain about the certificate",
+            "It can be used, but not everything about it is as it should be. Nothing was sent.",
+            "See the detail, then have the certificate issued again, or import it all the same.",
+        ),
+        text(
+            "部分 OPC UA 客户端可能对该证书发出警告",
+            "证书可以使用，但并非完全符合要求。未发送任何内容。",
+            "请查看详细信息，然后重新签发证书，或确认后继续导入。",
+        ),
+    ),
+    (
+        ErrorCode::WrongKeys,
+        text(
+            "The controller does not accept the keys",
+            "The licence key or the activation key was made for another serial number, or has a typing mistake.",
+            "Compare both keys with what the supplier sent for this serial number.",
+        ),
+        text(
+            "控制器不接受该密钥",
+            "许可密钥或激活密钥属于其他序列号，或输入有误。",
+            "请与供应商针对该序列号提供的密钥核对。",
+        ),
+    ),
+    (
+        ErrorCode::NotInFile,
+        text(
+            "The activation file has no keys for this controller",
+            "No good line of the file carries the controller's serial number.",
+            "Add the line or correct it, or choose the file that belongs to this controller.",
+        ),
+        text(
+            "激活文件中没有该控制器的信息",
+            "文件中没有包含该控制器序列号的有效行。",
+            "请在文件中添加或更正该行，或选择对应的文件。",
+        ),
+    ),
+    (
+        ErrorCode::BadActivationKey,
+        text(
+            "The licence key or the activation key is incomplete",
+            "A licence key has 16 half-width letters and digits, an activation key 24.",
+            "Enter the keys as the supplier sent them.",
+        ),
+        text(
+            "许可密钥或激活密钥不完整",
+            "许可密钥为 16 个半角字母或数字，激活密钥为 24 个。",
+            "请按供应商提供的内容输入密钥。",
+        ),
+    ),
+    (
+        ErrorCode::BadActivationFile,
+        text(
+            "The file is not an activation file",
+            "It is not UTF-8 text, or its first line is not OPCUA.Activation.Ver.1.0.",
+            "Choose another file, or save it again as CSV in UTF-8 with that first line.",
+        ),
+        text(
+            "文件格式无效，不是激活文件",
+            "文件不是 UTF-8 文本，或第一行不是 OPCUA.Activation.Ver.1.0。",
+            "请选择其他文件，或以该内容为第一行，重新保存为 UTF-8 编码的 CSV。",
+        ),
+    ),
+    (
+        ErrorCode::BadConnectionList,
+        text(
+            "This is not a connection list, or not a line of one",
+            "A connection list is a CSV file in UTF-8 with the columns Name, Type and Address.",
+            "Choose another file, or correct the line.",
+        ),
+        text(
+            "文件或其中一行不是有效的连接列表",
+            "连接列表是 UTF-8 编码的 CSV 文件，包含 Name、Type、Address 三列。",
+            "请选择其他文件，或更正该行。",
+        ),
+    ),
+    (
+        ErrorCode::ExportMissing,
+        text(
+            "No settings were exported from this controller",
+            "The controller's folder in the workspace holds no option.json.",
+            "Export the settings first, or copy the exported file into the folder named by the serial number.",
+        ),
+        text(
+            "找不到导入文件",
+            "工作区的控制器文件夹中没有 option.json。",
+            "请先导出设置，或将导出的文件放入以序列号命名的文件夹中。",
+        ),
+    ),
+    (
+        ErrorCode::ExportRenamed,
+        text(
+            "The name of the exported file was changed",
+            "Settings are imported from the file option.json only.",
+            "Give the file its name back.",
+        ),
+        text("文件名错误", "只能从 option.json 导入设置，导出文件的名称已被修改。", "请恢复文件名。"),
+    ),
+    (
+        ErrorCode::ExportOfAnother,
+        text(
+            "The exported settings belong to another controller",
+            "The file was exported from a controller with another serial number or of another series.",
+            "Put each file back into the folder named by its controller's serial number.",
+        ),
+        text(
+            "导出的设置属于其他控制器",
+            "该文件来自序列号或系列不同的控制器。",
+            "请将各文件放回以其控制器序列号命名的文件夹中。",
+        ),
+    ),
+    (
+        ErrorCode::ExportVersion,
+        text(
+            "The exported settings are of another version",
+            "The file has a format this program does not know, or comes from newer firmware than the controller's.",
+            "Update this program or the controller's firmware, or export the settings again.",
+        ),
+        text(
+            "导出的设置版本不同",
+            "文件格式不是本程序支持的版本，或来自比控制器更新的固件。",
+            "请更新本程序或控制器固件，或重新导出设置。",
+        ),
+    ),
+    (
+        ErrorCode::ExportDamaged,
+        text(
+            "The exported settings are damaged",
+            "The file is cut short or was changed, or it is not a settings export.",
+            "Restore the file from a copy, or export the settings again.",
+        ),
+        text(
+            "导出的设置文件已损坏",
+            "文件不完整或已被修改，或不是导出的设置文件。",
+            "请从副本恢复该文件，或重新导出设置。",
+        ),
+    ),
+    (
+        ErrorCode::WrongPassphrase,
+        text(
+            "The passphrase does not open the exported settings",
+            "They were sealed with another passphrase, or with the connection password the controller had then.",
+            "Enter the passphrase of the export.",
+        ),
+        text(
+            "密码短语无法打开导出的设置",
+            "导出时使用了其他密码短语，或当时控制器的连接密码。",
+            "请输入导出时使用的密码短语。",
+        ),
+    ),
+    (
+        ErrorCode::BadPassphrase,
+        text(
+            "The passphrase is too short",
+            "A passphrase that protects an export has at least 8 characters.",
+            "Choose a longer passphrase.",
+        ),
+        text("密码短语过短", "保护导出文件的密码短语至少为 8 个字符。", "请使用更长的密码短语。"),
+    ),
+    (
+        ErrorCode::WorkspaceReadOnly,
+        text(
+            "The workspace cannot be written",
+            "This account may not write into the workspace folder.",
+            "Change the folder's permissions, or choose another workspace with --workspace.",
+        ),
+        text(
+            "无法写入工作区",
+            "当前账户没有工作区文件夹的写入权限。",
+            "请更改文件夹权限，或使用 --workspace 选择其他工作区。",
+        ),
+    ),
+    (
+        ErrorCode::WorkspaceFull,
+        text(
+            "The disk of the workspace is full",
+            "The file could not be written completely and was left as it was before.",
+            "Free some space, then try again.",
+        ),
+        text("工作区所在磁盘已满", "文件未能完整写入，已保持原样。", "请释放磁盘空间，然后重试。"),
+    ),
+    (
+        ErrorCode::WorkspaceBusy,
+        text(
+            "The workspace is open in another window",
+            "Only one instance of the program works on a workspace at a time.",
+            "Use the other window, or close it first.",
+        ),
+        text("工作区已在其他窗口中打开", "同一工作区同时只能由一个程序使用。", "请使用已打开的窗口，或先将其关闭。"),
+    ),
+    (
+        ErrorCode::ConfigurationDamaged,
+        text(
+            "The configuration file was damaged",
+            "It could not be read as a configuration. It was kept under another name, and an empty one is used.",
+            "Restore the controllers from a backup of the file, or add them again.",
+        ),
+        text(
+            "配置文件已损坏",
+            "无法将其作为配置读取。已另名保留，并使用空配置。",
+            "请从备份恢复该文件，或重新添加控制器。",
+        ),
+    ),
+    (
+        ErrorCode::KeyringUnavailable,
+        text(
+            "The password cannot be kept on this computer",
+            "There is no operating-system keyring, or it is locked.",
+            "Enter the password each time the program starts, or unlock the keyring.",
+        ),
+        text("本机无法保存密码", "没有操作系统密钥环，或密钥环已锁定。", "请在每次启动时输入密码，或解锁密钥环。"),
+    ),
+    (
+        ErrorCode::NoDisplay,
+        text(
+            "The window cannot be opened",
+            "There is no display, or its graphics driver does not offer OpenGL.",
+            "Use the command line (--help), or start the program on a computer with a display.",
+        ),
+        text(
+            "无法打开窗口",
+            "没有显示器，或图形驱动不支持 OpenGL。",
+            "请使用命令行（--help），或在有显示器的电脑上启动程序。",
+        ),
+    ),
+    (
+        ErrorCode::NoFilePicker,
+        text(
+            "The file dialog cannot be opened",
+            "This desktop offers none: a portal for files (xdg-desktop-portal) is missing.",
+            "Type the path of the file into the field.",
+        ),
+        text(
+            "无法打开文件选择对话框",
+            "当前桌面环境未提供文件选择功能（缺少 xdg-desktop-portal）。",
+            "请在输入框中直接输入文件路径。",
+        ),
+    ),
+    (
+        ErrorCode::Cancelled,
+        text(
+            "Not started",
+            "The operation was cancelled before this controller's turn.",
+            "Run the operation again for the controllers that are missing.",
+        ),
+        text("未开始", "在轮到该控制器之前已取消操作。", "请对未处理的控制器重新操作。"),
+    ),
+    (
+        ErrorCode::Internal,
+        text(
+            "Something unexpected happened",
+            "This is an error in the program or in the controller.",
+            "Try again. If it happens again, report it with the detail shown.",
+        ),
+        text("发生意外错误", "程序或控制器内部出错。", "请重试。若再次发生，请附上详细信息进行报告。"),
+    ),
+];

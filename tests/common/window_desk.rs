@@ -1,0 +1,130 @@
+//! An engineer's desk: a plant of virtual controllers, and the real window over it. Each story adds what it needs.
+#![allow(dead_code, reason = "a story uses a part of it")]
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use opcua_configurator::jobs::Operation;
+use opcua_configurator::ui::backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
+use opcua_configurator::ui::picker::FixedPicker;
+use opcua_configurator::virtual_controller::FleetFirmware;
+use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
+
+use crate::common::window::{self, SIZE, click, shows, wait_until, window_in};
+use crate::plant::Plant;
+
+/// Long enough for a busy machine to make keys.
+pub const PATIENCE: Duration = Duration::from_secs(60);
+
+pub struct Desk {
+    pub window: window::Window<TokioBackend>,
+    pub plant: Plant,
+    pub runtime: tokio::runtime::Runtime,
+    pub workspace: Workspace,
+    /// The workspace is in it.
+    pub folder: tempfile::TempDir,
+}
+
+impl Desk {
+    /// A plant, and a window whose list is empty.
+    pub fn empty(count: usize, firmware: FleetFirmware) -> Self {
+        Self::start(|| Plant::start(count, firmware), |_| Configuration::default(), None, |_| FixedPicker(Ok(None)))
+    }
+
+    /// A plant, and a window that knows it: "cell 1", "cell 2", …
+    pub fn with_controllers(count: usize, firmware: FleetFirmware) -> Self {
+        Self::start(|| Plant::start(count, firmware), listed, None, |_| FixedPicker(Ok(None)))
+    }
+
+    /// `picker` gets the desk's folder.
+    pub fn start<F: Future<Output = Plant>>(
+        plant: impl FnOnce() -> F,
+        list: impl FnOnce(&Plant) -> Configuration,
+        starter: Option<Arc<dyn VirtualFleetStarter>>,
+        picker: impl FnOnce(&Path) -> FixedPicker,
+    ) -> Self {
+        let runtime = tokio::runtime::Runtime::new().unwrap();
+        let plant = runtime.block_on(plant());
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path().join("OPCUA"));
+        let offers_virtual = starter.is_some();
+        let backend = BackendOptions {
+            workspace: workspace.clone(),
+            lock: workspace.lock().unwrap(),
+            passwords: plant.passwords.clone(),
+            connector: Arc::new(plant.connector),
+            starter,
+            picker: Arc::new(picker(folder.path())),
+        };
+        let backend = TokioBackend::new(backend, || {}).unwrap();
+        let mut window = window_in(workspace.clone(), backend, list(&plant), SIZE);
+        window.state_mut().model.virtual_available = offers_virtual;
+        window.step();
+        Self { window, plant, runtime, workspace, folder }
+    }
+
+    pub fn wait_for(&mut self, text: &str) {
+        wait_until(&mut self.window, PATIENCE, |window| shows(window, text));
+    }
+
+    pub fn click(&mut self, label: &str) {
+        click(&mut self.window, label);
+    }
+
+    pub fn tick(&mut self, names: &[&str]) {
+        for name in names {
+            self.click(&format!("Tick {name}"));
+        }
+    }
+
+    /// Waits for the summary, checks it and closes it.
+    pub fn finish(&mut self, summary: &str) {
+        self.wait_for("Completed");
+        assert!(shows(&self.window, summary), "no {summary:?} in the summary");
+        self.click("Close");
+    }
+
+    /// Confirms first.
+    pub fn confirm_and_finish(&mut self, summary: &str) {
+        self.click("OK");
+        self.finish(summary);
+    }
+
+    /// Somebody else's work on all controllers.
+    pub fn run(&self, operation: impl Operation + 'static) {
+        for report in self.runtime.block_on(self.plant.run(operation)) {
+            assert!(report.result.is_ok(), "{report:?}");
+        }
+    }
+
+    /// Waits until the workspace remembers something: saving has a thread of its own.
+    pub fn wait_until_saved(&self, holds: impl Fn(&Configuration) -> bool) {
+        let until = Instant::now() + PATIENCE;
+        while !holds(&self.workspace.load().unwrap().configuration) {
+            assert!(Instant::now() < until, "not saved");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+    }
+}
+
+/// The plant's controllers, read before.
+pub fn listed(plant: &Plant) -> Configuration {
+    list(plant, true)
+}
+
+/// `known`: their information was read before.
+pub fn list(plant: &Plant, known: bool) -> Configuration {
+    let mut configuration = Configuration::default();
+    for (index, listed) in plant.listed().into_iter().enumerate() {
+        let controller = plant.controller(index);
+        configuration.controllers.push(ControllerEntry {
+            name: listed.name,
+            address: listed.address,
+            series: controller.series(),
+            fingerprint: listed.fingerprint,
+            last: known.then(|| Retrieved { at: window::now(), info: controller.info() }),
+        });
+    }
+    configuration
+}
