@@ -2,57 +2,19 @@
 
 mod common;
 
+use common::pictures::{W, job, picture, say, tell, tick};
 use common::samples::{configuration, info};
-use common::window::{SIZE, Window, choose, click, now, settle, type_into, window};
+use common::window::{SIZE, choose, click, now, settle, type_into, window};
 use opcua_configurator::jobs::{JobEvent, Outcome, Report, Step, Summary};
 use opcua_configurator::model::{ControllerSeries, ErrorCode, Language, Problem, ServerSettings};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::protocol::Revisioned;
-use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
-use opcua_configurator::ui::model::{JobId, Message, reduce};
+use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::model::Message;
 use opcua_configurator::workspace::{Configuration, ThemeChoice};
-
-type W = Window<RecordingBackend>;
 
 fn open(count: usize) -> W {
     window(RecordingBackend::default(), configuration(count, now()), SIZE)
-}
-
-fn tick(window: &mut W, names: &[&str]) {
-    for name in names {
-        click(window, &format!("Tick {name}"));
-    }
-}
-
-fn picture(window: &mut W, name: &str) {
-    window.remove_cursor();
-    // A blinking cursor would make every other picture different.
-    window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
-    settle(window);
-    window.snapshot(name);
-}
-
-fn tell(window: &mut W, event: Event) {
-    window.state_mut().backend.events.push_back(event);
-    settle(window);
-    window.step();
-    settle(window);
-}
-
-fn say(window: &mut W, message: Message) {
-    reduce(&mut window.state_mut().model, message);
-    settle(window);
-    window.step();
-    settle(window);
-}
-
-/// The job or attempt that was started last.
-fn job(window: &W) -> JobId {
-    let of = |command: &Command| match command {
-        Command::Run { job, .. } | Command::Probe { job, .. } | Command::Enroll { job, .. } => Some(*job),
-        _ => None,
-    };
-    window.state().backend.sent.iter().rev().find_map(of).expect("something was started")
 }
 
 fn finished(index: usize, result: Result<Outcome, Problem>) -> JobEvent {

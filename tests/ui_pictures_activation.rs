@@ -5,45 +5,13 @@ mod common;
 
 use std::path::PathBuf;
 
+use common::pictures::{W, chinese, job, picture, tell};
 use common::samples::{configuration, info};
-use common::window::{SIZE, Window, choose, click, now, settle, type_into, window};
-use opcua_configurator::model::{ControllerSeries, ErrorCode, Language, Problem};
+use common::window::{SIZE, choose, click, now, type_into, window};
+use opcua_configurator::model::{ControllerSeries, ErrorCode, Problem};
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::ui::backend::{Command, Event, FileContents, RecordingBackend};
-use opcua_configurator::ui::model::{JobId, Message, reduce};
+use opcua_configurator::ui::backend::{Event, FileContents, RecordingBackend};
 use opcua_configurator::workspace::{ConnectionList, Retrieved};
-
-type W = Window<RecordingBackend>;
-
-fn picture(window: &mut W, name: &str) {
-    window.remove_cursor();
-    // A blinking cursor would make every other picture different.
-    window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
-    settle(window);
-    window.snapshot(name);
-}
-
-fn tell(window: &mut W, event: Event) {
-    window.state_mut().backend.events.push_back(event);
-    settle(window);
-    window.step();
-    settle(window);
-}
-
-fn chinese(window: &mut W) {
-    reduce(&mut window.state_mut().model, Message::SetLanguage(Language::Zh));
-    settle(window);
-    window.step();
-    settle(window);
-}
-
-fn job(window: &W) -> JobId {
-    let of = |command: &Command| match command {
-        Command::Probe { job, .. } | Command::ReadFile { job, .. } | Command::PickFile { job, .. } => Some(*job),
-        _ => None,
-    };
-    window.state().backend.sent.iter().rev().find_map(of).expect("something was asked for")
-}
 
 fn read(window: &mut W, path: &str, contents: &str) {
     let job = job(window);

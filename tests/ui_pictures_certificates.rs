@@ -3,19 +3,17 @@
 
 mod common;
 
+use common::pictures::{W, chinese, job, picture, tell, tick};
 use common::samples::{configuration, info};
-use common::window::{SIZE, Window, choose, click, now, settle, type_into, window};
+use common::window::{SIZE, choose, click, now, type_into, window};
 use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
 use opcua_configurator::model::{
-    CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Language, Problem, SelfSignedRequest,
+    CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Problem, SelfSignedRequest,
     ServerSettings, Subject, Validity,
 };
 use opcua_configurator::pki::{Finding, PrivateKey, ServerNames, self_signed};
 use opcua_configurator::protocol::{Base64Bytes, HeldCertificate, HeldCertificates, Revisioned};
-use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
-use opcua_configurator::ui::model::{JobId, Message, reduce};
-
-type W = Window<RecordingBackend>;
+use opcua_configurator::ui::backend::{Event, RecordingBackend};
 
 /// Of current firmware, and of legacy firmware.
 const CURRENT: &str = "Weld 1";
@@ -23,41 +21,13 @@ const LEGACY: &str = "Weld 2";
 
 fn open(ticked: &[&str]) -> W {
     let mut window = window(RecordingBackend::default(), configuration(24, now()), SIZE);
-    for name in ticked {
-        click(&mut window, &format!("Tick {name}"));
-    }
+    tick(&mut window, ticked);
     window
-}
-
-fn picture(window: &mut W, name: &str) {
-    window.remove_cursor();
-    // A blinking cursor would make every other picture different.
-    window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
-    settle(window);
-    window.snapshot(name);
-}
-
-fn tell(window: &mut W, event: Event) {
-    window.state_mut().backend.events.push_back(event);
-    settle(window);
-    window.step();
-    settle(window);
-}
-
-fn chinese(window: &mut W) {
-    reduce(&mut window.state_mut().model, Message::SetLanguage(Language::Zh));
-    settle(window);
-    window.step();
-    settle(window);
 }
 
 /// The last job that was started ends like this, one result a controller.
 fn end(window: &mut W, results: Vec<Result<Outcome, Problem>>) {
-    let of = |command: &Command| match command {
-        Command::Run { job, .. } => Some(*job),
-        _ => None,
-    };
-    let job: JobId = window.state().backend.sent.iter().rev().find_map(of).expect("a job was started");
+    let job = job(window);
     let failed = results.iter().filter(|result| result.is_err()).count();
     let summary = Summary { done: results.len() - failed, failed, not_started: 0 };
     for (index, result) in results.into_iter().enumerate() {

@@ -3,52 +3,21 @@
 
 mod common;
 
+use common::pictures::{W, chinese, job, picture, tell, tick};
 use common::samples::{configuration, info};
-use common::window::{SIZE, Window, choose, click, now, settle, type_into, window};
+use common::window::{SIZE, choose, click, now, type_into, window};
 use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
-use opcua_configurator::model::{ControllerSeries, ErrorCode, FirmwareVersion, Language, Problem};
+use opcua_configurator::model::{ControllerSeries, ErrorCode, FirmwareVersion, Problem};
 use opcua_configurator::protocol::LogChunk;
-use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
-use opcua_configurator::ui::model::{ExportFound, JobId, Message, reduce};
-
-type W = Window<RecordingBackend>;
+use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::model::ExportFound;
 
 /// "Weld 2" has legacy firmware, "Palletiser south" too.
 fn open(names: &[&str], path: &[&str]) -> W {
     let mut window = window(RecordingBackend::default(), configuration(24, now()), SIZE);
-    for name in names {
-        click(&mut window, &format!("Tick {name}"));
-    }
+    tick(&mut window, names);
     choose(&mut window, path);
     window
-}
-
-fn picture(window: &mut W, name: &str) {
-    window.remove_cursor();
-    window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
-    settle(window);
-    window.snapshot(name);
-}
-
-fn tell(window: &mut W, event: Event) {
-    window.state_mut().backend.events.push_back(event);
-    settle(window);
-    window.step();
-    settle(window);
-}
-
-fn in_chinese(window: &mut W) {
-    reduce(&mut window.state_mut().model, Message::SetLanguage(Language::Zh));
-    window.step();
-    settle(window);
-}
-
-fn job(window: &W) -> JobId {
-    let of = |command: &Command| match command {
-        Command::Run { job, .. } | Command::LookAtExport { job, .. } => Some(*job),
-        _ => None,
-    };
-    window.state().backend.sent.iter().rev().find_map(of).expect("something was started")
 }
 
 fn load(window: &mut W, log: LogChunk) {
@@ -66,7 +35,7 @@ fn export() {
     picture(&mut window, "export_settings");
     type_into(&mut window, "Passphrase", "correct horse");
     click(&mut window, "Export");
-    in_chinese(&mut window);
+    chinese(&mut window);
     picture(&mut window, "export_settings_confirm_chinese");
 }
 
@@ -94,7 +63,7 @@ fn nothing_to_import() {
 #[test]
 fn import_for_many_in_chinese() {
     let mut window = open(&["Weld 2", "Palletiser south"], &["Server settings", "Import…"]);
-    in_chinese(&mut window);
+    chinese(&mut window);
     picture(&mut window, "import_settings_many_chinese");
 }
 
@@ -121,7 +90,7 @@ fn server_log() {
     load(&mut window, lines());
     picture(&mut window, "server_log");
     type_into(&mut window, "Filter lines", "rejected");
-    in_chinese(&mut window);
+    chinese(&mut window);
     picture(&mut window, "server_log_filter_chinese");
 }
 
