@@ -87,8 +87,9 @@ impl From<Format> for FileFormat {
     }
 }
 
+/// What a certificate or a request for one is to say.
 #[derive(Debug, Args)]
-pub struct CsrArgs {
+struct SubjectArgs {
     /// Common name, for one controller only [default: the controller's own, EpsonRC.<serial>.<address>]
     #[arg(long, value_name = "CN")]
     cn: Option<String>,
@@ -107,6 +108,12 @@ pub struct CsrArgs {
     /// Key length: 1024, 2048 or 4096, as the ticked security policies allow
     #[arg(long, value_name = "N", default_value_t = 2048)]
     bits: u16,
+}
+
+#[derive(Debug, Args)]
+pub struct CsrArgs {
+    #[command(flatten)]
+    subject: SubjectArgs,
     /// Format of the file
     #[arg(long, value_enum, default_value_t = Format::Der)]
     format: Format,
@@ -116,24 +123,8 @@ pub struct CsrArgs {
 
 #[derive(Debug, Args)]
 pub struct SelfSignedArgs {
-    /// Common name, for one controller only [default: the controller's own, EpsonRC.<serial>.<address>]
-    #[arg(long, value_name = "CN")]
-    cn: Option<String>,
-    /// Country, ISO 3166-1 alpha-2
-    #[arg(long, value_name = "CC")]
-    country: String,
-    /// State or province
-    #[arg(long)]
-    state: String,
-    /// City
-    #[arg(long)]
-    locality: String,
-    /// Organisation or company
-    #[arg(long)]
-    organisation: String,
-    /// Key length: 1024, 2048 or 4096, as the ticked security policies allow
-    #[arg(long, value_name = "N", default_value_t = 2048)]
-    bits: u16,
+    #[command(flatten)]
+    subject: SubjectArgs,
     /// Validity in years, 1 to 10
     #[arg(long, value_name = "N", default_value_t = 5)]
     years: u8,
@@ -284,16 +275,16 @@ fn one_only(chosen: &[ControllerEntry]) -> Result<(), Problem> {
 fn csr(settled: &Settled, configuration: &Configuration, args: CsrArgs) -> Result<Ending, Problem> {
     let chosen = args.select.resolve(configuration)?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
-    if args.cn.is_some() && chosen.len() > 1 {
+    if args.subject.cn.is_some() && chosen.len() > 1 {
         return Err(wrong(&"a common name can be given for one controller only"));
     }
     let fields = CsrFields {
-        common_name: args.cn,
-        country: args.country.to_ascii_uppercase(),
-        state: args.state,
-        locality: args.locality,
-        organisation: args.organisation,
-        key_length: KeyLength::try_from(args.bits).map_err(|e| wrong(&e))?,
+        common_name: args.subject.cn,
+        country: args.subject.country.to_ascii_uppercase(),
+        state: args.subject.state,
+        locality: args.subject.locality,
+        organisation: args.subject.organisation,
+        key_length: KeyLength::try_from(args.subject.bits).map_err(|e| wrong(&e))?,
     };
     fields.request("x").subject.check().map_err(|e| wrong(&e))?;
     let operation = CreateCsr {
@@ -308,16 +299,16 @@ fn csr(settled: &Settled, configuration: &Configuration, args: CsrArgs) -> Resul
 fn self_signed(settled: &Settled, configuration: &Configuration, args: SelfSignedArgs) -> Result<Ending, Problem> {
     let chosen = args.select.resolve(configuration)?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
-    if args.cn.is_some() && chosen.len() > 1 {
+    if args.subject.cn.is_some() && chosen.len() > 1 {
         return Err(wrong(&"a common name can be given for one controller only"));
     }
     let fields = SelfSignedFields {
-        common_name: args.cn,
-        country: args.country.to_ascii_uppercase(),
-        state: args.state,
-        locality: args.locality,
-        organisation: args.organisation,
-        key_length: KeyLength::try_from(args.bits).map_err(|e| wrong(&e))?,
+        common_name: args.subject.cn,
+        country: args.subject.country.to_ascii_uppercase(),
+        state: args.subject.state,
+        locality: args.subject.locality,
+        organisation: args.subject.organisation,
+        key_length: KeyLength::try_from(args.subject.bits).map_err(|e| wrong(&e))?,
         validity: Validity::try_from(args.years).map_err(|e| wrong(&e))?,
     };
     fields.request("x").subject.check().map_err(|e| wrong(&e))?;

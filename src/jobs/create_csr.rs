@@ -67,7 +67,8 @@ impl Operation for CreateCsr {
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
         let legacy = info.generation() == FirmwareGeneration::Legacy;
-        self.files.check_csr_writable(&info.serial, self.backup && legacy)?;
+        let (files, serial, with_key) = (self.files.clone(), info.serial.clone(), self.backup && legacy);
+        run.off_thread(move || Ok(files.check_csr_writable(&serial, with_key)?)).await?;
         let (made, key) = if legacy {
             let (made, key) = make_and_send(run, &info, request).await?;
             (made, Some(key))
@@ -78,9 +79,11 @@ impl Operation for CreateCsr {
         let csr = Csr::from_der(&made.csr.0)?;
         // Saved also after a cancel: the controller holds it by now.
         (run.on_step)(Step::SaveBackup);
-        let key = key.as_ref().filter(|_| self.backup).map(|key| (key, run.password));
-        let saved = self.files.save_csr(&info.serial, &csr, self.format, key)?;
-        Ok(Outcome::Csr { common_name: csr.common_name().unwrap_or_default().to_owned(), saved })
+        let common_name = csr.common_name().unwrap_or_default().to_owned();
+        let (files, serial, password) = (self.files.clone(), info.serial, run.password.clone());
+        let (format, key) = (self.format, key.filter(|_| self.backup));
+        let save = move || files.save_csr(&serial, &csr, format, key.as_ref().map(|key| (key, &password)));
+        Ok(Outcome::Csr { common_name, saved: run.off_thread(save).await? })
     }
 }
 

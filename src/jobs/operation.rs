@@ -123,6 +123,14 @@ impl Run<'_> {
         Ok(())
     }
 
+    /// Runs work that waits for the disk or is slow for another reason: off the async threads.
+    pub async fn off_thread<R: Send + 'static>(
+        &self,
+        work: impl FnOnce() -> Result<R, Problem> + Send + 'static,
+    ) -> Result<R, Problem> {
+        tokio::task::spawn_blocking(work).await.map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?
+    }
+
     /// Runs work that keeps a core busy for a while, on as many cores as there are and no more.
     pub async fn on_a_core<R: Send + 'static>(&self, work: impl FnOnce() -> R + Send + 'static) -> Result<R, Problem> {
         let internal = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::Internal, e);

@@ -79,7 +79,8 @@ impl Operation for SelfSigned {
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
         if let Some(files) = &self.backup {
-            files.check_writable(&info.serial)?;
+            let (files, serial) = (files.clone(), info.serial.clone());
+            run.off_thread(move || Ok(files.check_writable(&serial)?)).await?;
         }
         let (installed, key) = match info.generation() {
             FirmwareGeneration::Current => {
@@ -98,8 +99,11 @@ impl Operation for SelfSigned {
             Some(files) => {
                 // Saved also after a cancel: a certificate that is in use without its backup is what nobody wants.
                 (run.on_step)(Step::SaveBackup);
-                let key = key.as_ref().map(|key| (key, run.password));
-                Some(files.save_self_signed(&info.serial, &certificate, key)?)
+                let (files, serial, password) = (files.clone(), info.serial.clone(), run.password.clone());
+                let certificate = certificate.clone();
+                let save =
+                    move || files.save_self_signed(&serial, &certificate, key.as_ref().map(|key| (key, &password)));
+                Some(run.off_thread(save).await?)
             }
         };
         Ok(Outcome::Certificate { summary: certificate.summary(), saved })
