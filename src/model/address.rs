@@ -10,7 +10,8 @@ pub const DEFAULT_MANAGEMENT_PORT: u16 = 7943;
 
 /// Where a controller's management protocol answers: `host[:port]`.
 ///
-/// The host is an IPv4 address, an IPv6 address in brackets, or a host name.
+/// The host is an IPv4 address, an IPv6 address in brackets, or a host name. Two addresses are the same when they lead
+/// to the same place without asking anybody: neither case nor the spelling of an IPv6 address matters.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Address {
@@ -69,10 +70,11 @@ impl FromStr for Address {
             None => DEFAULT_MANAGEMENT_PORT,
             Some(port) => port.parse().ok().filter(|p| *p != 0).ok_or_else(|| AddressError::Port(port.to_owned()))?,
         };
-        if host.parse::<IpAddr>().is_ok() || is_host_name(host) {
-            Ok(Self { host: host.to_ascii_lowercase(), port })
-        } else {
-            Err(AddressError::Host(host.to_owned()))
+        match host.parse::<IpAddr>() {
+            // An IPv6 address has many spellings, and is to be found in a list whichever was typed.
+            Ok(ip) => Ok(Self { host: ip.to_string(), port }),
+            Err(_) if is_host_name(host) => Ok(Self { host: host.to_ascii_lowercase(), port }),
+            Err(_) => Err(AddressError::Host(host.to_owned())),
         }
     }
 }
@@ -132,6 +134,15 @@ mod tests {
         assert_eq!(shown("Robot-7.plant.local:8000"), "robot-7.plant.local:8000");
         assert_eq!(shown("[::1]:8000"), "[::1]:8000");
         assert_eq!("::1".parse::<Address>().expect("v6").authority(), "[::1]:7943");
+    }
+
+    #[test]
+    fn every_spelling_is_the_same_address() {
+        let address = "[fe80::1]:8000".parse::<Address>().expect("v6");
+        for text in ["[FE80::1]:8000", "[fe80:0::1]:8000", "[fe80:0:0:0:0:0:0:0001]:8000", "[fe80::0.0.0.1]:8000"] {
+            assert_eq!(text.parse(), Ok(address.clone()), "{text}");
+        }
+        assert_eq!("Robot.Plant".parse::<Address>(), "robot.plant".parse());
     }
 
     #[test]

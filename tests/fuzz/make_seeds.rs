@@ -1,0 +1,318 @@
+//! Writes the seeds of `corpus/`: small files of every kind the readers know. Keys are made anew and belong to nobody.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use chrono::{DateTime, Utc};
+use opcua_configurator::model::{
+    CertificateType, ControllerSeries, CsrRequest, ErrorCode, FirmwareVersion, KeyLength, Problem, SelfSignedRequest,
+    ServerSettings, ServerStatus, Subject, Validity,
+};
+use opcua_configurator::pki::{Certificate, Csr, PrivateKey, ServerNames, make_csr, self_signed, tls_identity};
+use opcua_configurator::protocol::{
+    Activate, AddClients, AddUser, Base64Bytes, Changed, CsrMade, ExportContent, ExportSettings, ExportedUser, Failure,
+    HeldCertificate, HeldCertificates, Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed,
+    ListedCertificate, LogChunk, Login, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, Session,
+    SetSettings, SettingsExport, WireSecret,
+};
+use opcua_configurator::virtual_controller::{
+    Faults, Identity, KeyPair, Listed, PendingCsr, SecretBytes, State, Store, demo_keys, hash_connection_password,
+};
+use opcua_configurator::workspace::Workspace;
+use serde::Serialize;
+
+use crate::readers::PASSWORD;
+use crate::samples;
+
+/// Replaces every seed below the folder.
+pub fn write(corpus: &Path) {
+    let seeds = Seeds { corpus, made: Made::new() };
+    for (name, _) in crate::readers::TARGETS {
+        let _ = fs::remove_dir_all(corpus.join(name));
+        fs::create_dir_all(corpus.join(name)).expect("a folder in the tree");
+    }
+    seeds.lists();
+    seeds.names();
+    seeds.configuration();
+    seeds.certificates();
+    seeds.keys();
+    seeds.messages();
+    seeds.controller_state();
+}
+
+struct Seeds<'a> {
+    corpus: &'a Path,
+    made: Made,
+}
+
+/// What many seeds are made of.
+struct Made {
+    now: DateTime<Utc>,
+    key: PrivateKey,
+    certificate: Certificate,
+    csr: Csr,
+    subject: Subject,
+}
+
+impl Made {
+    fn new() -> Self {
+        let now = DateTime::from_timestamp(1_900_000_000, 0).expect("a time");
+        let key_length = KeyLength::Rsa1024;
+        let key = PrivateKey::generate(key_length).expect("a key");
+        let subject = Subject {
+            common_name: "EpsonRC.SN0000123.192.168.010.001".into(),
+            country: "JP".into(),
+            state: "Nagano".into(),
+            locality: "Suwa".into(),
+            organisation: "Example & Sons".into(),
+        };
+        let names = ServerNames {
+            application_uri: "urn:EpsonRC:SN0000123".into(),
+            ips: vec!["192.168.10.1".parse().expect("an address"), "fe80::1".parse().expect("an address")],
+            dns: vec!["robot-7.plant.example".into()],
+        };
+        let validity = Validity::try_from(5).expect("years");
+        let request = SelfSignedRequest { subject: subject.clone(), key_length, validity };
+        let certificate = self_signed(&request, &names, &key, now).expect("a certificate");
+        let csr = make_csr(&CsrRequest { subject: subject.clone(), key_length }, &names, &key).expect("a request");
+        Self { now, key, certificate, csr, subject }
+    }
+
+    fn pkcs8(&self) -> Vec<u8> {
+        self.key.to_pkcs8_der().expect("DER").to_vec()
+    }
+}
+
+impl Seeds<'_> {
+    fn seed(&self, target: &str, name: &str, bytes: impl AsRef<[u8]>) {
+        fs::write(self.corpus.join(target).join(format!("seed-{name}")), bytes).expect("a file in the tree");
+    }
+
+    fn json(&self, target: &str, name: &str, message: &impl Serialize) {
+        self.seed(target, name, serde_json::to_vec(message).expect("JSON"));
+    }
+
+    fn lists(&self) {
+        let good = include_str!("../../fixtures/activation.csv");
+        self.seed("activation_file", "good", good);
+        self.seed("activation_file", "mistakes", include_str!("../../fixtures/activation-with-mistakes.csv"));
+        let other = good.replace(',', " ; ").replace('\n', "\r\n");
+        self.seed("activation_file", "other-spelling", format!("\u{feff}{other}"));
+        let list = include_str!("../../fixtures/connections.csv");
+        self.seed("connection_list", "good", list);
+        self.seed("connection_list", "other-spelling", format!("\u{feff}{}", list.replace('\n', "\r\n\r\n")));
+        let odd = "Name,Type,Address\n\"Cell, 9\",ethernet,\"[fe80::1]:8000\"\n,Ethernet,10.0.0.999\nx,Bluetooth\n\
+                   \"two\nlines\",USB,\nCell 9,Ethernet,robot.plant.example:7943\n";
+        self.seed("connection_list", "odd", odd);
+    }
+
+    fn names(&self) {
+        for (name, text) in [
+            ("ipv4", "192.168.10.1:8000"),
+            ("ipv6", "[fe80::1:0:2]:8000"),
+            ("ipv6-bare", "2001:DB8::7"),
+            ("host", "Robot-7.plant.example:7944"),
+            ("name", " 焊接 Weld 1 "),
+            ("serial", "R7A0000001"),
+            ("series", "T/VT"),
+            ("version", "7.5.54"),
+            ("policy", "Aes128_Sha256_RsaOaep"),
+            ("licence-key", "ab12-cd34-ef56-gh78"),
+            ("activation-key", "AAAA-BBBB-CCCC-DDDD-EEEE-1111"),
+            ("fingerprint", "E3:B0:C4:42:98:FC:1C:14:9A:FB:F4:C8:99:6F:B9:24:27:AE:41:E4:64:9B:93:4C:A4:95:99:1B:78:52:B8:55"),
+        ] {
+            self.seed("names", name, text);
+        }
+    }
+
+    fn configuration(&self) {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let workspace = Workspace::new(folder.path());
+        let mut configuration = samples::configuration(2, self.made.now);
+        configuration.options.window.size = Some((1280.0, 720.0));
+        configuration.options.window.columns.insert("name".into(), 80.5);
+        configuration.options.window.sort = Some(("name".into(), true));
+        workspace.save(&configuration, &workspace.lock().expect("a lock")).expect("a file");
+        let json = fs::read(folder.path().join("epson_opcua_config.json")).expect("the file");
+        self.seed("configuration", "full", json);
+        self.seed("configuration", "least", br#"{"version":1}"#);
+    }
+
+    fn certificates(&self) {
+        let Made { certificate, csr, now, .. } = &self.made;
+        self.seed("certificate", "der", certificate.der());
+        self.seed("certificate", "pem", certificate.to_pem());
+        let tls = tls_identity("robot", *now).expect("an identity");
+        self.seed("certificate", "elliptic", &tls.certificate_der);
+        self.seed("certificate_request", "der", csr.der());
+        self.seed("certificate_request", "pem", csr.to_pem());
+    }
+
+    /// Few rounds, so that a fuzzer gets somewhere.
+    fn keys(&self) {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let openssl = |arguments: &str| {
+            let mut command = Command::new("openssl");
+            command.current_dir(folder.path()).args(arguments.split(' '));
+            let output = command.output().expect("OpenSSL is installed");
+            assert!(output.status.success(), "{arguments}: {}", String::from_utf8_lossy(&output.stderr));
+        };
+        let seed = |target: &str, name: &str| {
+            self.seed(target, name, fs::read(folder.path().join(name)).expect("what OpenSSL wrote"));
+        };
+        fs::write(folder.path().join("pkcs8.der"), self.made.pkcs8()).expect("a file");
+        fs::write(folder.path().join("cert.pem"), self.made.certificate.to_pem()).expect("a file");
+        openssl("pkey -inform DER -in pkcs8.der -out pkcs8.pem");
+        openssl("pkey -inform DER -in pkcs8.der -traditional -out pkcs1.pem");
+        openssl("rsa -inform DER -in pkcs8.der -traditional -outform DER -out pkcs1.der");
+        let encrypt = |name: &str, form: &str, how: &str| {
+            openssl(&format!("pkcs8 -topk8 -in pkcs8.pem -outform {form} -passout pass:{PASSWORD} -out {name} {how}"));
+        };
+        encrypt("aes.der", "DER", "-v2 aes-256-cbc -iter 4");
+        encrypt("aes.pem", "PEM", "-v2 aes-128-cbc -v2prf hmacWithSHA1 -iter 4");
+        encrypt("scrypt.der", "DER", "-scrypt -scrypt_N 16 -scrypt_r 1 -scrypt_p 1");
+        encrypt("3des.der", "DER", "-v1 PBE-SHA1-3DES -iter 4");
+        for name in
+            ["pkcs8.der", "pkcs8.pem", "pkcs1.pem", "pkcs1.der", "aes.der", "aes.pem", "scrypt.der", "3des.der"]
+        {
+            seed("private_key", name);
+        }
+        let export = |name: &str, how: &str| {
+            let common = format!("pkcs12 -export -inkey pkcs8.pem -in cert.pem -passout pass:{PASSWORD} -out {name}");
+            openssl(&format!("{common} -name server -iter 4 {how}"));
+            seed("pkcs12", name);
+        };
+        export("modern.p12", "-macalg sha256");
+        export("no-mac.p12", "-nomac");
+        export("legacy.p12", "-keypbe PBE-SHA1-3DES -certpbe PBE-SHA1-3DES -macalg sha1");
+        for (name, key) in [("der", "pkcs8.der"), ("encrypted", "aes.pem")] {
+            let key = fs::read(folder.path().join(key)).expect("a file");
+            let length = u16::try_from(key.len()).expect("a small key").to_be_bytes();
+            self.seed("key_and_certificate", name, [&length[..], &key, self.made.certificate.der()].concat());
+        }
+    }
+
+    fn messages(&self) {
+        let Made { now, certificate, csr, subject, .. } = &self.made;
+        let seed = |name: &str, json: String| self.seed("management_message", name, json);
+        macro_rules! seeds { ($($name:literal: $message:expr),* $(,)?) => {
+            $(seed($name, serde_json::to_string(&$message).expect("JSON"));)*
+        } }
+        let secret = || WireSecret("correct horse battery staple".into());
+        let der = || Base64Bytes(certificate.der().to_vec());
+        let (revision, kind, key_length) = (7, CertificateType::CaSigned, KeyLength::Rsa2048);
+        let changed = || Changed { revision, status: ServerStatus::Run };
+        let keys = demo_keys(&"R7A0000001".parse().expect("a serial number"));
+        let name = || "operator1".parse().expect("a name");
+        let settings = ServerSettings::default;
+        let validity = Validity::try_from(5).expect("years");
+        let pkcs12 = || Base64Bytes(vec![0x30, 0x03, 0x02, 0x01, 0x03]);
+
+        let user = ExportedUser { name: name(), password_hash: "$argon2id$v=19$m=19456,t=2,p=1$c2FsdA$aGFzaA".into() };
+        let content = ExportContent { settings: settings(), users: vec![user], activation: Some(keys.clone()) };
+        let of = ("R7A0000001".parse().expect("a serial number"), ControllerSeries::Rc700, version("7.5.54"));
+        let export = SettingsExport::new(of, *now, &content, &PASSWORD.into()).expect("an export");
+        self.seed("settings_export", "sealed", export.to_json());
+        self.json("settings_export", "content", &content);
+
+        let listed = ListedCertificate {
+            file_name: "client.der".into(),
+            certificate: der(),
+            summary: certificate.summary(),
+            added: *now,
+        };
+        let held = HeldCertificates {
+            selected: kind,
+            held: vec![HeldCertificate { kind, certificate: der() }],
+            csr: Some(Base64Bytes(csr.der().to_vec())),
+        };
+        let failure: Failure = Problem::with_detail(ErrorCode::PortConflict, 4840).into();
+        seeds! {
+            "login": Login { password: secret() },
+            "set-settings": SetSettings { revision, settings: settings(), delete_log: true, log_password: None },
+            "add-user": AddUser { revision, name: name(), password: secret() },
+            "remove-users": RemoveUsers { revision, names: vec![name()] },
+            "make-self-signed": MakeSelfSigned {
+                revision,
+                request: SelfSignedRequest { subject: subject.clone(), key_length, validity },
+            },
+            "import-certificate": ImportCertificate { revision, kind, pkcs12: pkcs12(), password: secret() },
+            "select-certificate": SelectCertificate { revision, kind },
+            "make-csr": MakeCsr { revision, request: CsrRequest { subject: subject.clone(), key_length } },
+            "import-csr": ImportCsr { revision, csr: der(), pkcs12: pkcs12(), password: secret() },
+            "import-ca-signed": ImportCaSigned { revision, certificate: der() },
+            "add-clients": AddClients { revision, certificates: vec![("client.der".into(), der())] },
+            "activate": Activate { revision, licence: keys.licence, activation: keys.activation },
+            "export-settings": ExportSettings { passphrase: secret() },
+            "import-settings": ImportSettings { revision, export, passphrase: secret() },
+            "session": Session { token: secret(), idle_secs: 300 },
+            "hello": Hello { product: "opcua-controller-management".into(), versions: vec![1] },
+            "installed": Installed { changed: changed(), certificate: der() },
+            "csr-made": CsrMade { changed: changed(), csr: Base64Bytes(csr.der().to_vec()) },
+            "log": LogChunk { size: 90, from: 10, next: 90, text: "started\nstopped\n".into() },
+            "info": samples::info(0, *now, ControllerSeries::Rc800),
+            "settings": Revisioned { revision, value: settings() },
+            "users": Revisioned { revision, value: vec![name()] },
+            "held": Revisioned { revision, value: held },
+            "listed": Revisioned { revision, value: vec![listed] },
+            "failure": failure,
+        }
+    }
+
+    fn controller_state(&self) {
+        let Made { now, certificate, csr, .. } = &self.made;
+        let der = || Base64Bytes(certificate.der().to_vec());
+        let serial = || "R7A0000001".parse().expect("a serial number");
+        let identity = |series, firmware| Identity {
+            serial: serial(),
+            series,
+            firmware: version(firmware),
+            name: "Weld 1".parse().expect("a name"),
+        };
+        let tls = tls_identity("robot", *now).expect("an identity");
+        let pair = || KeyPair { certificate: der(), private_key: SecretBytes(self.made.pkcs8().into()) };
+        let listed = || Listed { file_name: "client.der".into(), certificate: der(), added: *now };
+        let legacy = State {
+            identity: identity(ControllerSeries::Rc700, "7.5.54"),
+            management: KeyPair {
+                certificate: Base64Bytes(tls.certificate_der.clone()),
+                private_key: SecretBytes(tls.private_key_pkcs8.clone()),
+            },
+            connection_password_hash: hash_connection_password(&PASSWORD.into()).expect("a hash"),
+            settings: ServerSettings::default(),
+            users: Vec::new(),
+            activated: true,
+            activation_keys: Some(demo_keys(&serial())),
+            certificates: [(CertificateType::UserSpecified, pair())].into(),
+            csr: None,
+            selected: CertificateType::UserSpecified,
+            trusted: vec![listed()],
+            issuers: Vec::new(),
+            used_ports: vec![2001, 5000],
+            revision: 7,
+        };
+        let current = State {
+            identity: identity(ControllerSeries::Rc800, "8.0.1"),
+            activation_keys: None,
+            certificates: [(CertificateType::CaSigned, pair())].into(),
+            csr: Some(PendingCsr {
+                csr: Base64Bytes(csr.der().to_vec()),
+                private_key: SecretBytes(self.made.pkcs8().into()),
+            }),
+            selected: CertificateType::CaSigned,
+            issuers: vec![listed()],
+            ..legacy.clone()
+        };
+        self.json("controller_state", "legacy", &legacy);
+        self.json("controller_state", "current", &current);
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let store = Store::open(folder.path(), Faults::default()).expect("a folder");
+        store.save(&current).expect("a file");
+        self.seed("controller_state", "file", fs::read(folder.path().join("controller.state")).expect("the file"));
+    }
+}
+
+fn version(text: &str) -> FirmwareVersion {
+    text.parse().expect("a version")
+}

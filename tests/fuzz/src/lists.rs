@@ -1,0 +1,61 @@
+use std::collections::HashSet;
+
+use opcua_configurator::model::ControllerSeries;
+use opcua_configurator::model::activation::{self, Entry};
+use opcua_configurator::workspace::{Configuration, ConnectionList, NewConnection, Skipped};
+
+/// [`activation::parse`]: every serial number once, every line number that of its line, no key in a mistake; and what
+/// was understood is understood again from its own words.
+pub fn activation_file(bytes: &[u8]) {
+    let Ok(file) = activation::parse(bytes) else { return };
+    let text = std::str::from_utf8(bytes).expect("what was taken is UTF-8");
+    let lines: Vec<&str> = text.lines().collect();
+
+    let mut serials = HashSet::new();
+    let mut canonical = format!("{}\n", activation::FIRST_LINE);
+    for line in file.lines() {
+        assert!(serials.insert(&line.serial), "{} twice", line.serial);
+        assert!(lines[line.line - 1].contains(line.serial.as_str()), "line {}", line.line);
+        assert_eq!(file.find(&line.serial), Entry::Line(line));
+        canonical += &format!("{},{},{}\n", line.serial, line.keys.licence, line.keys.activation);
+    }
+    for mistake in file.mistakes() {
+        assert!(!lines[mistake.line - 1].trim().is_empty(), "line {}", mistake.line);
+        if let Some(serial) = &mistake.serial {
+            assert!(lines[mistake.line - 1].contains(serial.as_str()), "line {}", mistake.line);
+        }
+        assert!(mistake.to_string().chars().count() < 200, "it says what is wrong, not what was bought");
+    }
+    let numbers: Vec<usize> = file.lines().iter().map(|line| line.line).collect();
+    assert!(numbers.is_sorted() && file.mistakes().is_sorted_by_key(|mistake| mistake.line));
+
+    let again = activation::parse(canonical.as_bytes()).expect("canonical");
+    assert!(again.mistakes().is_empty());
+    assert!(again.lines().iter().map(|line| (&line.serial, &line.keys)).eq(file
+        .lines()
+        .iter()
+        .map(|line| (&line.serial, &line.keys))));
+}
+
+/// [`ConnectionList`]: what is added is new and unique, and the list read once more adds nothing.
+pub fn connection_list(bytes: &[u8]) {
+    let mut configuration = Configuration::default();
+    let known = NewConnection { name: "Cell 2".parse().expect("name"), address: "10.0.0.1".parse().expect("address") };
+    configuration.controllers.push(known.entry(ControllerSeries::Rc700));
+    let Ok(list) = ConnectionList::parse(bytes) else { return };
+    let lines = bytes.iter().filter(|byte| **byte == b'\n').count() as u64 + 1;
+    let plan = list.plan(&configuration);
+    assert!(plan.is_sorted_by_key(|planned| planned.line));
+    for planned in plan {
+        assert!(planned.line > 0 && planned.line <= lines, "line {} of {lines}", planned.line);
+        match planned.verdict {
+            Ok(new) => {
+                configuration.check_new(&new.name, &new.address).expect("neither name nor address is taken");
+                configuration.controllers.push(new.entry(ControllerSeries::Rc700));
+            }
+            Err(skipped) => drop(skipped.problem(planned.line)),
+        }
+    }
+    let added = |verdict: &Result<NewConnection, Skipped>| verdict.is_ok();
+    assert!(!list.plan(&configuration).iter().any(|planned| added(&planned.verdict)));
+}
