@@ -137,6 +137,13 @@ fn armour(label: &str, der: &[u8]) -> String {
     text
 }
 
+/// What stands after each `BEGIN`, in order.
+pub(super) fn labels(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    text.split(|byte| matches!(byte, b'\n' | b'\r'))
+        .filter_map(|line| line.trim_ascii().strip_prefix(BEGIN)?.strip_suffix(b"-----"))
+}
+
 /// Of any kind, also those the parser does not know, such as encrypted ones.
 fn has_private_key(text: &[u8]) -> bool {
     text.split(|byte| matches!(byte, b'\n' | b'\r'))
@@ -145,7 +152,7 @@ fn has_private_key(text: &[u8]) -> bool {
 }
 
 const BEGIN: &[u8] = b"-----BEGIN ";
-const PRIVATE_KEY: &[u8] = b"PRIVATE KEY";
+pub(super) const PRIVATE_KEY: &[u8] = b"PRIVATE KEY";
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 #[cfg(test)]

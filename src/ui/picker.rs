@@ -2,21 +2,28 @@
 //!
 //! Not every desktop has one, so every dialog of ours that takes a file has a field for its path as well.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use super::file_manager;
 use crate::model::{ErrorCode, Problem};
 
 /// What is looked for: which files are offered first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
     Csv,
+    Certificate,
+    Key,
+    Pkcs12,
 }
 
 impl FileKind {
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Csv => &["csv"],
+            Self::Certificate => &["der", "cer", "crt", "pem"],
+            Self::Key => &["key", "pem", "der", "p8", "pk8"],
+            Self::Pkcs12 => &["pfx", "p12"],
         }
     }
 }
@@ -27,6 +34,9 @@ pub type Picked = Box<dyn FnOnce(Result<Option<PathBuf>, Problem>) + Send>;
 /// Lets a person choose a file. Returns at once.
 pub trait FilePicker: Send + Sync {
     fn pick(&self, kind: FileKind, title: String, done: Picked);
+
+    /// Shows a folder in the desktop's file manager. Blocks for a moment.
+    fn open_folder(&self, folder: &Path) -> Result<(), Problem>;
 }
 
 /// The desktop's own dialog: its portal on Linux, the system's elsewhere.
@@ -73,6 +83,10 @@ impl FilePicker for SystemPicker {
             tracing::warn!(%error, "no thread for the file dialog");
         }
     }
+
+    fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
+        file_manager::open(folder)
+    }
 }
 
 /// For tests: the person always chooses this.
@@ -82,5 +96,9 @@ pub struct FixedPicker(pub Result<Option<PathBuf>, Problem>);
 impl FilePicker for FixedPicker {
     fn pick(&self, _kind: FileKind, _title: String, done: Picked) {
         done(self.0.clone());
+    }
+
+    fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
+        Err(Problem::with_detail(ErrorCode::FolderNotOpened, folder.display()))
     }
 }

@@ -34,6 +34,10 @@ pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, Problem> {
         };
         Problem::with_detail(code, format!("{}: {e}", path.display()))
     };
+    // A pipe would be waited for, without end.
+    if !fs::metadata(path).map_err(unreadable)?.is_file() {
+        return Err(Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: not a file", path.display())));
+    }
     let file = File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     file.take(max as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;

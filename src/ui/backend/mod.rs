@@ -10,7 +10,7 @@ use secrecy::SecretString;
 
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
-use super::model::{ExportFound, JobId, Task};
+use super::model::{DroppedFile, ExportFound, JobId, Task};
 use super::picker::FileKind;
 use crate::jobs::{Enrolled, JobController, JobEvent, Summary};
 use crate::model::{Address, ControllerInfo, Problem};
@@ -43,6 +43,8 @@ pub enum Command {
     LookAtExport {
         job: JobId,
         of: Box<ControllerInfo>,
+        /// Instead of the one in the workspace.
+        file: Option<PathBuf>,
     },
     /// Stops a job after the step in hand.
     Cancel(JobId),
@@ -60,6 +62,13 @@ pub enum Command {
         path: PathBuf,
         most: usize,
     },
+    /// Finds out what files are, by their content; ends with [`Event::Recognised`].
+    Recognise {
+        job: JobId,
+        paths: Vec<PathBuf>,
+    },
+    /// Shows a folder in the desktop's file manager.
+    OpenFolder(PathBuf),
     StartVirtualControllers,
     Save(Box<Configuration>),
     Quit,
@@ -93,6 +102,11 @@ pub enum Event {
         job: JobId,
         result: Result<(PathBuf, FileContents), Problem>,
     },
+    /// In the order they were asked for.
+    Recognised {
+        job: JobId,
+        files: Vec<DroppedFile>,
+    },
     ExportSeen {
         job: JobId,
         result: Result<ExportFound, Problem>,
@@ -101,6 +115,7 @@ pub enum Event {
     /// A password works, but only until the program ends.
     PasswordNotKept(Problem),
     SaveFailed(Problem),
+    FolderNotOpened(Problem),
 }
 
 /// What is in a file. There may be keys in it, so `Debug` tells its length only.

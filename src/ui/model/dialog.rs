@@ -1,8 +1,8 @@
 use std::collections::BTreeSet;
 
 use super::{
-    ActivationForm, CaSignedForm, ConnectionListForm, ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose,
-    RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
+    ActivationForm, CaSignedForm, ConnectionListForm, DropForm, ExportForm, FileForm, ImportReview, KeysForm, LogView,
+    Purpose, RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -31,6 +31,7 @@ pub enum Dialog {
     ImportReview(ImportReview),
     Transfer(TransferForm),
     ServerLog(LogView),
+    Drop(DropForm),
     Backup { on: bool },
     Options,
     Error(Problem),

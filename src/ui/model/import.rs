@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use secrecy::SecretString;
 
+use super::files::first_path;
 use super::{Dialog, Model, Purpose, RowId, Task, Typed};
 use crate::jobs::{
     CaCertificateSource, CheckCaCertificate, CheckUserCertificate, ImportCaCertificate, ImportUserCertificate,
@@ -191,6 +192,42 @@ impl Model {
             show_password: false,
             checks: Checks::default(),
         }));
+    }
+
+    pub(super) fn open_ca_signed_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_ca_signed(self.rows.ticked());
+        if let Some(Dialog::CaSigned(form)) = self.dialogs.last_mut() {
+            form.file = first_path(&paths);
+        }
+        vec![]
+    }
+
+    pub(super) fn open_user_pfx(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_user_of(|form| form.pfx = first_path(&paths))
+    }
+
+    pub(super) fn open_user_certificate(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_user_of(|form| (form.kind, form.certificate) = (UserFiles::Pair, first_path(&paths)))
+    }
+
+    pub(super) fn open_user_key(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_user_of(|form| (form.kind, form.key) = (UserFiles::Pair, first_path(&paths)))
+    }
+
+    /// The certificate first.
+    pub(super) fn open_user_pair(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_user_of(|form| {
+            let (certificate, key) = paths.split_at(paths.len().min(1));
+            (form.kind, form.certificate, form.key) = (UserFiles::Pair, first_path(certificate), first_path(key));
+        })
+    }
+
+    fn open_user_of(&mut self, fill: impl FnOnce(&mut UserSpecifiedForm)) -> Vec<Command> {
+        self.open_user_specified(&self.rows.ticked());
+        if let Some(Dialog::UserSpecified(form)) = self.dialogs.last_mut() {
+            fill(form);
+        }
+        vec![]
     }
 
     pub(super) fn check_ca_signed(&mut self, mut form: CaSignedForm) -> Vec<Command> {

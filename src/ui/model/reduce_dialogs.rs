@@ -154,6 +154,7 @@ impl Model {
                 let planned = form.task().map(|task| (task, form.rows.clone()));
                 self.ask(Dialog::Transfer(form), planned)
             }
+            Dialog::Drop(form) if form.offers() => self.submit_dropped(form),
             Dialog::Backup { on } => {
                 self.options.backup = on;
                 self.save()
