@@ -116,6 +116,11 @@ impl Certificate {
         self.facts.names_equal
     }
 
+    /// Whether the basic constraints say that it may sign other certificates.
+    pub fn is_ca(&self) -> bool {
+        X509Certificate::from_der(&self.der).is_ok_and(|(_, parsed)| parsed.is_ca())
+    }
+
     /// What a list shows of it. A name is its common name, or the whole name where there is none.
     pub fn summary(&self) -> CertificateSummary {
         CertificateSummary {

@@ -11,6 +11,7 @@
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
+//! | `trust_health` | [`TrustHealth`]: what is wrong with CRLs before a client is refused because of it |
 //! | `tlv` | just enough DER to see from outside what a file is |
 //! | `fingerprint` | [`Fingerprint`]: what a configurator pins of that |
 //! | `name` | the text of an X.509 name |
@@ -22,7 +23,9 @@
 //! What comes from outside is bounded before it is parsed: [`MAX_CERTIFICATE_BYTES`],
 //! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
 
+mod bundle;
 mod certificate;
+mod crl;
 mod csr;
 mod error;
 mod fingerprint;
@@ -38,8 +41,11 @@ mod samples;
 mod sealed;
 mod self_signed;
 mod tlv;
+mod trust_health;
 
+pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
+pub use crl::Crl;
 pub use csr::{Csr, make_csr};
 pub use error::PkiError;
 pub use fingerprint::{Fingerprint, FingerprintError};
@@ -51,3 +57,4 @@ pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_k
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 pub use self_signed::{ServerNames, self_signed};
+pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

@@ -28,8 +28,8 @@ use super::settings_transfer;
 use crate::model::activation::ActivationKeys;
 use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
-    self, Activate, AddClients, AddUser, Base64Bytes, Changed, CsrMade, ExportSettings, Failure, HeldCertificates,
-    Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, Login,
+    self, Activate, AddUser, Base64Bytes, Changed, CsrMade, ExportSettings, Failure, HeldCertificates, Hello,
+    ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, Login,
     MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SESSION_IDLE_SECS, SelectCertificate, Session, SetSettings,
     SettingsExport, WireSecret,
 };
@@ -59,7 +59,7 @@ pub static ROUTER: LazyLock<Router> = LazyLock::new(|| {
         .route(protocol::CSR, post(make_csr))
         .route(protocol::CSR_IMPORT, post(import_csr))
         .route(protocol::CA_SIGNED, post(import_ca_signed))
-        .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients).post(add_clients))
+        .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients))
         .route(protocol::ACTIVATION, post(activate))
         .route(protocol::LOG, get(log))
         .route(protocol::SETTINGS_EXPORT, post(export_settings))
@@ -329,18 +329,6 @@ async fn import_ca_signed(caller: Caller, body: Body) -> Answer<Installed> {
 
 async fn clients(caller: Caller, Path(list): Path<String>) -> Answer<Revisioned<Vec<ListedCertificate>>> {
     Ok(Json(caller.controller().clients(client_list(&list)?)?))
-}
-
-async fn add_clients(caller: Caller, Path(list): Path<String>, body: Body) -> Answer<Changed> {
-    let list = client_list(&list)?;
-    let AddClients { revision, certificates } = read(body, Malformed::plain(ErrorCode::BadCertificate)).await?;
-    let effect = if list == ClientList::Trusted { Effect::TrustedClients } else { Effect::Nothing };
-    let outcome = caller
-        .controller()
-        .change(revision, effect, move |state, around| changes::add_clients(state, around, list, certificates))
-        .await;
-    let (changed, ()) = caller.settle(outcome).await?;
-    Ok(Json(changed))
 }
 
 async fn activate(caller: Caller, body: Body) -> Answer<Changed> {
