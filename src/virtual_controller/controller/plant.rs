@@ -1,35 +1,40 @@
 use std::path::Path;
 
 use crate::model::{ErrorCode, Problem};
+use crate::pki::{Certificate, Crl, TrustLists};
+use crate::protocol::CutClient;
 use crate::virtual_controller::opcua::{DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser};
-use crate::virtual_controller::state::{State, Surroundings};
+use crate::virtual_controller::state::{Listed, State, Surroundings};
 
+/// The OPC UA server, if it runs. Whoever holds it has its turn.
 #[derive(Debug)]
-struct Plant {
-    server: Option<OpcUaServer>,
+pub(super) struct Plant {
+    pub server: Option<OpcUaServer>,
     /// The controller is switched off; nothing begins any more.
-    off: bool,
+    pub off: bool,
 }
 
 impl Plant {
-    fn admit(&self) -> Result<(), Problem> {
+    pub fn admit(&self) -> Result<(), Problem> {
         if self.off { Err(Problem::with_detail(ErrorCode::Refused, "the controller is switched off")) } else { Ok(()) }
     }
 
-    fn is_running(&self) -> bool {
+    pub fn is_running(&self) -> bool {
         self.server.as_ref().is_some_and(OpcUaServer::is_running)
     }
 
-    fn trust(&self, state: &State) -> Result<(), Problem> {
-        match &self.server {
-            Some(server) => server
-                .set_trusted_clients(&trusted_clients(state))
-                .map_err(|source| StoreError::Io { path: PathBuf::from(OPCUA_FOLDER), source }.into()),
-            None => Ok(()),
+    /// Puts other trust lists in force in the running server, and says whose connections it ended.
+    pub async fn trust(&self, lists: TrustLists) -> Vec<CutClient> {
+        if let Some(server) = &self.server {
+            let ders: Vec<Vec<u8>> = lists.trusted().iter().map(|certificate| certificate.der().to_vec()).collect();
+            if let Err(error) = server.set_trusted_clients(&ders) {
+                tracing::error!(%error, "the trusted clients could not be changed");
+            }
         }
+        Vec::new()
     }
 
-    async fn stop(&mut self) {
+    pub async fn stop(&mut self) {
         if let Some(server) = self.server.take() {
             server.stop().await;
         }
@@ -38,7 +43,7 @@ impl Plant {
 
 const OPCUA_FOLDER: &str = "opcua";
 
-fn opcua_config(state: &State, around: &Surroundings, folder: &Path) -> Result<OpcUaConfig, Problem> {
+pub(super) fn opcua_config(state: &State, around: &Surroundings, folder: &Path) -> Result<OpcUaConfig, Problem> {
     let pair = state.check_start(around)?;
     let names = state.server_names(around);
     // Clients insist that the server's URI is the one in its certificate, and a certificate from elsewhere has its own.
@@ -68,6 +73,15 @@ fn opcua_config(state: &State, around: &Surroundings, folder: &Path) -> Result<O
         events: Events::default(),
         pki_folder: folder.join(OPCUA_FOLDER),
     })
+}
+
+/// What the state lists, parsed. Slow with large CRLs.
+pub(super) fn trust_lists(state: &State) -> Result<TrustLists, Problem> {
+    let certificates = |list: &[Listed]| -> Result<Vec<Certificate>, Problem> {
+        Ok(list.iter().map(|listed| Certificate::from_der(&listed.certificate.0)).collect::<Result<_, _>>()?)
+    };
+    let crls = state.crls.iter().map(|held| Crl::from_der(&held.crl.0)).collect::<Result<_, _>>()?;
+    Ok(TrustLists::new(certificates(&state.trusted)?, certificates(&state.issuers)?, crls))
 }
 
 fn trusted_clients(state: &State) -> Vec<Vec<u8>> {
