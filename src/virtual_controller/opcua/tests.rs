@@ -12,7 +12,9 @@ use opcua::types::{
     BrowseDescription, BrowseDirection, MessageSecurityMode, NodeClass, NodeClassMask, NodeId, ObjectId, ReadValueId,
     ReferenceTypeId, StatusCode, TimestampsToReturn, VariableId, Variant, WriteValue,
 };
-use rcgen::{CertificateParams, DnType, KeyPair, PKCS_RSA_SHA256, RsaKeySize, SanType};
+use rcgen::{
+    CertificateParams, DnType, ExtendedKeyUsagePurpose, KeyPair, KeyUsagePurpose, PKCS_RSA_SHA256, RsaKeySize, SanType,
+};
 use tempfile::TempDir;
 use tokio::task::JoinHandle;
 use tokio::time::timeout;
@@ -39,6 +41,14 @@ impl Identity {
             SanType::URI(format!("urn:{name}").try_into().unwrap()),
             SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST)),
         ];
+        params.key_usages = vec![
+            KeyUsagePurpose::DigitalSignature,
+            KeyUsagePurpose::ContentCommitment,
+            KeyUsagePurpose::KeyEncipherment,
+            KeyUsagePurpose::DataEncipherment,
+            KeyUsagePurpose::KeyCertSign,
+        ];
+        params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth, ExtendedKeyUsagePurpose::ClientAuth];
         Self { der: params.self_signed(&key).unwrap().der().to_vec(), key }
     }
 }

@@ -228,7 +228,8 @@ pub(super) mod tests {
             der
         };
         let chain = [certificate(1000), certificate(200), certificate(5)];
-        let split = split_certificates(&chain.concat()).unwrap();
+        let sent = chain.concat();
+        let split = split_certificates(&sent).unwrap();
         assert_eq!(split, chain.iter().map(Vec::as_slice).collect::<Vec<_>>());
         assert_eq!(split_certificates(b""), Some(vec![]));
         assert_eq!(split_certificates(&certificate(5).repeat(MAX_SENT_CERTIFICATES)).map(|c| c.len()), Some(8));
