@@ -13,6 +13,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::faults::Faults;
 use super::login::network;
+use super::opcua::Refusals;
 use super::state::{Listed, State};
 use super::store::{StoreError, replace_private_file};
 use crate::model::CertificateStatus;
@@ -93,47 +94,6 @@ impl RejectedClients {
         let mut list = List { entries, stamp: stamp(faults.now()), dirty: false };
         list.make_room(None);
         Self { path, faults, list: Mutex::new(list), changed: Notify::new(), writing: Mutex::new(()) }
-    }
-
-    /// Remembers a refusal. Quick, and waits for no disk. `sent`: the client's certificate, then its issuers.
-    pub fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection) {
-        let Some((certificate, chain)) = sent.split_first() else { return };
-        let now = self.faults.now();
-        let at_fault = if rejection.depth > 0 { format!(" ({})", rejection.subject) } else { String::new() };
-        let reason: String = rejection
-            .reason
-            .chars()
-            .chain(at_fault.chars())
-            .filter(|c| !c.is_control())
-            .take(MAX_REASON_CHARS)
-            .collect();
-        let mut list = self.list.lock();
-        let index = match list.entries.iter().position(|entry| entry.certificate.0 == certificate.der()) {
-            Some(index) => index,
-            None => {
-                list.entries.push(Entry {
-                    certificate: Base64Bytes(certificate.der().to_vec()),
-                    chain: Vec::new(),
-                    thumbprint: certificate.thumbprint_sha1(),
-                    status: rejection.status,
-                    reason: String::new(),
-                    address: None,
-                    first_seen: now,
-                    last_seen: now,
-                    count: 0,
-                });
-                list.entries.len() - 1
-            }
-        };
-        let entry = &mut list.entries[index];
-        entry.chain = chain.iter().take(MAX_CHAIN).map(|c| Base64Bytes(c.der().to_vec())).collect();
-        entry.status = rejection.status;
-        entry.reason = reason;
-        entry.address = Some(address.to_canonical());
-        entry.last_seen = now;
-        entry.count = entry.count.saturating_add(1);
-        list.make_room(Some(index));
-        self.touch(&mut list);
     }
 
     /// Another number after each change.
@@ -245,6 +205,49 @@ impl RejectedClients {
         list.stamp += 1;
         list.dirty = true;
         self.changed.notify_one();
+    }
+}
+
+impl Refusals for RejectedClients {
+    /// Quick, and waits for no disk.
+    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection) {
+        let Some((certificate, chain)) = sent.split_first() else { return };
+        let now = self.faults.now();
+        let at_fault = if rejection.depth > 0 { format!(" ({})", rejection.subject) } else { String::new() };
+        let reason: String = rejection
+            .reason
+            .chars()
+            .chain(at_fault.chars())
+            .filter(|c| !c.is_control())
+            .take(MAX_REASON_CHARS)
+            .collect();
+        let mut list = self.list.lock();
+        let index = match list.entries.iter().position(|entry| entry.certificate.0 == certificate.der()) {
+            Some(index) => index,
+            None => {
+                list.entries.push(Entry {
+                    certificate: Base64Bytes(certificate.der().to_vec()),
+                    chain: Vec::new(),
+                    thumbprint: certificate.thumbprint_sha1(),
+                    status: rejection.status,
+                    reason: String::new(),
+                    address: None,
+                    first_seen: now,
+                    last_seen: now,
+                    count: 0,
+                });
+                list.entries.len() - 1
+            }
+        };
+        let entry = &mut list.entries[index];
+        entry.chain = chain.iter().take(MAX_CHAIN).map(|c| Base64Bytes(c.der().to_vec())).collect();
+        entry.status = rejection.status;
+        entry.reason = reason;
+        entry.address = Some(address.to_canonical());
+        entry.last_seen = now;
+        entry.count = entry.count.saturating_add(1);
+        list.make_room(Some(index));
+        self.touch(&mut list);
     }
 }
 

@@ -9,7 +9,7 @@ use crate::model::{ErrorCode, Problem};
 use crate::protocol::{Changed, CutClient};
 use crate::virtual_controller::faults::DropPoint;
 use crate::virtual_controller::memory;
-use crate::virtual_controller::opcua::{Events, OpcUaConfig, OpcUaServer, StartError};
+use crate::virtual_controller::opcua::{Clock, Events, OpcUaConfig, OpcUaServer, StartError};
 use crate::virtual_controller::state::{State, Surroundings};
 use crate::virtual_controller::store::StoreError;
 
@@ -259,6 +259,9 @@ impl Controller {
 
     async fn run(&self, state: &State) -> Result<OpcUaServer, Problem> {
         let mut config = self.config(state).await?;
+        config.refusals = Some(Arc::clone(&self.rejected) as _);
+        let faults = self.faults.clone();
+        config.clock = Clock::new(move || faults.now());
         if state.settings.server_log {
             if self.log.is_full() {
                 return Err(ErrorCode::ServerLogFull.into());

@@ -1,9 +1,13 @@
 use std::path::Path;
 
-use crate::model::{ErrorCode, Problem};
-use crate::pki::{Certificate, Crl, TrustLists};
+use tokio::task::spawn_blocking;
+
+use crate::model::{CertificateSummary, ErrorCode, Problem};
+use crate::pki::{Certificate, Crl, TrustLists, TrustPolicy};
 use crate::protocol::CutClient;
-use crate::virtual_controller::opcua::{DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser};
+use crate::virtual_controller::opcua::{
+    Clock, CutConnection, DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser,
+};
 use crate::virtual_controller::state::{Listed, State, Surroundings};
 
 /// The OPC UA server, if it runs. Whoever holds it has its turn.
@@ -24,14 +28,23 @@ impl Plant {
     }
 
     /// Puts other trust lists in force in the running server, and says whose connections it ended.
-    pub async fn trust(&self, lists: TrustLists) -> Vec<CutClient> {
-        if let Some(server) = &self.server {
-            let ders: Vec<Vec<u8>> = lists.trusted().iter().map(|certificate| certificate.der().to_vec()).collect();
-            if let Err(error) = server.set_trusted_clients(&ders) {
-                tracing::error!(%error, "the trusted clients could not be changed");
+    pub async fn trust(&mut self, lists: TrustLists) -> Vec<CutClient> {
+        let Some(server) = self.server.take() else { return Vec::new() };
+        // Checks the certificate of every connection.
+        let changed = spawn_blocking(move || {
+            let cut = server.set_trust(lists);
+            (server, cut)
+        });
+        match changed.await {
+            Ok((server, cut)) => {
+                self.server = Some(server);
+                cut.into_iter().map(cut_client).collect()
+            }
+            Err(error) => {
+                tracing::error!(%error, "the OPC UA server died of a change of trust");
+                Vec::new()
             }
         }
-        Vec::new()
     }
 
     pub async fn stop(&mut self) {
@@ -63,7 +76,11 @@ pub(super) fn opcua_config(state: &State, around: &Surroundings, folder: &Path) 
             .collect(),
         certificate_der: pair.certificate.0.clone(),
         private_key_pkcs8: pair.private_key.0.clone(),
-        trusted_clients: trusted_clients(state),
+        trust: trust_lists(state)?,
+        trust_policy: TrustPolicy::default(),
+        detailed_status: false,
+        refusals: None,
+        clock: Clock::default(),
         identity: DeviceIdentity {
             name: state.identity.name.to_string(),
             series: state.identity.series,
@@ -84,6 +101,7 @@ pub(super) fn trust_lists(state: &State) -> Result<TrustLists, Problem> {
     Ok(TrustLists::new(certificates(&state.trusted)?, certificates(&state.issuers)?, crls))
 }
 
-fn trusted_clients(state: &State) -> Vec<Vec<u8>> {
-    state.trusted.iter().map(|listed| listed.certificate.0.clone()).collect()
+fn cut_client(cut: CutConnection) -> CutClient {
+    let CertificateSummary { issued_to, thumbprint, .. } = cut.certificate.summary();
+    CutClient { address: cut.address.to_string(), issued_to, thumbprint, status: cut.rejection.status }
 }
