@@ -54,6 +54,11 @@ pub enum ErrorCode {
     UserNotFound,
     ListFull,
     DuplicateCertificate,
+    NotInList,
+    NotAnAuthority,
+    TooManyCrls,
+    DuplicateCrl,
+    CrlOutdated,
     DiskFull,
     Refused,
     LogPassword,
@@ -66,6 +71,7 @@ pub enum ErrorCode {
     BadCredential,
     BadCertificateRequest,
     BadCertificate,
+    BadCrl,
     BadFingerprint,
     NameTaken,
     AddressTaken,
@@ -255,10 +261,15 @@ mod tests {
             | UserNotFound
             | ListFull
             | DuplicateCertificate
+            | NotInList
+            | NotAnAuthority
+            | TooManyCrls
+            | DuplicateCrl
+            | CrlOutdated
             | DiskFull
             | Refused
             | LogPassword
-            | RequestTooLarge => 15,
+            | RequestTooLarge => 20,
             BadName
             | BadAddress
             | BadPort
@@ -266,12 +277,13 @@ mod tests {
             | BadCredential
             | BadCertificateRequest
             | BadCertificate
+            | BadCrl
             | BadFingerprint
             | NameTaken
             | AddressTaken
             | UnknownController
             | FileUnreadable
-            | NotConfirmed => 13,
+            | NotConfirmed => 14,
             CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,
@@ -289,7 +301,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 12 + 15 + 13 + 14 + 4 + 1 + 7 + 12;
+        let all = 7 + 12 + 20 + 14 + 14 + 4 + 1 + 7 + 12;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();
