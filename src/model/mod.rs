@@ -8,6 +8,7 @@ mod text_in_messages;
 
 pub mod activation;
 mod address;
+mod authority;
 mod certificate;
 mod client_list;
 mod controller;
@@ -20,6 +21,9 @@ mod settings;
 mod user;
 
 pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
+pub use authority::{
+    AuthorityRequest, AuthorityValidity, AuthorityYears, CertificateProfile, RevocationReason, UnknownReason,
+};
 pub use certificate::{
     CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
     Validity, default_common_name, offered_key_lengths,

@@ -86,6 +86,21 @@ pub enum ErrorCode {
     OneControllerOnly,
     Preflight,
     PreflightWarnings,
+    // the small CA
+    NoAuthority,
+    AuthorityExists,
+    AuthorityBusy,
+    AuthorityDamaged,
+    AuthorityPassphrase,
+    AuthorityExpired,
+    NotAnAuthority,
+    CsrRefused,
+    ShortKey,
+    AlreadySigned,
+    UnknownSerial,
+    AlreadyRevoked,
+    BackupDamaged,
+    BackupPassphrase,
     // activation (2.6.3)
     WrongKeys,
     NotInFile,
@@ -160,6 +175,20 @@ impl ErrorCode {
                 | ConfigurationDamaged
                 | KeyringUnavailable
                 | NoFilePicker
+                | NoAuthority
+                | AuthorityExists
+                | AuthorityBusy
+                | AuthorityDamaged
+                | AuthorityPassphrase
+                | AuthorityExpired
+                | NotAnAuthority
+                | CsrRefused
+                | ShortKey
+                | AlreadySigned
+                | UnknownSerial
+                | AlreadyRevoked
+                | BackupDamaged
+                | BackupPassphrase
                 | Cancelled
         )
     }
@@ -266,6 +295,9 @@ mod tests {
             CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,
+            NoAuthority | AuthorityExists | AuthorityBusy | AuthorityDamaged | AuthorityPassphrase
+            | AuthorityExpired | NotAnAuthority | CsrRefused | ShortKey | AlreadySigned | UnknownSerial
+            | AlreadyRevoked | BackupDamaged | BackupPassphrase => 14,
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
@@ -278,7 +310,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 11 + 15 + 13 + 14 + 4 + 1 + 7 + 9;
+        let all = 7 + 11 + 15 + 13 + 14 + 14 + 4 + 1 + 7 + 9;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

@@ -6,8 +6,10 @@
 //! | `pem` | the text armour around DER, both ways |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
+//! | `key_encryption` | [`encrypt_key`]: a private key under a passphrase, for any tool to read |
 //! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
 //! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
+//! | `ca` | [`CertificateAuthority`]: the small CA that does so |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
@@ -22,12 +24,14 @@
 //! What comes from outside is bounded before it is parsed: [`MAX_CERTIFICATE_BYTES`],
 //! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
 
+mod ca;
 mod certificate;
 mod csr;
 mod error;
 mod fingerprint;
 mod identity;
 mod key;
+mod key_encryption;
 mod key_file;
 mod name;
 mod pem;
@@ -39,12 +43,14 @@ mod sealed;
 mod self_signed;
 mod tlv;
 
+pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, RevokedCertificate};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
 pub use csr::{Csr, make_csr};
 pub use error::PkiError;
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
 pub use key::PrivateKey;
+pub use key_encryption::encrypt_key;
 pub use key_file::{MAX_KEY_FILE_BYTES, read_key_file, read_pair};
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
 pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_key, pkcs12_write, pkcs12_write_key};
