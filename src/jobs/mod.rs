@@ -56,5 +56,5 @@ pub use self_signed::{SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};
 pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
-pub use settings_transfer::{ExportSettings, ImportSettings, MIN_PASSPHRASE_CHARS};
+pub use settings_transfer::{ExportSettings, ImportSettings};
 pub use users::{AddUser, ListUsers, RemoveUsers};

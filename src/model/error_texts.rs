@@ -934,10 +934,10 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ErrorCode::BadPassphrase,
         text(
             "The passphrase is too short",
-            "A passphrase that protects an export has at least 8 characters.",
+            "A passphrase that protects an export or a CA has at least 8 characters.",
             "Choose a longer passphrase.",
         ),
-        text("密码短语过短", "保护导出文件的密码短语至少为 8 个字符。", "请使用更长的密码短语。"),
+        text("密码短语过短", "保护导出文件或 CA 的密码短语至少为 8 个字符。", "请使用更长的密码短语。"),
     ),
     (
         ErrorCode::WorkspaceReadOnly,

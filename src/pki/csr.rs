@@ -5,6 +5,7 @@ use aws_lc_rs::signature::{
     RSA_PKCS1_1024_8192_SHA512_FOR_LEGACY_USE_ONLY, RSA_PKCS1_2048_8192_SHA384, RsaParameters, UnparsedPublicKey,
 };
 use rcgen::{CertificateParams, ExtendedKeyUsagePurpose, IsCa, KeyUsagePurpose};
+use sha2::{Digest as _, Sha256};
 use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::prelude::FromDer;
 
@@ -67,6 +68,11 @@ impl Csr {
     /// The length of the key.
     pub const fn key_bits(&self) -> u16 {
         self.key_bits
+    }
+
+    /// SHA-256 of the public key in PKCS#1, in lower-case hexadecimal: which requests are for the same key.
+    pub fn key_digest(&self) -> String {
+        hex::encode(Sha256::digest(&self.public_key))
     }
 
     /// Whether the certificate is for the key of this request. What else the CA changed is its own affair.

@@ -43,7 +43,7 @@ mod sealed;
 mod self_signed;
 mod tlv;
 
-pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, RevokedCertificate};
+pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, RevokedCertificate, SignedCrl, crl_to_pem};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
 pub use csr::{Csr, make_csr};
 pub use error::PkiError;

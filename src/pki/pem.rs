@@ -108,6 +108,11 @@ pub(super) fn csr(der: &[u8]) -> String {
     armour("CERTIFICATE REQUEST", der)
 }
 
+/// The PEM form of a CRL.
+pub(super) fn crl(der: &[u8]) -> String {
+    armour("X509 CRL", der)
+}
+
 /// The PEM form of an encrypted private key.
 pub(super) fn encrypted_key(der: &[u8]) -> String {
     armour("ENCRYPTED PRIVATE KEY", der)

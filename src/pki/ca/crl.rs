@@ -9,7 +9,7 @@ use x509_cert::serial_number::SerialNumber;
 use super::authority::authority_key_id;
 use super::{CertificateAuthority, encode};
 use crate::model::RevocationReason;
-use crate::pki::PkiError;
+use crate::pki::{PkiError, pem};
 
 /// One entry of a CRL.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,11 +20,26 @@ pub struct RevokedCertificate {
     pub reason: RevocationReason,
 }
 
+/// A CRL just signed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SignedCrl {
+    pub der: Vec<u8>,
+    pub number: u64,
+    pub this_update: DateTime<Utc>,
+    /// Afterwards nobody accepts certificates on its word.
+    pub next_update: DateTime<Utc>,
+}
+
+/// The PEM form of a CRL, ending with a line feed.
+pub fn crl_to_pem(der: &[u8]) -> String {
+    pem::crl(der)
+}
+
 /// The longest a CRL may be good for, in days.
 pub const MAX_CRL_DAYS: u16 = 3650;
 
 impl CertificateAuthority {
-    /// Signs the list of what this CA has revoked (RFC 5280 §5), in DER.
+    /// Signs the list of what this CA has revoked (RFC 5280 §5).
     ///
     /// Good from one hour before `now`, for clocks that are behind, until `days` after it, but not beyond the CA
     /// itself. `number` must be larger than that of every CRL before it.
@@ -34,28 +49,30 @@ impl CertificateAuthority {
         number: u64,
         now: DateTime<Utc>,
         days: u16,
-    ) -> Result<Vec<u8>, PkiError> {
+    ) -> Result<SignedCrl, PkiError> {
         self.check_valid(now)?;
         let this_update = now.checked_sub_signed(Duration::hours(1)).ok_or(PkiError::Dates)?;
         let next_update = now.checked_add_signed(Duration::days(i64::from(days))).ok_or(PkiError::Dates)?;
+        let next_update = next_update.min(self.certificate().not_after());
         let entries = revoked.iter().map(entry).collect::<Result<Vec<_>, _>>()?;
-        let number = Uint::new(&number.to_be_bytes()).map_err(encode::signing)?;
+        let in_der = Uint::new(&number.to_be_bytes()).map_err(encode::signing)?;
         let tbs_cert_list = TbsCertList {
             version: Version::V2,
             signature: encode::algorithm(),
             issuer: self.name.clone(),
             this_update: encode::time(this_update)?,
-            next_update: Some(encode::time(next_update.min(self.certificate().not_after()))?),
+            next_update: Some(encode::time(next_update)?),
             // An empty sequence is not allowed.
             revoked_certificates: (!entries.is_empty()).then_some(entries),
             crl_extensions: Some(vec![
                 encode::extension(&authority_key_id(&self.key_id))?,
-                encode::extension(&CrlNumber(number))?,
+                encode::extension(&CrlNumber(in_der))?,
             ]),
         };
         let signature = encode::sign(&self.key, &tbs_cert_list)?;
         let list = CertificateList { tbs_cert_list, signature_algorithm: encode::algorithm(), signature };
-        list.to_der().map_err(encode::signing)
+        let der = list.to_der().map_err(encode::signing)?;
+        Ok(SignedCrl { der, number, this_update, next_update })
     }
 }
 

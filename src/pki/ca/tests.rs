@@ -281,7 +281,7 @@ fn a_crl_says_who_signed_it_which_it_is_and_what_is_revoked_why() {
     let revoked: Vec<_> =
         RevocationReason::ALL.into_iter().zip(0x41..).map(|(r, n)| entry(&format!("{n:x}"), r)).collect();
     let der = ca.crl(&revoked, 1_900_000_000, now(), 30).unwrap();
-    let (rest, crl) = CertificateRevocationList::from_der(&der).unwrap();
+    let (rest, crl) = CertificateRevocationList::from_der(&der.der).unwrap();
     assert!(rest.is_empty());
     let (_, issuer) = X509Certificate::from_der(ca.certificate().der()).unwrap();
     crl.verify_signature(issuer.public_key()).unwrap();
@@ -294,6 +294,6 @@ fn a_crl_says_who_signed_it_which_it_is_and_what_is_revoked_why() {
     assert_eq!(reasons, [0, 1, 2, 3, 4, 5, 9]);
 
     let empty = ca.crl(&[], 1, now(), MAX_CRL_DAYS).unwrap();
-    let (_, empty) = CertificateRevocationList::from_der(&empty).unwrap();
+    let (_, empty) = CertificateRevocationList::from_der(&empty.der).unwrap();
     assert_eq!(empty.iter_revoked_certificates().count(), 0);
 }
