@@ -1,6 +1,3 @@
-use std::fmt;
-use std::str::FromStr;
-
 use chrono::Duration;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
@@ -26,71 +23,6 @@ impl CertificateProfile {
             Self::Server => "server",
             Self::Client => "client",
         }
-    }
-}
-
-/// Why a certificate is revoked (RFC 5280 §5.3.1).
-///
-/// Without those that mean nothing here: a hold, which this CA would have to lift again, what only delta CRLs say, and
-/// attribute authorities.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum RevocationReason {
-    Unspecified,
-    KeyCompromise,
-    CaCompromise,
-    AffiliationChanged,
-    Superseded,
-    CessationOfOperation,
-    PrivilegeWithdrawn,
-}
-
-impl RevocationReason {
-    pub const ALL: [Self; 7] = [
-        Self::Unspecified,
-        Self::KeyCompromise,
-        Self::CaCompromise,
-        Self::AffiliationChanged,
-        Self::Superseded,
-        Self::CessationOfOperation,
-        Self::PrivilegeWithdrawn,
-    ];
-
-    /// As the command line and the files of the CA write it.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Unspecified => "unspecified",
-            Self::KeyCompromise => "key-compromise",
-            Self::CaCompromise => "ca-compromise",
-            Self::AffiliationChanged => "affiliation-changed",
-            Self::Superseded => "superseded",
-            Self::CessationOfOperation => "cessation-of-operation",
-            Self::PrivilegeWithdrawn => "privilege-withdrawn",
-        }
-    }
-}
-
-impl fmt::Display for RevocationReason {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.as_str())
-    }
-}
-
-/// The text is no [`RevocationReason`].
-#[derive(Debug, Clone, PartialEq, Eq, Error)]
-#[error("\"{0}\" is not a reason; known are {known}", known = RevocationReason::ALL.map(RevocationReason::as_str).join(", "))]
-pub struct UnknownReason(pub String);
-
-impl FromStr for RevocationReason {
-    type Err = UnknownReason;
-
-    /// Also as RFC 5280 and OpenSSL write it: `keyCompromise`.
-    fn from_str(text: &str) -> Result<Self, UnknownReason> {
-        let plain = |text: &str| text.replace('-', "").to_ascii_lowercase();
-        Self::ALL
-            .into_iter()
-            .find(|reason| plain(reason.as_str()) == plain(text))
-            .ok_or_else(|| UnknownReason(text.to_owned()))
     }
 }
 
@@ -151,19 +83,6 @@ pub struct AuthorityRequest {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn reasons_are_read_as_they_are_written_and_as_others_write_them() {
-        for reason in RevocationReason::ALL {
-            assert_eq!(reason.as_str().parse(), Ok(reason));
-            assert_eq!(serde_json::to_value(reason).unwrap(), reason.as_str());
-        }
-        assert_eq!("keyCompromise".parse(), Ok(RevocationReason::KeyCompromise));
-        assert_eq!("CACompromise".parse(), Ok(RevocationReason::CaCompromise));
-        for other in ["", "certificateHold", "removeFromCRL", "7"] {
-            assert_eq!(other.parse::<RevocationReason>(), Err(UnknownReason(other.into())));
-        }
-    }
 
     #[test]
     fn a_ca_is_valid_for_1_to_30_years() {

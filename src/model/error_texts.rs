@@ -703,15 +703,6 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ),
     ),
     (
-        ErrorCode::NotAnAuthority,
-        text(
-            "This certificate cannot sign others",
-            "It is not the certificate of a CA, or its key is for other uses.",
-            "Use the certificate and key of a CA.",
-        ),
-        text("该证书不能签发其他证书", "它不是 CA 的证书，或其密钥用于其他用途。", "请使用 CA 的证书和密钥。"),
-    ),
-    (
         ErrorCode::CsrRefused,
         text(
             "The certificate authority does not sign this request",

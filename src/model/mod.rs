@@ -10,9 +10,11 @@ pub mod activation;
 mod address;
 mod authority;
 mod certificate;
+mod certificate_status;
 mod client_list;
 mod controller;
 mod country;
+mod crl_summary;
 mod error_texts;
 mod info;
 mod language;
@@ -21,18 +23,18 @@ mod settings;
 mod user;
 
 pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
-pub use authority::{
-    AuthorityRequest, AuthorityValidity, AuthorityYears, CertificateProfile, RevocationReason, UnknownReason,
-};
+pub use authority::{AuthorityRequest, AuthorityValidity, AuthorityYears, CertificateProfile};
 pub use certificate::{
     CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
     Validity, default_common_name, offered_key_lengths,
 };
+pub use certificate_status::{CertificateStatus, UnknownCertificateStatus};
 pub use client_list::{ClientList, ListLimits};
 pub use controller::{
     ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber, VersionError,
 };
 pub use country::{COUNTRIES, Country};
+pub use crl_summary::CrlSummary;
 pub use info::{ControllerInfo, ServerCertificate, ServerStatus};
 pub use language::Language;
 pub use problem::{ErrorCode, Explanation, Problem};

@@ -93,7 +93,6 @@ pub enum ErrorCode {
     AuthorityDamaged,
     AuthorityPassphrase,
     AuthorityExpired,
-    NotAnAuthority,
     CsrRefused,
     ShortKey,
     AlreadySigned,
@@ -181,7 +180,6 @@ impl ErrorCode {
                 | AuthorityDamaged
                 | AuthorityPassphrase
                 | AuthorityExpired
-                | NotAnAuthority
                 | CsrRefused
                 | ShortKey
                 | AlreadySigned
@@ -296,8 +294,8 @@ mod tests {
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,
             NoAuthority | AuthorityExists | AuthorityBusy | AuthorityDamaged | AuthorityPassphrase
-            | AuthorityExpired | NotAnAuthority | CsrRefused | ShortKey | AlreadySigned | UnknownSerial
-            | AlreadyRevoked | BackupDamaged | BackupPassphrase => 14,
+            | AuthorityExpired | CsrRefused | ShortKey | AlreadySigned | UnknownSerial | AlreadyRevoked
+            | BackupDamaged | BackupPassphrase => 13,
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
@@ -310,7 +308,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 11 + 15 + 13 + 14 + 14 + 4 + 1 + 7 + 9;
+        let all = 7 + 11 + 15 + 13 + 14 + 13 + 4 + 1 + 7 + 9;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

@@ -3,6 +3,12 @@
 //! | file | its one idea |
 //! |---|---|
 //! | `certificate` | [`Certificate`]: one X.509 certificate that was parsed and found whole |
+//! | `facts` | what is read from a certificate, once |
+//! | `signature` | which signatures there are, and whether one is right |
+//! | `crl` | [`Crl`]: one certificate revocation list, indexed |
+//! | `bundle` | [`read_bundle`]: any file with certificates and revocation lists |
+//! | `trust` | [`TrustLists`]: whether a certificate may be trusted (OPC 10000-4 §6.1.3) |
+//! | `describe` | [`describe`]: everything public inside a file, to be read |
 //! | `pem` | the text armour around DER, both ways |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
@@ -22,12 +28,17 @@
 //! workers.
 //!
 //! What comes from outside is bounded before it is parsed: [`MAX_CERTIFICATE_BYTES`],
-//! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
+//! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`], [`MAX_CRL_BYTES`],
+//! [`MAX_BUNDLE_BYTES`]. Text taken from a certificate holds no control characters.
 
+mod bundle;
 mod ca;
 mod certificate;
+mod crl;
 mod csr;
+mod describe;
 mod error;
+mod facts;
 mod fingerprint;
 mod identity;
 mod key;
@@ -41,12 +52,20 @@ mod preflight;
 mod samples;
 mod sealed;
 mod self_signed;
+mod signature;
 mod tlv;
+mod trust;
 
-pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, RevokedCertificate, SignedCrl, crl_to_pem};
+pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
+pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, REVOCATION_REASONS, RevokedCertificate};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
+pub use crl::{Crl, MAX_CRL_BYTES, RevocationReason, Revoked};
 pub use csr::{Csr, make_csr};
+pub use describe::{
+    CertificateDescription, CrlDescription, CrlEntry, CsrDescription, Description, KeyDescription, describe,
+};
 pub use error::PkiError;
+pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
 pub use key::PrivateKey;
@@ -57,3 +76,4 @@ pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_k
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 pub use self_signed::{ServerNames, self_signed};
+pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy};

@@ -62,7 +62,7 @@ impl CertificateAuthority {
         check_key(request, &key)?;
         let name = encode::name(&request.subject)?;
         if name == self.name {
-            return Err(PkiError::NotAnAuthority("the intermediate CA needs another name than the root"));
+            return Err(PkiError::AuthorityName);
         }
         let public_key = encode::public_key(&key)?;
         let key_id = encode::key_id(&public_key)?;
@@ -82,14 +82,14 @@ impl CertificateAuthority {
         let unreadable = |_| PkiError::NotACertificate;
         let constraints = tbs.get::<BasicConstraints>().map_err(unreadable)?;
         if !constraints.is_some_and(|(_, constraints)| constraints.ca) {
-            return Err(PkiError::NotAnAuthority("the certificate is not that of a CA"));
+            return Err(PkiError::CannotSign("the certificate is not that of a CA"));
         }
         let usage = tbs.get::<KeyUsage>().map_err(unreadable)?;
         if !usage.is_some_and(|(_, usage)| usage.key_cert_sign() && usage.crl_sign()) {
-            return Err(PkiError::NotAnAuthority("its key may not sign certificates and CRLs"));
+            return Err(PkiError::CannotSign("its key may not sign certificates and CRLs"));
         }
         let Some((_, SubjectKeyIdentifier(key_id))) = tbs.get::<SubjectKeyIdentifier>().map_err(unreadable)? else {
-            return Err(PkiError::NotAnAuthority("it has no subject key identifier"));
+            return Err(PkiError::CannotSign("it has no subject key identifier"));
         };
         Ok(Self { certificate, key, name: tbs.subject, key_id })
     }

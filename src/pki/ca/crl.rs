@@ -8,8 +8,7 @@ use x509_cert::serial_number::SerialNumber;
 
 use super::authority::authority_key_id;
 use super::{CertificateAuthority, encode};
-use crate::model::RevocationReason;
-use crate::pki::{PkiError, pem};
+use crate::pki::{Crl, PkiError, RevocationReason};
 
 /// One entry of a CRL.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -20,20 +19,17 @@ pub struct RevokedCertificate {
     pub reason: RevocationReason,
 }
 
-/// A CRL just signed.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SignedCrl {
-    pub der: Vec<u8>,
-    pub number: u64,
-    pub this_update: DateTime<Utc>,
-    /// Afterwards nobody accepts certificates on its word.
-    pub next_update: DateTime<Utc>,
-}
-
-/// The PEM form of a CRL, ending with a line feed.
-pub fn crl_to_pem(der: &[u8]) -> String {
-    pem::crl(der)
-}
+/// What this CA revokes for (RFC 5280 §5.3.1). Left out is what means nothing here: a hold, which would have to be
+/// lifted again, what only delta CRLs say, and attribute authorities.
+pub const REVOCATION_REASONS: [RevocationReason; 7] = [
+    RevocationReason::Unspecified,
+    RevocationReason::KeyCompromise,
+    RevocationReason::CaCompromise,
+    RevocationReason::AffiliationChanged,
+    RevocationReason::Superseded,
+    RevocationReason::CessationOfOperation,
+    RevocationReason::PrivilegeWithdrawn,
+];
 
 /// The longest a CRL may be good for, in days.
 pub const MAX_CRL_DAYS: u16 = 3650;
@@ -49,30 +45,28 @@ impl CertificateAuthority {
         number: u64,
         now: DateTime<Utc>,
         days: u16,
-    ) -> Result<SignedCrl, PkiError> {
+    ) -> Result<Crl, PkiError> {
         self.check_valid(now)?;
         let this_update = now.checked_sub_signed(Duration::hours(1)).ok_or(PkiError::Dates)?;
         let next_update = now.checked_add_signed(Duration::days(i64::from(days))).ok_or(PkiError::Dates)?;
-        let next_update = next_update.min(self.certificate().not_after());
         let entries = revoked.iter().map(entry).collect::<Result<Vec<_>, _>>()?;
-        let in_der = Uint::new(&number.to_be_bytes()).map_err(encode::signing)?;
+        let number = Uint::new(&number.to_be_bytes()).map_err(encode::signing)?;
         let tbs_cert_list = TbsCertList {
             version: Version::V2,
             signature: encode::algorithm(),
             issuer: self.name.clone(),
             this_update: encode::time(this_update)?,
-            next_update: Some(encode::time(next_update)?),
+            next_update: Some(encode::time(next_update.min(self.certificate().not_after()))?),
             // An empty sequence is not allowed.
             revoked_certificates: (!entries.is_empty()).then_some(entries),
             crl_extensions: Some(vec![
                 encode::extension(&authority_key_id(&self.key_id))?,
-                encode::extension(&CrlNumber(in_der))?,
+                encode::extension(&CrlNumber(number))?,
             ]),
         };
         let signature = encode::sign(&self.key, &tbs_cert_list)?;
         let list = CertificateList { tbs_cert_list, signature_algorithm: encode::algorithm(), signature };
-        let der = list.to_der().map_err(encode::signing)?;
-        Ok(SignedCrl { der, number, this_update, next_update })
+        Crl::from_der(&list.to_der().map_err(encode::signing)?)
     }
 }
 
@@ -86,7 +80,10 @@ fn entry(revoked: &RevokedCertificate) -> Result<RevokedCert, PkiError> {
         RevocationReason::AffiliationChanged => Some(CrlReason::AffiliationChanged),
         RevocationReason::Superseded => Some(CrlReason::Superseded),
         RevocationReason::CessationOfOperation => Some(CrlReason::CessationOfOperation),
+        RevocationReason::CertificateHold => Some(CrlReason::CertificateHold),
+        RevocationReason::RemoveFromCrl => Some(CrlReason::RemoveFromCRL),
         RevocationReason::PrivilegeWithdrawn => Some(CrlReason::PrivilegeWithdrawn),
+        RevocationReason::AaCompromise => Some(CrlReason::AaCompromise),
     };
     Ok(RevokedCert {
         serial_number: SerialNumber::new(&serial).map_err(encode::signing)?,

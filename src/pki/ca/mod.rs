@@ -17,5 +17,5 @@ mod requested;
 mod tests;
 
 pub use authority::CertificateAuthority;
-pub use crl::{MAX_CRL_DAYS, RevokedCertificate, SignedCrl, crl_to_pem};
+pub use crl::{MAX_CRL_DAYS, REVOCATION_REASONS, RevokedCertificate};
 pub use issue::IssueRequest;

@@ -5,8 +5,8 @@ use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
 use super::AuthorityError;
-use crate::model::{CertificateProfile, ControllerName, RevocationReason, SerialNumber};
-use crate::pki::{Certificate, RevokedCertificate, SignedCrl};
+use crate::model::{CertificateProfile, ControllerName, SerialNumber};
+use crate::pki::{Certificate, Crl, RevocationReason, RevokedCertificate};
 use crate::protocol::Base64Bytes;
 
 /// Everything the CA must never forget: the content of `ca.json`.
@@ -37,8 +37,6 @@ pub(super) struct StoredAuthority {
 #[serde(deny_unknown_fields)]
 pub(super) struct StoredCrl {
     pub number: u64,
-    pub this_update: DateTime<Utc>,
-    pub next_update: DateTime<Utc>,
     /// DER.
     pub crl: Base64Bytes,
 }
@@ -116,19 +114,14 @@ impl IssuedCertificate {
 }
 
 impl StoredAuthority {
-    pub fn new(certificate: &Certificate, crl: SignedCrl) -> Self {
-        Self { certificate: Base64Bytes(certificate.der().to_vec()), crl: crl.into() }
+    pub fn new(certificate: &Certificate, crl: StoredCrl) -> Self {
+        Self { certificate: Base64Bytes(certificate.der().to_vec()), crl }
     }
 }
 
-impl From<SignedCrl> for StoredCrl {
-    fn from(crl: SignedCrl) -> Self {
-        Self {
-            number: crl.number,
-            this_update: crl.this_update,
-            next_update: crl.next_update,
-            crl: Base64Bytes(crl.der),
-        }
+impl StoredCrl {
+    pub fn new(number: u64, crl: &Crl) -> Self {
+        Self { number, crl: Base64Bytes(crl.der().to_vec()) }
     }
 }
 
@@ -157,6 +150,7 @@ impl Database {
         let database: Self = serde_json::from_slice(json).map_err(|e| e.to_string())?;
         for stored in std::iter::once(&database.signing).chain(&database.root) {
             Certificate::from_der(&stored.certificate.0).map_err(|e| format!("the certificate of a CA: {e}"))?;
+            Crl::from_der(&stored.crl.crl.0).map_err(|e| format!("the CRL of a CA: {e}"))?;
         }
         let mut seen = HashSet::new();
         for issued in &database.issued {

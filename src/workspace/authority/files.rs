@@ -5,11 +5,11 @@ use chrono::{DateTime, Utc};
 use secrecy::SecretString;
 
 use super::AuthorityError;
-use super::database::{Database, IssuedCertificate, MAX_DATABASE_BYTES, StoredAuthority};
+use super::database::{Database, IssuedCertificate, MAX_DATABASE_BYTES, StoredAuthority, StoredCrl};
 use super::signing::{Authority, crl_number};
 use crate::model::{AuthorityRequest, CertificateSummary};
 use crate::pki::{
-    Certificate, CertificateAuthority, MAX_KEY_FILE_BYTES, PkiError, PrivateKey, encrypt_key, read_key_file,
+    Certificate, CertificateAuthority, Crl, MAX_KEY_FILE_BYTES, PkiError, PrivateKey, encrypt_key, read_key_file,
 };
 use crate::workspace::{WorkspaceError, WorkspaceLock, check_passphrase, lock_folder, read_bounded, write_atomic};
 
@@ -45,12 +45,9 @@ pub struct AuthorityOverview {
 pub struct PublishedAuthority {
     pub certificate: Certificate,
     pub summary: CertificateSummary,
-    /// DER.
-    pub crl: Vec<u8>,
+    /// After its `next_update` nobody accepts certificates on its word.
+    pub crl: Crl,
     pub crl_number: u64,
-    pub this_update: DateTime<Utc>,
-    /// Afterwards nobody accepts certificates on its word.
-    pub next_update: DateTime<Utc>,
 }
 
 impl AuthorityFiles {
@@ -84,7 +81,9 @@ impl AuthorityFiles {
             Some(request) => Some(root.intermediate(request, PrivateKey::generate(request.key_length)?, now)?),
         };
         let stored = |ca: &CertificateAuthority| -> Result<_, AuthorityError> {
-            Ok(StoredAuthority::new(ca.certificate(), ca.crl(&[], crl_number(0, now), now, new.crl_days)?))
+            let number = crl_number(0, now);
+            let crl = StoredCrl::new(number, &ca.crl(&[], number, now, new.crl_days)?);
+            Ok(StoredAuthority::new(ca.certificate(), crl))
         };
         let (signing, root) = match below {
             None => (root, None),
@@ -236,10 +235,8 @@ impl PublishedAuthority {
         Ok(Self {
             summary: certificate.summary(),
             certificate,
-            crl: stored.crl.crl.0,
+            crl: Crl::from_der(&stored.crl.crl.0)?,
             crl_number: stored.crl.number,
-            this_update: stored.crl.this_update,
-            next_update: stored.crl.next_update,
         })
     }
 }

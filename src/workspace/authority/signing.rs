@@ -3,11 +3,11 @@ use std::path::PathBuf;
 use chrono::{DateTime, Utc};
 use secrecy::SecretString;
 
-use super::database::{Database, IssuedCertificate, IssuedFor, MAX_ISSUED, Revocation};
+use super::database::{Database, IssuedCertificate, IssuedFor, MAX_ISSUED, Revocation, StoredCrl};
 use super::files::{AuthorityFiles, AuthorityOverview, ROOT};
 use super::{AuthorityError, CertificateState};
-use crate::model::{CertificateProfile, RevocationReason};
-use crate::pki::{Certificate, CertificateAuthority, Csr, IssueRequest, RevokedCertificate};
+use crate::model::CertificateProfile;
+use crate::pki::{Certificate, CertificateAuthority, Csr, IssueRequest, RevocationReason, RevokedCertificate};
 use crate::workspace::{WorkspaceLock, write_atomic};
 
 /// How long a CRL is good for unless told otherwise: a year, because in a small plant a person has to publish the next
@@ -155,7 +155,8 @@ impl Authority {
             let root = self.files.unlock(ROOT, stored, &self.passphrase)?;
             // The root has only ever signed the intermediate.
             let none: &[RevokedCertificate] = &[];
-            stored.crl = root.crl(none, crl_number(stored.crl.number, now), now, database.crl_days)?.into();
+            let number = crl_number(stored.crl.number, now);
+            stored.crl = StoredCrl::new(number, &root.crl(none, number, now, database.crl_days)?);
         }
         self.commit(database)
     }
@@ -170,7 +171,8 @@ impl Authority {
 
     fn update_crl(&self, database: &mut Database, now: DateTime<Utc>) -> Result<(), AuthorityError> {
         let number = crl_number(database.signing.crl.number, now);
-        database.signing.crl = self.signing.crl(&database.revoked(), number, now, database.crl_days)?.into();
+        let crl = self.signing.crl(&database.revoked(), number, now, database.crl_days)?;
+        database.signing.crl = StoredCrl::new(number, &crl);
         Ok(())
     }
 

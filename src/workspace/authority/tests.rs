@@ -7,10 +7,10 @@ use secrecy::SecretString;
 
 use super::*;
 use crate::model::{
-    AuthorityRequest, AuthorityValidity, CertificateProfile, CsrRequest, ErrorCode, KeyLength, Problem,
-    RevocationReason, Subject, Validity,
+    AuthorityRequest, AuthorityValidity, CertificateProfile, CsrRequest, ErrorCode, KeyLength, Problem, Subject,
+    Validity,
 };
-use crate::pki::{Csr, IssueRequest, PrivateKey, ServerNames, make_csr, read_key_file};
+use crate::pki::{Csr, IssueRequest, PrivateKey, RevocationReason, ServerNames, make_csr, read_key_file};
 use crate::workspace::Workspace;
 
 fn now() -> DateTime<Utc> {
@@ -92,7 +92,7 @@ fn a_ca_is_made_once_and_taken_up_with_its_passphrase_only() {
     let pem = fs::read(files.folder().join("ca.key")).unwrap();
     assert!(read_key_file(&pem, Some("correct horse")).unwrap().matches(&made.signing.certificate));
     assert_eq!(fs::read(files.folder().join("ca.der")).unwrap(), made.signing.certificate.der());
-    assert_eq!(fs::read(files.folder().join("ca.crl")).unwrap(), made.signing.crl);
+    assert_eq!(fs::read(files.folder().join("ca.crl")).unwrap(), made.signing.crl.der());
     #[cfg(unix)]
     for entry in fs::read_dir(files.folder()).unwrap() {
         use std::os::unix::fs::PermissionsExt as _;
@@ -170,7 +170,7 @@ fn revoking_is_all_or_nothing_and_final() {
     let after = authority.overview().unwrap();
     assert_eq!(after.issued[0].revoked.unwrap().reason, RevocationReason::KeyCompromise);
     assert_eq!(after.signing.crl_number, before.signing.crl_number + 1);
-    assert_eq!(fs::read(files.folder().join("ca.crl")).unwrap(), after.signing.crl);
+    assert_eq!(fs::read(files.folder().join("ca.crl")).unwrap(), after.signing.crl.der());
 }
 
 #[test]
@@ -190,7 +190,7 @@ fn crl_numbers_only_ever_grow_also_when_the_clock_goes_back_or_a_backup_comes_ba
     authority.back_up(&backup, now()).unwrap();
     authority.publish_crl(Some(30), now() + Duration::days(1)).unwrap();
     let published = numbers(&authority).0;
-    assert_eq!(authority.overview().unwrap().signing.next_update, now() + Duration::days(31));
+    assert_eq!(authority.overview().unwrap().signing.crl.next_update(), Some(now() + Duration::days(31)));
     drop(authority);
     fs::remove_dir_all(files.folder()).unwrap();
     files.restore(&backup, &passphrase()).unwrap();
@@ -267,7 +267,7 @@ fn copies_are_made_again_and_a_key_left_over_is_kept() {
     fs::write(files.folder().join("ca.crl"), "old").unwrap();
     fs::remove_file(files.folder().join("ca.der")).unwrap();
     files.open(&passphrase()).unwrap();
-    assert_eq!(fs::read(files.folder().join("ca.crl")).unwrap(), made.signing.crl);
+    assert_eq!(fs::read(files.folder().join("ca.crl")).unwrap(), made.signing.crl.der());
     assert_eq!(fs::read(files.folder().join("ca.der")).unwrap(), made.signing.certificate.der());
 }
 
