@@ -7,8 +7,9 @@ use super::batch::{Presentation, STATE, Shown};
 use super::passwords::read_secret;
 use super::select::Select;
 use super::{Ending, Settled};
-use crate::jobs::{ExportSettings, ImportSettings, MIN_PASSPHRASE_CHARS, Outcome};
-use crate::model::{ErrorCode, Problem};
+use crate::jobs::{ExportSettings, ImportSettings, Outcome};
+use crate::model::Problem;
+use crate::workspace::check_passphrase;
 
 #[derive(Debug, Args)]
 pub struct TransferArgs {
@@ -37,12 +38,7 @@ pub fn export(settled: &Settled, args: &TransferArgs) -> Result<Ending, Problem>
     let configuration = settled.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
-    if let Some(passphrase) = &passphrase {
-        use secrecy::ExposeSecret as _;
-        if passphrase.expose_secret().chars().count() < MIN_PASSPHRASE_CHARS {
-            return Err(ErrorCode::BadPassphrase.into());
-        }
-    }
+    passphrase.as_ref().map_or(Ok(()), check_passphrase)?;
     let operation = ExportSettings { files: settled.workspace.settings_files(), passphrase };
     settled.batch(&configuration, &chosen, operation, &EXPORTED)
 }

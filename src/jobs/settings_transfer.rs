@@ -1,13 +1,10 @@
 use async_trait::async_trait;
-use secrecy::{ExposeSecret as _, SecretString};
+use secrecy::SecretString;
 
 use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
 use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem};
 use crate::protocol::{self, WireSecret};
-use crate::workspace::SettingsFiles;
-
-/// The shortest passphrase an export may be sealed with, in characters.
-pub const MIN_PASSPHRASE_CHARS: usize = 8;
+use crate::workspace::{SettingsFiles, check_passphrase};
 
 /// Saves the settings, users and keys of legacy controllers to the workspace (manual 2.6.4). The controller seals
 /// them: passwords' hashes never lie open on the PC.
@@ -41,10 +38,7 @@ impl Operation for ExportSettings {
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
-        let short = |p: &SecretString| p.expose_secret().chars().count() < MIN_PASSPHRASE_CHARS;
-        if self.passphrase.as_ref().is_some_and(short) {
-            return Err(ErrorCode::BadPassphrase.into());
-        }
+        self.passphrase.as_ref().map_or(Ok(()), check_passphrase)?;
         controller.known.as_ref().map_or(Ok(()), |known| legacy(known.firmware))
     }
 

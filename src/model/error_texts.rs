@@ -719,6 +719,157 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ),
     ),
     (
+        ErrorCode::NoAuthority,
+        text(
+            "There is no certificate authority in this workspace",
+            "The small CA has not been created yet, or another workspace is open.",
+            "Create the CA first, or restore it from a backup.",
+        ),
+        text("工作区中没有证书颁发机构", "尚未创建小型 CA，或打开了其他工作区。", "请先创建 CA，或从备份恢复。"),
+    ),
+    (
+        ErrorCode::AuthorityExists,
+        text(
+            "The workspace has a certificate authority already",
+            "A workspace holds one CA. Another one would make everything it signed worthless.",
+            "Use the one that is there, or another workspace. To start anew, move its folder away first.",
+        ),
+        text(
+            "工作区中已有证书颁发机构",
+            "一个工作区只能有一个 CA。另建 CA 会使已签发的证书全部失效。",
+            "请使用现有的 CA 或其他工作区。若要重新创建，请先移走 CA 文件夹。",
+        ),
+    ),
+    (
+        ErrorCode::AuthorityBusy,
+        text(
+            "The certificate authority is in use",
+            "Another window or command is working with the CA of this workspace.",
+            "Wait until it has finished, then try again.",
+        ),
+        text("证书颁发机构正在使用中", "其他窗口或命令正在使用该工作区的 CA。", "请等待其完成，然后重试。"),
+    ),
+    (
+        ErrorCode::AuthorityDamaged,
+        text(
+            "The files of the certificate authority are damaged",
+            "The database, the certificate or the key of the CA is missing, cut short or was changed. Nothing was \
+             written to it.",
+            "Move the CA's folder away and restore it from a backup.",
+        ),
+        text(
+            "证书颁发机构的文件已损坏",
+            "CA 的数据库、证书或密钥缺失、不完整或已被修改。未写入任何内容。",
+            "请移走 CA 文件夹，然后从备份恢复。",
+        ),
+    ),
+    (
+        ErrorCode::AuthorityPassphrase,
+        text(
+            "The passphrase of the certificate authority is wrong",
+            "The passphrase does not open the CA's key, or the key file is damaged.",
+            "Enter the passphrase that was chosen when the CA was created.",
+        ),
+        text(
+            "证书颁发机构的密码短语错误",
+            "密码短语无法打开 CA 密钥，或密钥文件已损坏。",
+            "请输入创建 CA 时设置的密码短语。",
+        ),
+    ),
+    (
+        ErrorCode::AuthorityExpired,
+        text(
+            "The certificate authority is not valid now",
+            "Its certificate has expired, or this computer's clock is wrong. Nothing it signs would be accepted.",
+            "Check the clock. If the CA has expired, create a new one and have all certificates signed by it.",
+        ),
+        text(
+            "证书颁发机构当前无效",
+            "CA 证书已过期，或本机时钟有误。其签发的内容不会被接受。",
+            "请检查时钟。若 CA 已过期，请创建新的 CA 并重新签发所有证书。",
+        ),
+    ),
+    (
+        ErrorCode::CsrRefused,
+        text(
+            "The certificate authority does not sign this request",
+            "The certificate signing request lacks something OPC UA needs, or asks for something that does not belong \
+             into a certificate.",
+            "See the detail, then make the request again with the right names.",
+        ),
+        text(
+            "证书颁发机构拒绝签发该请求",
+            "CSR 缺少 OPC UA 所需的内容，或包含不应写入证书的内容。",
+            "请查看详细信息，使用正确的名称重新创建 CSR。",
+        ),
+    ),
+    (
+        ErrorCode::ShortKey,
+        text(
+            "The key of the signing request is too short",
+            "Keys below 2048 bits are for deprecated security policies only and can be broken.",
+            "Make the request again with a longer key, or allow short keys if the controller needs one.",
+        ),
+        text(
+            "CSR 的密钥过短",
+            "低于 2048 位的密钥仅用于已弃用的安全策略，可能被破解。",
+            "请使用更长的密钥重新创建 CSR；若控制器确实需要，请允许使用短密钥。",
+        ),
+    ),
+    (
+        ErrorCode::AlreadySigned,
+        text(
+            "There is a valid certificate for this request",
+            "The CA signed the same key before, and that certificate is neither revoked nor expired.",
+            "Use that certificate, or ask for a renewal.",
+        ),
+        text(
+            "该请求已有有效的证书",
+            "CA 已为同一密钥签发过证书，且该证书未吊销也未过期。",
+            "请使用该证书，或选择续签。",
+        ),
+    ),
+    (
+        ErrorCode::UnknownSerial,
+        text(
+            "The certificate authority has not issued this certificate",
+            "No certificate with this serial number is in its database.",
+            "Compare the serial number with the list of issued certificates.",
+        ),
+        text("证书颁发机构未签发过该证书", "数据库中没有该序列号的证书。", "请与已签发证书列表核对序列号。"),
+    ),
+    (
+        ErrorCode::AlreadyRevoked,
+        text(
+            "The certificate has been revoked already",
+            "A revocation cannot be changed or taken back.",
+            "Publish the CRL so that everybody learns of it.",
+        ),
+        text("证书已被吊销", "吊销后不能更改或撤回。", "请发布 CRL 以通知各方。"),
+    ),
+    (
+        ErrorCode::BackupDamaged,
+        text(
+            "The file is no whole backup of a certificate authority",
+            "It is cut short or was changed, of a newer version, or another file altogether.",
+            "Choose another copy of the backup.",
+        ),
+        text(
+            "该文件不是完整的证书颁发机构备份",
+            "文件不完整、已被修改、版本更新，或是其他文件。",
+            "请选择该备份的其他副本。",
+        ),
+    ),
+    (
+        ErrorCode::BackupPassphrase,
+        text(
+            "The passphrase does not open the backup",
+            "The backup was made with another passphrase, or was changed since.",
+            "Enter the passphrase the CA had when the backup was made.",
+        ),
+        text("密码短语无法打开备份", "备份时使用了其他密码短语，或备份已被修改。", "请输入备份时 CA 的密码短语。"),
+    ),
+    (
         ErrorCode::WrongKeys,
         text(
             "The controller does not accept the keys",
@@ -861,10 +1012,10 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ErrorCode::BadPassphrase,
         text(
             "The passphrase is too short",
-            "A passphrase that protects an export has at least 8 characters.",
+            "A passphrase that protects an export or a CA has at least 8 characters.",
             "Choose a longer passphrase.",
         ),
-        text("密码短语过短", "保护导出文件的密码短语至少为 8 个字符。", "请使用更长的密码短语。"),
+        text("密码短语过短", "保护导出文件或 CA 的密码短语至少为 8 个字符。", "请使用更长的密码短语。"),
     ),
     (
         ErrorCode::WorkspaceReadOnly,

@@ -8,6 +8,7 @@ mod text_in_messages;
 
 pub mod activation;
 mod address;
+mod authority;
 mod certificate;
 mod certificate_status;
 mod client_list;
@@ -22,6 +23,7 @@ mod settings;
 mod user;
 
 pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
+pub use authority::{AuthorityRequest, AuthorityValidity, AuthorityYears, CertificateProfile};
 pub use certificate::{
     CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
     Validity, default_common_name, offered_key_lengths,

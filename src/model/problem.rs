@@ -93,6 +93,20 @@ pub enum ErrorCode {
     OneControllerOnly,
     Preflight,
     PreflightWarnings,
+    // the small CA
+    NoAuthority,
+    AuthorityExists,
+    AuthorityBusy,
+    AuthorityDamaged,
+    AuthorityPassphrase,
+    AuthorityExpired,
+    CsrRefused,
+    ShortKey,
+    AlreadySigned,
+    UnknownSerial,
+    AlreadyRevoked,
+    BackupDamaged,
+    BackupPassphrase,
     // activation (2.6.3)
     WrongKeys,
     NotInFile,
@@ -174,6 +188,19 @@ impl ErrorCode {
                 | FolderNotOpened
                 | FileTooLarge
                 | FileNotRecognised
+                | NoAuthority
+                | AuthorityExists
+                | AuthorityBusy
+                | AuthorityDamaged
+                | AuthorityPassphrase
+                | AuthorityExpired
+                | CsrRefused
+                | ShortKey
+                | AlreadySigned
+                | UnknownSerial
+                | AlreadyRevoked
+                | BackupDamaged
+                | BackupPassphrase
                 | Cancelled
         )
     }
@@ -287,6 +314,9 @@ mod tests {
             CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,
+            NoAuthority | AuthorityExists | AuthorityBusy | AuthorityDamaged | AuthorityPassphrase
+            | AuthorityExpired | CsrRefused | ShortKey | AlreadySigned | UnknownSerial | AlreadyRevoked
+            | BackupDamaged | BackupPassphrase => 13,
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
@@ -301,7 +331,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 12 + 20 + 14 + 14 + 4 + 1 + 7 + 12;
+        let all = 7 + 12 + 20 + 14 + 14 + 13 + 4 + 1 + 7 + 12;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

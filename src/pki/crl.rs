@@ -12,7 +12,7 @@ use x509_parser::prelude::{
 use super::certificate::check_size;
 use super::facts::{date, range_within, significant};
 use super::signature::{SignatureAlgorithm, Verdict};
-use super::{Certificate, PkiError, name, tlv};
+use super::{Certificate, PkiError, name, pem, tlv};
 use crate::model::CrlSummary;
 
 /// The largest revocation list that is read, in bytes of DER: room for 150,000 entries with long serial numbers.
@@ -100,6 +100,11 @@ impl Crl {
     /// The list itself, as it was read.
     pub fn der(&self) -> &[u8] {
         &self.der
+    }
+
+    /// As PEM, ending with a line feed.
+    pub fn to_pem(&self) -> String {
+        pem::crl(&self.der)
     }
 
     /// What a list of lists shows of it.

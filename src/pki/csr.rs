@@ -1,6 +1,7 @@
 use std::fmt;
 
 use rcgen::{CertificateParams, ExtendedKeyUsagePurpose, IsCa, KeyUsagePurpose};
+use sha2::{Digest as _, Sha256};
 use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::prelude::FromDer;
 
@@ -67,6 +68,11 @@ impl Csr {
     /// The length of the key.
     pub const fn key_bits(&self) -> u16 {
         self.key_bits
+    }
+
+    /// SHA-256 of the public key in PKCS#1, in lower-case hexadecimal: which requests are for the same key.
+    pub fn key_digest(&self) -> String {
+        hex::encode(Sha256::digest(&self.public_key))
     }
 
     /// Whether the certificate is for the key of this request. What else the CA changed is its own affair.

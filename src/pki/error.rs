@@ -50,6 +50,23 @@ pub enum PkiError {
     #[error("there are {0} certificate signing requests in it; exactly one is expected")]
     SeveralCsrs(usize),
 
+    // the small CA
+    /// The rest of the sentence, the signing request being its subject.
+    #[error("the certificate signing request {0}")]
+    CsrRefused(&'static str),
+    #[error("the key has {0} bits; at least 2048 are asked for")]
+    ShortKey(u16),
+    #[error("the key of a CA has 2048 or 4096 bits, not {0}")]
+    AuthorityKey(u16),
+    #[error("the intermediate CA needs another name than the root")]
+    AuthorityName,
+    #[error("{0}")]
+    CannotSign(&'static str),
+    #[error("the CA was valid until {0}")]
+    AuthorityExpired(DateTime<Utc>),
+    #[error("the CA is valid from {0} on")]
+    AuthorityNotYetValid(DateTime<Utc>),
+
     // a key
     #[error("not an RSA private key, or a damaged one")]
     NotAPrivateKey,
@@ -120,9 +137,16 @@ pub enum PkiError {
 impl From<PkiError> for Problem {
     fn from(error: PkiError) -> Self {
         let code = match error {
-            PkiError::Subject(_) | PkiError::ApplicationUri(_) | PkiError::DnsName(_) | PkiError::NoHostName => {
-                ErrorCode::BadCertificateRequest
-            }
+            PkiError::Subject(_)
+            | PkiError::ApplicationUri(_)
+            | PkiError::DnsName(_)
+            | PkiError::NoHostName
+            | PkiError::AuthorityName
+            | PkiError::AuthorityKey(_) => ErrorCode::BadCertificateRequest,
+            PkiError::CannotSign(_) => ErrorCode::AuthorityDamaged,
+            PkiError::CsrRefused(_) => ErrorCode::CsrRefused,
+            PkiError::ShortKey(_) => ErrorCode::ShortKey,
+            PkiError::AuthorityExpired(_) | PkiError::AuthorityNotYetValid(_) => ErrorCode::AuthorityExpired,
             PkiError::NotAPair => ErrorCode::KeyMismatch,
             PkiError::WrongPasswordOrDamaged | PkiError::PasswordNeeded => ErrorCode::WrongKeyPassword,
             PkiError::Expired(_) => ErrorCode::CertificateExpired,

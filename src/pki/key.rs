@@ -100,7 +100,8 @@ impl PrivateKey {
         Ok(Self { material, length, public_key })
     }
 
-    fn sign_sha256(&self, message: &[u8]) -> Result<Vec<u8>, PkiError> {
+    /// PKCS#1 v1.5 with SHA-256.
+    pub(super) fn sign_sha256(&self, message: &[u8]) -> Result<Vec<u8>, PkiError> {
         match &self.material {
             Material::Current(pair) => {
                 let mut signature = vec![0; pair.public_modulus_len()];

@@ -12,9 +12,11 @@
 //! | `pem` | the text armour around DER, both ways |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
+//! | `key_encryption` | [`encrypt_key`]: a private key under a passphrase, for any tool to read |
 //! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
 //! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
 //! | `kind` | [`recognise`]: what a file is, by its content |
+//! | `ca` | [`CertificateAuthority`]: the small CA that does so |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
@@ -31,6 +33,7 @@
 //! [`MAX_BUNDLE_BYTES`]. Text taken from a certificate holds no control characters.
 
 mod bundle;
+mod ca;
 mod certificate;
 mod crl;
 mod csr;
@@ -40,6 +43,7 @@ mod facts;
 mod fingerprint;
 mod identity;
 mod key;
+mod key_encryption;
 mod key_file;
 mod kind;
 mod name;
@@ -56,6 +60,7 @@ mod trust;
 mod trust_health;
 
 pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
+pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, REVOCATION_REASONS, RevokedCertificate};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
 pub use crl::{Crl, MAX_CRL_BYTES, RevocationReason, Revoked};
 pub use csr::{Csr, make_csr};
@@ -67,6 +72,7 @@ pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
 pub use key::PrivateKey;
+pub use key_encryption::encrypt_key;
 pub use key_file::{MAX_KEY_FILE_BYTES, read_key_file, read_pair};
 pub use kind::{PkiKind, recognise};
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;

@@ -122,6 +122,16 @@ pub(super) fn csr(der: &[u8]) -> String {
     armour("CERTIFICATE REQUEST", der)
 }
 
+/// The PEM form of a CRL.
+pub(super) fn crl(der: &[u8]) -> String {
+    armour("X509 CRL", der)
+}
+
+/// The PEM form of an encrypted private key.
+pub(super) fn encrypted_key(der: &[u8]) -> String {
+    armour("ENCRYPTED PRIVATE KEY", der)
+}
+
 /// DER under that label.
 pub(super) fn armour(label: &str, der: &[u8]) -> String {
     let body = STANDARD.encode(der);

@@ -21,6 +21,19 @@ pub struct ServerNames {
     pub dns: Vec<String>,
 }
 
+impl ServerNames {
+    /// Whether they can be written into a certificate; not whether there are enough.
+    pub(super) fn check(&self) -> Result<(), PkiError> {
+        if !is_uri(&self.application_uri) {
+            return Err(PkiError::ApplicationUri(self.application_uri.clone()));
+        }
+        match self.dns.iter().find(|dns| !is_dns_name(dns)) {
+            Some(bad) => Err(PkiError::DnsName(bad.clone())),
+            None => Ok(()),
+        }
+    }
+}
+
 /// Makes the certificate of an OPC UA server, signed with its own key (OPC 10000-6 §6.2.2).
 ///
 /// It is an X.509 v3 certificate that is no CA, for server and client authentication, with every key usage OPC UA asks
@@ -102,18 +115,11 @@ pub(super) fn alternative_names(names: &ServerNames) -> Result<Vec<SanType>, Pki
     if names.ips.is_empty() && names.dns.is_empty() {
         return Err(PkiError::NoHostName);
     }
-    let bad_uri = || PkiError::ApplicationUri(names.application_uri.clone());
-    if !is_uri(&names.application_uri) {
-        return Err(bad_uri());
-    }
-    let uri = names.application_uri.as_str().try_into().map_err(|_| bad_uri())?;
-    let mut all = vec![SanType::URI(uri)];
+    names.check()?;
+    let uri = names.application_uri.as_str().try_into();
+    let mut all = vec![SanType::URI(uri.map_err(|_| PkiError::ApplicationUri(names.application_uri.clone()))?)];
     for dns in &names.dns {
-        let bad_dns = || PkiError::DnsName(dns.clone());
-        if !is_dns_name(dns) {
-            return Err(bad_dns());
-        }
-        all.push(SanType::DnsName(dns.as_str().try_into().map_err(|_| bad_dns())?));
+        all.push(SanType::DnsName(dns.as_str().try_into().map_err(|_| PkiError::DnsName(dns.clone()))?));
     }
     all.extend(names.ips.iter().copied().map(SanType::IpAddress));
     Ok(all)

@@ -1,10 +1,9 @@
 //! Finding and reading the files an engineer puts into a controller's folders for import (manual 2.7.1.4, 2.7.1.5).
 
-use std::fs::{self, File};
-use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
-use super::CertificateFiles;
+use super::{CertificateFiles, read_bounded};
 use crate::model::{ErrorCode, Problem, SerialNumber};
 
 impl CertificateFiles {
@@ -34,13 +33,7 @@ pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, Problem> {
         };
         Problem::with_detail(code, format!("{}: {e}", path.display()))
     };
-    // A pipe would be waited for, without end.
-    if !fs::metadata(path).map_err(unreadable)?.is_file() {
-        return Err(Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: not a file", path.display())));
-    }
-    let file = File::open(path).map_err(unreadable)?;
-    let mut bytes = Vec::new();
-    file.take(max as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    let bytes = read_bounded(path, max as u64).map_err(unreadable)?;
     if bytes.len() > max {
         let detail = format!("{}: more than {max} bytes", path.display());
         return Err(Problem::with_detail(ErrorCode::FileFormat, detail));

@@ -5,6 +5,7 @@
 //!   epson_opcua_config.json          controllers and options
 //!   connections.csv                  a connection list to import, if somebody put one there (manual 2.5.3)
 //!   .lock                            held by whoever may write the configuration
+//!   CA/…                             the small CA, see `authority`
 //!   <serial>/option.json             settings export of one controller (manual 2.6.4)
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
 //!   <serial>/Cert/CSR/…              the signing request made last
@@ -16,6 +17,7 @@
 //! old content or the new one, whatever happens in between.
 
 mod atomic;
+pub mod authority;
 mod certificate_files;
 mod configuration;
 mod connection_list;
@@ -41,7 +43,7 @@ pub use connection_list::{
     NewConnection, PlannedConnection, Skipped,
 };
 pub use import_files::read_import_file;
-pub use passwords::{KeyringPasswords, MemoryPasswords, Passwords};
+pub use passwords::{KeyringPasswords, MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase};
 pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
 pub use settings_files::SettingsFiles;
 
@@ -104,6 +106,34 @@ pub struct WorkspaceLock {
     _file: File,
 }
 
+/// Reads a file of at most `max` bytes; of a larger one, just enough to see that it is larger.
+fn read_bounded(path: &Path, max: u64) -> io::Result<Vec<u8>> {
+    // A pipe would be waited for, without end.
+    if !fs::metadata(path)?.is_file() {
+        return Err(io::Error::other("not a file"));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)?.take(max + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// Makes the folder, if need be, and takes it for whoever keeps the lock.
+fn lock_folder(folder: &Path) -> Result<WorkspaceLock, WorkspaceError> {
+    atomic::create_folder(folder)?;
+    let path = folder.join(LOCK);
+    let file = File::options()
+        .create(true)
+        .write(true)
+        .truncate(false)
+        .open(&path)
+        .map_err(|e| WorkspaceError::writing(&path, e))?;
+    match file.try_lock() {
+        Ok(()) => Ok(WorkspaceLock { _file: file }),
+        Err(TryLockError::WouldBlock) => Err(WorkspaceError::Busy(folder.to_owned())),
+        Err(TryLockError::Error(e)) => Err(WorkspaceError::writing(&path, e)),
+    }
+}
+
 /// A configuration as it was found.
 #[derive(Debug)]
 pub struct Loaded {
@@ -146,6 +176,11 @@ impl Workspace {
         SettingsFiles::new(self.root.clone())
     }
 
+    /// The small CA of this workspace, whether there is one or not.
+    pub fn authority(&self) -> authority::AuthorityFiles {
+        authority::AuthorityFiles::new(self.root.join("CA"))
+    }
+
     pub fn certificate_files(&self) -> CertificateFiles {
         CertificateFiles::new(self.root.clone())
     }
@@ -157,19 +192,7 @@ impl Workspace {
 
     /// Takes the right to write the configuration: the window for as long as it is open, a command for one change.
     pub fn lock(&self) -> Result<WorkspaceLock, WorkspaceError> {
-        atomic::create_folder(&self.root)?;
-        let path = self.root.join(LOCK);
-        let file = File::options()
-            .create(true)
-            .write(true)
-            .truncate(false)
-            .open(&path)
-            .map_err(|e| WorkspaceError::writing(&path, e))?;
-        match file.try_lock() {
-            Ok(()) => Ok(WorkspaceLock { _file: file }),
-            Err(TryLockError::WouldBlock) => Err(WorkspaceError::Busy(self.root.clone())),
-            Err(TryLockError::Error(e)) => Err(WorkspaceError::writing(&path, e)),
-        }
+        lock_folder(&self.root)
     }
 
     /// Reads the configuration; without one, an empty one.
@@ -180,9 +203,8 @@ impl Workspace {
         let path = self.root.join(CONFIGURATION);
         let unreadable = |source| WorkspaceError::Unreadable { path: path.clone(), source };
         let fresh = |damaged| Loaded { configuration: Configuration::default(), damaged };
-        let mut bytes = Vec::new();
-        match File::open(&path) {
-            Ok(file) => file.take(MAX_CONFIGURATION_BYTES + 1).read_to_end(&mut bytes).map_err(unreadable)?,
+        let bytes = match read_bounded(&path, MAX_CONFIGURATION_BYTES) {
+            Ok(bytes) => bytes,
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(fresh(None)),
             Err(e) => return Err(unreadable(e)),
         };

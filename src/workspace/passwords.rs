@@ -19,6 +19,17 @@ pub trait Passwords: Send + Sync {
     fn forget(&self, controller: Fingerprint);
 }
 
+/// The shortest passphrase that may protect a file of secrets, in characters.
+pub const MIN_PASSPHRASE_CHARS: usize = 8;
+
+/// Refuses a passphrase shorter than [`MIN_PASSPHRASE_CHARS`].
+pub fn check_passphrase(passphrase: &SecretString) -> Result<(), Problem> {
+    if passphrase.expose_secret().chars().count() < MIN_PASSPHRASE_CHARS {
+        return Err(ErrorCode::BadPassphrase.into());
+    }
+    Ok(())
+}
+
 /// For the time the program runs only.
 #[derive(Default)]
 pub struct MemoryPasswords(Mutex<HashMap<Fingerprint, SecretString>>);

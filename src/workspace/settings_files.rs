@@ -1,8 +1,7 @@
-use std::fs::{self, File};
-use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
-use super::{WorkspaceError, read_import_file, write_atomic};
+use super::{WorkspaceError, read_bounded, read_import_file, write_atomic};
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::protocol::{MAX_EXPORT_BYTES, SettingsExport};
 
@@ -62,9 +61,7 @@ impl SettingsFiles {
 }
 
 fn read(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MAX_EXPORT_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
+    read_bounded(path, MAX_EXPORT_BYTES as u64)
 }
 
 /// A file beside `path` that is an export under a name of somebody's own.

@@ -6,10 +6,10 @@ use chrono::{DateTime, Utc};
 use secrecy::SecretString;
 
 use super::{Dialog, JobId, Model, RowId, Task, Typed};
-use crate::jobs::MIN_PASSPHRASE_CHARS;
 use crate::model::{ControllerInfo, FirmwareVersion, Problem};
 use crate::ui::backend::Command;
 use crate::ui::texts::TextKey;
+use crate::workspace::MIN_PASSPHRASE_CHARS;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Transfer {
