@@ -8,6 +8,7 @@
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
 //! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
 //! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
+//! | `issuers` | [`issuers_of`]: who issued a certificate, as far as the issuers are at hand |
 //! | `kind` | [`recognise`]: what a file is, by its content |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
@@ -28,6 +29,7 @@ mod csr;
 mod error;
 mod fingerprint;
 mod identity;
+mod issuers;
 mod key;
 mod key_file;
 mod kind;
@@ -46,6 +48,7 @@ pub use csr::{Csr, make_csr};
 pub use error::PkiError;
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
+pub use issuers::{Issuers, MAX_CHAIN, issuers_of, read_certificates};
 pub use key::PrivateKey;
 pub use key_file::{MAX_KEY_FILE_BYTES, read_key_file, read_pair};
 pub use kind::{PkiKind, recognise};

@@ -40,7 +40,7 @@ pub use connection_list::{
     CONNECTION_LIST_COLUMNS, ConnectionList, ConnectionListError, MAX_CONNECTION_LIST_BYTES, MAX_CONNECTIONS,
     NewConnection, PlannedConnection, Skipped,
 };
-pub use import_files::read_import_file;
+pub use import_files::{certificate_files_beside, read_import_file};
 pub use passwords::{KeyringPasswords, MemoryPasswords, Passwords};
 pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
 pub use settings_files::SettingsFiles;
