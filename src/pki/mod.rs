@@ -15,6 +15,7 @@
 //! | `key_encryption` | [`encrypt_key`]: a private key under a passphrase, for any tool to read |
 //! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
 //! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
+//! | `issuers` | [`issuers_of`]: who issued a certificate, as far as the issuers are at hand |
 //! | `kind` | [`recognise`]: what a file is, by its content |
 //! | `ca` | [`CertificateAuthority`]: the small CA that does so |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
@@ -42,6 +43,7 @@ mod error;
 mod facts;
 mod fingerprint;
 mod identity;
+mod issuers;
 mod key;
 mod key_encryption;
 mod key_file;
@@ -71,6 +73,7 @@ pub use error::PkiError;
 pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
+pub use issuers::{Issuers, issuers_of};
 pub use key::PrivateKey;
 pub use key_encryption::encrypt_key;
 pub use key_file::{MAX_KEY_FILE_BYTES, read_key_file, read_pair};

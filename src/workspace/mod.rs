@@ -42,7 +42,7 @@ pub use connection_list::{
     CONNECTION_LIST_COLUMNS, ConnectionList, ConnectionListError, MAX_CONNECTION_LIST_BYTES, MAX_CONNECTIONS,
     NewConnection, PlannedConnection, Skipped,
 };
-pub use import_files::read_import_file;
+pub use import_files::{certificate_files_beside, read_import_file};
 pub use passwords::{KeyringPasswords, MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase};
 pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
 pub use settings_files::SettingsFiles;

@@ -13,7 +13,7 @@ use crate::jobs::{
     Operation, Outcome, UserCertificateFiles,
 };
 use crate::model::{CertificateSummary, Problem};
-use crate::pki::{Finding, Severity};
+use crate::pki::{Finding, Issuers, Severity};
 use crate::ui::backend::Command;
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
@@ -71,6 +71,8 @@ fn ca_source(file: Option<&PathBuf>, workspace: &Workspace) -> CaCertificateSour
 pub struct Checked {
     pub summary: CertificateSummary,
     pub findings: Vec<Finding>,
+    /// Of a certificate from a CA.
+    pub issuers: Option<Issuers>,
 }
 
 impl Checked {
@@ -265,7 +267,7 @@ impl Model {
     pub(super) fn checked(&mut self, row: RowId, result: Result<Outcome, Problem>) {
         let Some((checks, _)) = self.checking() else { return };
         let found = match result {
-            Ok(Outcome::Checked { summary, findings }) => Ok(Checked { summary, findings }),
+            Ok(Outcome::Checked { summary, findings, issuers }) => Ok(Checked { summary, findings, issuers }),
             Ok(_) => return,
             Err(problem) => Err(problem),
         };

@@ -309,7 +309,7 @@ texts! {
     ChooseFile: "Choose…", "选择…";
     ChooseFileTitle: "Choose a file", "选择文件";
     ReadFile: "Read file", "读取文件";
-    Browse: "Browse…", "浏览…";
+    Browse: "Browse…", "选择…";
     OpenFolder: "Open folder", "打开文件夹";
 
     // files dropped onto the window
@@ -373,6 +373,7 @@ texts! {
     ImportRefused: "Not imported", "不导入";
     FindingNone: "Nothing found that clients could complain about", "未发现客户端可能提示的问题";
     Warning: "Warning", "警告";
+    IssuerNotHere: "The next issuer is neither in the file nor in files beside it; clients need it to trust the controller", "文件及其所在文件夹中均没有上一级颁发者的证书；客户端需要该证书才能信任控制器";
     SerialFolder: "serial number", "控制器序列号";
 
     // type select
