@@ -12,17 +12,17 @@ use tokio_util::sync::CancellationToken;
 use super::api::Api;
 use super::faults::{DropPoint, Faults};
 use super::new_controller::NewController;
-use super::opcua::{DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser, StartError};
+use super::opcua::{Clock, DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser, StartError};
 use super::server_log::ServerLog;
 use super::settings_transfer;
-use super::state::{State, Surroundings};
+use super::state::{Listed, State, Surroundings};
 use super::store::{Store, StoreError};
 use super::{listener as management, memory, tls};
 use crate::model::{
     ClientList, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion,
     Problem, SerialNumber, ServerSettings, ServerStatus, StartupMode, UserName,
 };
-use crate::pki::Fingerprint;
+use crate::pki::{Certificate, Fingerprint, TrustLists, TrustPolicy};
 use crate::protocol::{
     Changed, HeldCertificate, HeldCertificates, ListedCertificate, LogChunk, Revisioned, SettingsExport, WireSecret,
 };
@@ -590,11 +590,12 @@ impl Plant {
 
     fn trust(&self, state: &State) -> Result<(), Problem> {
         match &self.server {
-            Some(server) => server
-                .set_trusted_clients(&trusted_clients(state))
-                .map_err(|source| StoreError::Io { path: PathBuf::from(OPCUA_FOLDER), source }.into()),
-            None => Ok(()),
+            Some(server) => {
+                server.set_trust(trust_lists(state)?);
+            }
+            None => {}
         }
+        Ok(())
     }
 
     async fn stop(&mut self) {
@@ -626,7 +627,11 @@ fn opcua_config(state: &State, around: &Surroundings, folder: &Path) -> Result<O
             .collect(),
         certificate_der: pair.certificate.0.clone(),
         private_key_pkcs8: pair.private_key.0.clone(),
-        trusted_clients: trusted_clients(state),
+        trust: trust_lists(state)?,
+        trust_policy: TrustPolicy::default(),
+        detailed_status: false,
+        refusals: None,
+        clock: Clock::default(),
         identity: DeviceIdentity {
             name: state.identity.name.to_string(),
             series: state.identity.series,
@@ -638,8 +643,14 @@ fn opcua_config(state: &State, around: &Surroundings, folder: &Path) -> Result<O
     })
 }
 
-fn trusted_clients(state: &State) -> Vec<Vec<u8>> {
-    state.trusted.iter().map(|listed| listed.certificate.0.clone()).collect()
+fn trust_lists(state: &State) -> Result<TrustLists, Problem> {
+    let parsed = |list: &[Listed]| -> Result<Vec<Certificate>, Problem> {
+        list.iter()
+            .map(|listed| Certificate::from_der(&listed.certificate.0))
+            .collect::<Result<_, _>>()
+            .map_err(|error| Problem::with_detail(ErrorCode::Internal, error))
+    };
+    Ok(TrustLists::new(parsed(&state.trusted)?, parsed(&state.issuers)?, Vec::new()))
 }
 
 /// What the fault switch says when the server is told to fail.
