@@ -13,6 +13,7 @@ mod demo;
 mod log;
 mod output;
 mod passwords;
+mod pki;
 mod select;
 mod server;
 mod settings;
@@ -98,6 +99,9 @@ enum Command {
     /// Make, request, import, select and export server certificates
     #[command(subcommand)]
     Cert(cert::CertCommand),
+    /// Look into certificate files, and check certificates without a controller
+    #[command(subcommand)]
+    Pki(pki::PkiCommand),
     /// List and add trusted client certificates
     #[command(subcommand)]
     Clients(clients::ClientsCommand),
@@ -163,6 +167,7 @@ pub fn main() -> ExitCode {
         Some(Command::Settings(command)) => settings::run(&settled, command),
         Some(Command::Users(command)) => users::run(&settled, command),
         Some(Command::Cert(command)) => cert::run(&settled, command),
+        Some(Command::Pki(command)) => pki::run(&settled, command),
         Some(Command::Clients(command)) => clients::run(&settled, command),
         Some(Command::Log(command)) => log::run(&settled, command),
         Some(Command::ExportSettings(args)) => settings_transfer::export(&settled, &args),
