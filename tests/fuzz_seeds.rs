@@ -92,6 +92,9 @@ fn the_seeds_are_what_the_readers_read() {
     for (file, bytes) in seeds(&corpus().join("pkcs12")) {
         assert!(opcua_configurator::pki::pkcs12_read(&bytes, readers::PASSWORD).is_ok(), "{file}");
     }
+    for (file, bytes) in seeds(&corpus().join("bundle")) {
+        assert!(opcua_configurator::pki::read_bundle(&bytes).is_ok(), "{file}");
+    }
     for (file, bytes) in seeds(&corpus().join("certificate_request")) {
         assert!(opcua_configurator::pki::Csr::from_any(&bytes).is_ok(), "{file}");
     }

@@ -57,22 +57,38 @@ pub enum ThemeChoice {
 #[serde(default)]
 pub struct WindowState {
     /// Inner size in points.
-    #[serde(serialize_with = "finite_size")]
+    #[serde(serialize_with = "real_size")]
     pub size: Option<(f32, f32)>,
     /// Column widths in points, by the column's key.
-    #[serde(serialize_with = "finite_values")]
+    #[serde(serialize_with = "real_widths")]
     pub columns: BTreeMap<String, f32>,
     /// The column sorted by, and whether ascending.
     pub sort: Option<(String, bool)>,
 }
 
-/// JSON has no word for what is not a number: it would be written as `null`, and the whole file taken for damaged.
-fn finite_size<S: Serializer>(size: &Option<(f32, f32)>, serializer: S) -> Result<S::Ok, S::Error> {
-    size.filter(|(width, height)| width.is_finite() && height.is_finite()).serialize(serializer)
+impl WindowState {
+    /// No screen is that large, in points: what goes beyond it, or is no number, was not measured on one.
+    const MAX_POINTS: f32 = 32_768.0;
+
+    fn is_length(points: f32) -> bool {
+        (0.0..=Self::MAX_POINTS).contains(&points)
+    }
+
+    /// Forgets what no window can have.
+    fn forget_nonsense(&mut self) {
+        self.size = self.size.filter(|(width, height)| Self::is_length(*width) && Self::is_length(*height));
+        self.columns.retain(|_, width| Self::is_length(*width));
+    }
 }
 
-fn finite_values<S: Serializer>(values: &BTreeMap<String, f32>, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_map(values.iter().filter(|(_, value)| value.is_finite()))
+/// JSON has no word for what is not a number: it would be written as `null`, and the whole file taken for damaged.
+fn real_size<S: Serializer>(size: &Option<(f32, f32)>, serializer: S) -> Result<S::Ok, S::Error> {
+    let is_length = WindowState::is_length;
+    size.filter(|(width, height)| is_length(*width) && is_length(*height)).serialize(serializer)
+}
+
+fn real_widths<S: Serializer>(values: &BTreeMap<String, f32>, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(values.iter().filter(|(_, width)| WindowState::is_length(**width)))
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -114,6 +130,7 @@ impl Configuration {
             return Err(format!("version {} is not one this program knows", configuration.version));
         }
         configuration.options.parallelism = configuration.options.parallelism.clamp(1, MAX_PARALLELISM);
+        configuration.options.window.forget_nonsense();
         Ok(configuration)
     }
 
@@ -175,6 +192,16 @@ mod tests {
         assert_eq!(read.options.window.size, None);
         assert_eq!(read.options.window.columns, BTreeMap::from([("name".to_owned(), 80.0)]));
         assert_eq!(read.controllers, configuration.controllers);
+    }
+
+    #[test]
+    fn a_length_no_screen_has_is_forgotten() {
+        for nonsense in ["1e39", "-1e39", "-1.0", "40000"] {
+            let window = format!(r#"{{"size":[{nonsense},600.0],"columns":{{"name":{nonsense},"status":80.0}}}}"#);
+            let json = format!(r#"{{"version":1,"options":{{"window":{window}}}}}"#);
+            let read = Configuration::from_json(json.as_bytes()).unwrap().options.window;
+            assert_eq!((read.size, read.columns), (None, BTreeMap::from([("status".to_owned(), 80.0)])), "{nonsense}");
+        }
     }
 
     #[test]

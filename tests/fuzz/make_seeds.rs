@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
+use base64::Engine as _;
 use chrono::{DateTime, Utc};
 use opcua_configurator::model::{
     CertificateType, ControllerSeries, CsrRequest, ErrorCode, FirmwareVersion, KeyLength, Problem, SelfSignedRequest,
@@ -37,6 +38,7 @@ pub fn write(corpus: &Path) {
     seeds.configuration();
     seeds.certificates();
     seeds.keys();
+    seeds.trust();
     seeds.messages();
     seeds.controller_state();
 }
@@ -195,6 +197,43 @@ impl Seeds<'_> {
         }
     }
 
+    /// A root, an authority below it, whom that one lets in, and whom it does not any more.
+    fn trust(&self) {
+        let key = || PrivateKey::generate(KeyLength::Rsa2048).expect("a key");
+        let (root, between) = (Authority::new("Root", key(), None), key());
+        let between = Authority::new("Plant CA", between, Some(&root));
+        let (client, revoked) = (between.client(&key(), 5), between.client(&key(), 6));
+        let lists = [root.revocation_list(9), between.revocation_list(6)];
+        let certificates = [&client[..], &between.der, &root.der];
+
+        self.seed("revocation_list", "one-entry", &lists[1]);
+        let both = [certificates.concat(), lists.concat()].concat();
+        self.seed("bundle", "der", &both);
+        let pem = |kind: &str, der: &[u8]| {
+            let body = base64::engine::general_purpose::STANDARD.encode(der);
+            let lines: Vec<&str> = (0..body.len()).step_by(64).map(|at| &body[at..body.len().min(at + 64)]).collect();
+            format!("-----BEGIN {kind}-----\n{}\n-----END {kind}-----\n", lines.join("\n"))
+        };
+        self.seed("bundle", "pem", pem("CERTIFICATE", &root.der) + "between\n" + &pem("X509 CRL", &lists[0]));
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let text = pem("CERTIFICATE", &root.der) + &pem("CERTIFICATE", &client) + &pem("X509 CRL", &lists[0]);
+        fs::write(folder.path().join("crl.pem"), pem("X509 CRL", &lists[0])).expect("a file");
+        fs::write(folder.path().join("all.pem"), text).expect("a file");
+        let mut command = Command::new("openssl");
+        command.current_dir(folder.path()).args(["crl2pkcs7", "-in", "crl.pem", "-certfile", "all.pem"]);
+        let output = command.args(["-outform", "DER"]).output().expect("OpenSSL is installed");
+        assert!(output.status.success());
+        self.seed("bundle", "p7b", output.stdout);
+
+        for (name, bits) in [("root-trusted", [2, 1, 0, 0]), ("sent", [2, 0, 1, 0x40]), ("lax", [1, 0, 0, 0x3f])] {
+            self.seed("trust", name, [&bits[..], &both].concat());
+        }
+        let of_revoked = [&revoked[..], &between.der, &root.der, &lists[0], &lists[1]].concat();
+        self.seed("trust", "revoked", [&[2, 1, 0, 0][..], &of_revoked].concat());
+        let alone = self.made.certificate.der();
+        self.seed("trust", "self-signed", [&[1, 0, 0, 0x80][..], alone].concat());
+    }
+
     fn messages(&self) {
         let Made { now, certificate, csr, subject, .. } = &self.made;
         let seed = |name: &str, json: String| self.seed("management_message", name, json);
@@ -312,6 +351,59 @@ impl Seeds<'_> {
         let store = Store::open(folder.path(), Faults::default()).expect("a folder");
         store.save(&current).expect("a file");
         self.seed("controller_state", "file", fs::read(folder.path().join("controller.state")).expect("the file"));
+    }
+}
+
+/// Who signs for others.
+struct Authority {
+    der: Vec<u8>,
+    issuer: rcgen::Issuer<'static, PrivateKey>,
+}
+
+impl Authority {
+    fn new(name: &str, key: PrivateKey, above: Option<&Self>) -> Self {
+        let mut params = rcgen::CertificateParams::default();
+        params.distinguished_name = rcgen::DistinguishedName::new();
+        params.distinguished_name.push(rcgen::DnType::CommonName, name);
+        params.is_ca = rcgen::IsCa::Ca(rcgen::BasicConstraints::Unconstrained);
+        params.key_usages = vec![rcgen::KeyUsagePurpose::KeyCertSign, rcgen::KeyUsagePurpose::CrlSign];
+        params.use_authority_key_identifier_extension = true;
+        let made = match above {
+            Some(above) => params.signed_by(&key, &above.issuer),
+            None => params.self_signed(&key),
+        };
+        let der = made.expect("a certificate").der().to_vec();
+        Self { der, issuer: rcgen::Issuer::new(params, key) }
+    }
+
+    fn client(&self, key: &PrivateKey, serial: u64) -> Vec<u8> {
+        use rcgen::KeyUsagePurpose::{ContentCommitment, DataEncipherment, DigitalSignature, KeyEncipherment};
+        let mut params = rcgen::CertificateParams::default();
+        params.distinguished_name.push(rcgen::DnType::CommonName, "client");
+        params.serial_number = Some(serial.into());
+        params.key_usages = vec![DigitalSignature, ContentCommitment, KeyEncipherment, DataEncipherment];
+        params.extended_key_usages = vec![rcgen::ExtendedKeyUsagePurpose::ClientAuth];
+        params.use_authority_key_identifier_extension = true;
+        params.signed_by(key, &self.issuer).expect("a certificate").der().to_vec()
+    }
+
+    fn revocation_list(&self, serial: u64) -> Vec<u8> {
+        let time = |seconds| time::OffsetDateTime::from_unix_timestamp(seconds).expect("a time");
+        let revoked = rcgen::RevokedCertParams {
+            serial_number: serial.into(),
+            revocation_time: time(1_899_000_000),
+            reason_code: Some(rcgen::RevocationReason::KeyCompromise),
+            invalidity_date: None,
+        };
+        let params = rcgen::CertificateRevocationListParams {
+            this_update: time(1_899_900_000),
+            next_update: time(1_900_900_000),
+            crl_number: 7_u64.into(),
+            issuing_distribution_point: None,
+            revoked_certs: vec![revoked],
+            key_identifier_method: rcgen::KeyIdMethod::Sha256,
+        };
+        params.signed_by(&self.issuer).expect("a revocation list").der().to_vec()
     }
 }
 

@@ -9,6 +9,7 @@ mod keys;
 mod lists;
 mod messages;
 mod names;
+mod trust;
 mod workspace;
 
 pub use certificates::{certificate, certificate_request};
@@ -17,6 +18,7 @@ pub use keys::{key_and_certificate, pkcs12, private_key};
 pub use lists::{activation_file, connection_list};
 pub use messages::{management_message, settings_export};
 pub use names::names;
+pub use trust::{bundle, revocation_list, trust};
 pub use workspace::configuration;
 
 /// Panics if the reader does what it must not.
@@ -25,6 +27,7 @@ pub type Target = fn(&[u8]);
 /// Every target, by the name of its fuzz target and of its folder in `corpus/`.
 pub const TARGETS: &[(&str, Target)] = &[
     ("activation_file", activation_file),
+    ("bundle", bundle),
     ("certificate", certificate),
     ("certificate_request", certificate_request),
     ("configuration", configuration),
@@ -35,7 +38,9 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("names", names),
     ("pkcs12", pkcs12),
     ("private_key", private_key),
+    ("revocation_list", revocation_list),
     ("settings_export", settings_export),
+    ("trust", trust),
 ];
 
 /// What the encrypted seeds are encrypted with.
