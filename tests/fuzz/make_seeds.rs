@@ -7,15 +7,15 @@ use std::process::Command;
 use base64::Engine as _;
 use chrono::{DateTime, Utc};
 use opcua_configurator::model::{
-    CertificateType, ControllerSeries, CsrRequest, ErrorCode, FirmwareVersion, KeyLength, Problem, SelfSignedRequest,
-    ServerSettings, ServerStatus, Subject, Validity,
+    CertificateType, ClientList, ControllerSeries, CsrRequest, ErrorCode, FirmwareVersion, KeyLength, Problem,
+    SelfSignedRequest, ServerSettings, ServerStatus, Subject, Validity,
 };
 use opcua_configurator::pki::{Certificate, Csr, PrivateKey, ServerNames, make_csr, self_signed, tls_identity};
 use opcua_configurator::protocol::{
-    Activate, AddClients, AddUser, Base64Bytes, Changed, CsrMade, ExportContent, ExportSettings, ExportedUser, Failure,
+    Activate, AddUser, Base64Bytes, Changed, CsrMade, EditTrust, ExportContent, ExportSettings, ExportedUser, Failure,
     HeldCertificate, HeldCertificates, Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed,
     ListedCertificate, LogChunk, Login, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, Session,
-    SetSettings, SettingsExport, WireSecret,
+    SetSettings, SettingsExport, TrustStep, WireSecret,
 };
 use opcua_configurator::virtual_controller::{
     Faults, Identity, KeyPair, Listed, PendingCsr, SecretBytes, State, Store, demo_keys, hash_connection_password,
@@ -283,7 +283,19 @@ impl Seeds<'_> {
             "make-csr": MakeCsr { revision, request: CsrRequest { subject: subject.clone(), key_length } },
             "import-csr": ImportCsr { revision, csr: der(), pkcs12: pkcs12(), password: secret() },
             "import-ca-signed": ImportCaSigned { revision, certificate: der() },
-            "add-clients": AddClients { revision, certificates: vec![("client.der".into(), der())] },
+            "edit-trust": EditTrust {
+                revision,
+                steps: vec![
+                    TrustStep::Add { list: ClientList::Trusted, certificates: vec![("client.der".into(), der())] },
+                    TrustStep::Move {
+                        from: ClientList::Trusted,
+                        to: ClientList::Rejected,
+                        thumbprints: vec![certificate.thumbprint_sha1()],
+                    },
+                    TrustStep::AddCrls { crls: vec![("ca.crl".into(), der())] },
+                    TrustStep::RemoveCrls { ids: vec![certificate.thumbprint_sha1()] },
+                ],
+            },
             "activate": Activate { revision, licence: keys.licence, activation: keys.activation },
             "export-settings": ExportSettings { passphrase: secret() },
             "import-settings": ImportSettings { revision, export, passphrase: secret() },
@@ -330,6 +342,7 @@ impl Seeds<'_> {
             selected: CertificateType::UserSpecified,
             trusted: vec![listed()],
             issuers: Vec::new(),
+            crls: Vec::new(),
             used_ports: vec![2001, 5000],
             revision: 7,
         };

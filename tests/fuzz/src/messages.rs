@@ -1,6 +1,6 @@
 use opcua_configurator::model::{ControllerInfo, Problem, ServerSettings, UserName};
 use opcua_configurator::protocol::{
-    Activate, AddClients, AddUser, Changed, CsrMade, ExportContent, ExportSettings, Failure, HeldCertificates, Hello,
+    Activate, AddUser, Changed, CsrMade, EditTrust, ExportContent, ExportSettings, Failure, HeldCertificates, Hello,
     ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, Login,
     MAX_EXPORT_BYTES, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, Session, SetSettings,
     SettingsExport,
@@ -21,7 +21,7 @@ pub fn management_message(bytes: &[u8]) {
     request::<MakeCsr>(bytes, |_| vec![]);
     request::<ImportCsr>(bytes, |m| vec![m.password.expose().to_owned()]);
     request::<ImportCaSigned>(bytes, |_| vec![]);
-    request::<AddClients>(bytes, |_| vec![]);
+    request::<EditTrust>(bytes, |_| vec![]);
     request::<Activate>(bytes, |m| vec![m.licence.to_string(), m.activation.to_string()]);
     request::<ExportSettings>(bytes, |m| vec![m.passphrase.expose().to_owned()]);
     request::<ImportSettings>(bytes, |m| vec![m.passphrase.expose().to_owned()]);
