@@ -194,6 +194,11 @@ impl Gate {
         Ok(Some((hello, server)))
     }
 
+    #[cfg(test)]
+    pub(in super::super) fn server(&self) -> SocketAddr {
+        self.server
+    }
+
     pub(in super::super) fn pki(&self) -> &PkiFolder {
         &self.pki
     }
