@@ -401,3 +401,7 @@ fn unproven(leaf: &Certificate) -> String {
 }
 
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;
