@@ -6,6 +6,7 @@
 mod activate;
 mod backup;
 mod batch;
+mod ca;
 mod cert;
 mod clients;
 mod controllers;
@@ -102,6 +103,9 @@ enum Command {
     /// Look into certificate files, and check certificates without a controller
     #[command(subcommand)]
     Pki(pki::PkiCommand),
+    /// The small CA of the workspace: create it, sign with it, revoke, publish its CRL, back it up
+    #[command(subcommand)]
+    Ca(ca::CaCommand),
     /// List and add trusted client certificates
     #[command(subcommand)]
     Clients(clients::ClientsCommand),
@@ -168,6 +172,7 @@ pub fn main() -> ExitCode {
         Some(Command::Users(command)) => users::run(&settled, command),
         Some(Command::Cert(command)) => cert::run(&settled, command),
         Some(Command::Pki(command)) => pki::run(&settled, command),
+        Some(Command::Ca(command)) => ca::run(&settled, command),
         Some(Command::Clients(command)) => clients::run(&settled, command),
         Some(Command::Log(command)) => log::run(&settled, command),
         Some(Command::ExportSettings(args)) => settings_transfer::export(&settled, &args),

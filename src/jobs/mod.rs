@@ -12,6 +12,7 @@
 //! | `self_signed` | make and install a self-signed certificate |
 //! | `create_csr` | make a key and its certificate signing request |
 //! | `import_ca` | check and import what a CA issued for that |
+//! | `sign_csrs` | have the small CA sign what controllers ask for, and import it |
 //! | `import_user` | check and import key and certificate made with another tool |
 //! | `preflight` | what is looked at before such an import |
 //! | `select_certificate` | list the server certificates held, select one |
@@ -39,6 +40,7 @@ mod server_control;
 mod server_log;
 mod settings;
 mod settings_transfer;
+mod sign_csrs;
 mod users;
 
 pub use activate::{Activate, KeySource};
@@ -57,4 +59,5 @@ pub use server_control::{StartServer, StopServer};
 pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings};
+pub use sign_csrs::SignCsrs;
 pub use users::{AddUser, ListUsers, RemoveUsers};

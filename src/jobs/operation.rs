@@ -51,6 +51,7 @@ pub enum Step {
     Connect,
     Read,
     MakeKey,
+    Sign,
     Apply,
     SaveBackup,
 }
