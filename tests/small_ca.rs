@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
 
-use desk::{DONE, assert_error, program};
+use desk::{DONE, Desk, assert_error, program};
 use opcua_configurator::pki::{Certificate, Crl};
 use opcua_configurator::workspace::Workspace;
 use peers::OpenSsl;
@@ -392,4 +392,54 @@ fn a_ca_killed_at_any_moment_forgets_nothing() {
     let certificate = |path: &Path| Certificate::from_der(&fs::read(path).unwrap()).unwrap();
     assert!(crl("root.crl").verify_signed_by(&certificate(&office.ca_file("root.der"))));
     assert!(!serials.is_empty() || !office.ca_file("issued").exists());
+}
+
+#[test]
+fn controllers_get_ca_signed_certificates_in_one_command() {
+    let desk = Desk::with(3, &["--seed", "3", "--firmware", "mixed"]);
+    for (index, name) in ["weld", "paint", "glue"].into_iter().enumerate() {
+        assert_eq!(desk.add(index, name).0, Some(0));
+    }
+    let passphrase = desk.file("passphrase");
+    fs::write(&passphrase, PASSPHRASE).unwrap();
+    let ca = |arguments: &[&str]| desk.json(&[&["ca"], arguments, &["--passphrase-file", &passphrase]].concat());
+    assert_error(&ca(&["sign-controllers", "--yes", "--all"]).1, "no-authority");
+    assert_eq!(ca(&["init", "--cn", "Plant CA", "--bits", "2048"]).0, Some(0));
+    assert_error(&ca(&["sign-controllers", "--all"]).1, "not-confirmed");
+
+    let sign = |more: &[&str]| {
+        let (code, lines) = ca(&[&["sign-controllers", "--yes", "--organisation", "Example"], more].concat());
+        assert_eq!(code, Some(0), "{lines:?}");
+        lines
+    };
+    let issued = || desk.json(&["ca", "show"]).1[0]["result"]["issued"].as_array().unwrap().clone();
+    let first = sign(&["--all"]);
+    assert_eq!((first.len(), issued().len()), (3, 3));
+    for line in &first {
+        assert_eq!(line["result"]["certificate"]["issued_by"], "Plant CA");
+        assert_eq!(line["result"]["findings"], serde_json::json!([]), "{line}");
+        let serial = &line["result"]["certificate"]["serial_number"];
+        let entry = issued().into_iter().find(|issued| issued["serial_number"] == *serial).unwrap();
+        assert_eq!(entry["controller"]["name"], line["controller"]);
+    }
+    let (code, started) = desk.json(&["start", "--all"]);
+    assert_eq!(code, Some(0), "{started:?}");
+
+    // Once more changes nothing, neither in the CA nor in the controllers.
+    let revisions =
+        |lines: Vec<Value>| lines.into_iter().map(|line| line["result"]["revision"].clone()).collect::<Vec<_>>();
+    let before = revisions(desk.json(&["info", "--all"]).1);
+    let certificates =
+        |lines: &[Value]| -> Vec<_> { lines.iter().map(|l| l["result"]["certificate"].clone()).collect() };
+    assert_eq!(certificates(&sign(&["--all"])), certificates(&first));
+    assert_eq!((issued().len(), revisions(desk.json(&["info", "--all"]).1)), (3, before));
+
+    // A renewal is another certificate for the same key, a new key another request.
+    let renewed = sign(&["--renew", "weld"]);
+    let renewed = &renewed[0]["result"]["certificate"]["thumbprint"];
+    let rekeyed = sign(&["--new-key", "paint"]);
+    let keys: BTreeSet<String> = issued().iter().map(|issued| issued["key"].as_str().unwrap().to_owned()).collect();
+    assert_eq!((issued().len(), keys.len()), (5, 4));
+    assert_eq!(rekeyed[0]["result"]["status"], "Run", "the server runs on with the new certificate");
+    assert_eq!(issued()[3]["thumbprint"], *renewed);
 }
