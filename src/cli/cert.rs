@@ -171,7 +171,7 @@ const CSR: Presentation = Presentation {
     },
 };
 
-const IMPORTED: Presentation = Presentation {
+pub const IMPORTED: Presentation = Presentation {
     header: &["STATUS", "ISSUED TO", "ISSUED BY", "EXPIRY", "THUMBPRINT", "WARNINGS"],
     show: |outcome, info| {
         let Outcome::Imported { summary, findings } = outcome else {

@@ -6,6 +6,7 @@
 mod activate;
 mod backup;
 mod batch;
+mod ca;
 mod cert;
 mod clients;
 mod controllers;
@@ -104,6 +105,9 @@ enum Command {
     /// Look into certificate files, and check certificates without a controller
     #[command(subcommand)]
     Pki(pki::PkiCommand),
+    /// The small CA of the workspace: create it, sign with it, revoke, publish its CRL, back it up
+    #[command(subcommand)]
+    Ca(ca::CaCommand),
     /// List, add, trust and remove the certificates of clients and authorities
     #[command(subcommand)]
     Clients(clients::ClientsCommand),
@@ -173,6 +177,7 @@ pub fn main() -> ExitCode {
         Some(Command::Users(command)) => users::run(&settled, command),
         Some(Command::Cert(command)) => cert::run(&settled, command),
         Some(Command::Pki(command)) => pki::run(&settled, command),
+        Some(Command::Ca(command)) => ca::run(&settled, command),
         Some(Command::Clients(command)) => clients::run(&settled, command),
         Some(Command::Crl(command)) => crl::run(&settled, command),
         Some(Command::Log(command)) => log::run(&settled, command),

@@ -39,6 +39,27 @@ impl Output {
         line(&json!({ "controller": controller, "ok": false, "error": self.error(problem) }).to_string());
     }
 
+    /// The same about something that is no controller: with `--json`, or as text and an explanation.
+    pub fn settled(self, what: &str, name: &str, result: &Result<(Value, String), Problem>) {
+        match result {
+            Ok((result, _)) if self.json => line(&json!({ what: name, "ok": true, "result": result }).to_string()),
+            Err(problem) if self.json => {
+                line(&json!({ what: name, "ok": false, "error": self.error(problem) }).to_string());
+            }
+            Ok((_, text)) => self.text(text),
+            Err(problem) => self.explain(Some(name), problem),
+        }
+    }
+
+    /// What a command that is about one thing only has done: `{"ok":true,"result"}`, or as text.
+    pub fn finished(self, result: &Value, text: &str) {
+        if self.json {
+            line(&json!({ "ok": true, "result": result }).to_string());
+        } else {
+            self.text(text);
+        }
+    }
+
     fn error(self, problem: &Problem) -> Value {
         let explained = problem.code.explain(self.language);
         let mut error = json!({

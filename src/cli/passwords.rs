@@ -1,7 +1,7 @@
-use std::io::Read as _;
+use std::io::{IsTerminal as _, Read as _};
 use std::path::Path;
 
-use secrecy::SecretString;
+use secrecy::{ExposeSecret as _, SecretString};
 
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Fingerprint;
@@ -25,6 +25,27 @@ pub fn read_secret(path: &Path) -> Result<SecretString, Problem> {
         return Err(unreadable(&"too long for a password"));
     }
     Ok(SecretString::from(text.lines().next().unwrap_or_default()))
+}
+
+/// The passphrase of the small CA: from a file, or asked for on the terminal, twice where it is chosen.
+pub fn ca_passphrase(file: Option<&Path>, chosen: bool) -> Result<SecretString, Problem> {
+    if let Some(file) = file {
+        return read_secret(file);
+    }
+    let terminal = console::Term::stderr();
+    if !terminal.is_term() || !std::io::stdin().is_terminal() {
+        let detail = "there is no terminal to ask for it; name a file with --passphrase-file";
+        return Err(Problem::with_detail(ErrorCode::AuthorityPassphrase, detail));
+    }
+    let ask = |question: &str| {
+        eprint!("{question}: ");
+        terminal.read_secure_line().map(SecretString::from).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))
+    };
+    let passphrase = ask("Passphrase of the CA")?;
+    if chosen && ask("The same again")?.expose_secret() != passphrase.expose_secret() {
+        return Err(Problem::with_detail(ErrorCode::AuthorityPassphrase, "the two differ"));
+    }
+    Ok(passphrase)
 }
 
 /// One connection password for every controller of this command, or the keyring.

@@ -6,7 +6,7 @@ use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
 use crate::model::{ControllerInfo, CsrRequest, FileFormat, FirmwareGeneration, KeyLength, Problem, Subject};
 use crate::pki::{self, Csr, PkiError, PrivateKey};
 use crate::protocol::{Base64Bytes, CsrMade, ImportCsr, MakeCsr, WireSecret};
-use crate::workspace::CertificateFiles;
+use crate::workspace::{CertificateFiles, SavedCsr};
 
 /// The fields of the CSR dialog (manual 2.7.1.5).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -63,6 +63,14 @@ impl Operation for CreateCsr {
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
+        let (csr, saved) = self.make(run, &info).await?;
+        Ok(Outcome::Csr { common_name: csr.common_name().unwrap_or_default().to_owned(), saved })
+    }
+}
+
+impl CreateCsr {
+    /// What the operation does once it knows the controller.
+    pub(super) async fn make(&self, run: &mut Run<'_>, info: &ControllerInfo) -> Result<(Csr, SavedCsr), Problem> {
         let settings = run.session.settings().await?;
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
@@ -70,7 +78,7 @@ impl Operation for CreateCsr {
         let (files, serial, with_key) = (self.files.clone(), info.serial.clone(), self.backup && legacy);
         run.off_thread(move || Ok(files.check_csr_writable(&serial, with_key)?)).await?;
         let (made, key) = if legacy {
-            let (made, key) = make_and_send(run, &info, request).await?;
+            let (made, key) = make_and_send(run, info, request).await?;
             (made, Some(key))
         } else {
             run.begin(Step::Apply)?;
@@ -79,11 +87,10 @@ impl Operation for CreateCsr {
         let csr = Csr::from_der(&made.csr.0)?;
         // Saved also after a cancel: the controller holds it by now.
         (run.on_step)(Step::SaveBackup);
-        let common_name = csr.common_name().unwrap_or_default().to_owned();
-        let (files, serial, password) = (self.files.clone(), info.serial, run.password.clone());
-        let (format, key) = (self.format, key.filter(|_| self.backup));
-        let save = move || files.save_csr(&serial, &csr, format, key.as_ref().map(|key| (key, &password)));
-        Ok(Outcome::Csr { common_name, saved: run.off_thread(save).await? })
+        let (files, serial, password) = (self.files.clone(), info.serial.clone(), run.password.clone());
+        let (format, key, saving) = (self.format, key.filter(|_| self.backup), csr.clone());
+        let save = move || files.save_csr(&serial, &saving, format, key.as_ref().map(|key| (key, &password)));
+        Ok((csr, run.off_thread(save).await?))
     }
 }
 

@@ -12,6 +12,7 @@
 //! | `self_signed` | make and install a self-signed certificate |
 //! | `create_csr` | make a key and its certificate signing request |
 //! | `import_ca` | check and import what a CA issued for that |
+//! | `sign_csrs` | have the small CA sign what controllers ask for, and import it |
 //! | `import_user` | check and import key and certificate made with another tool |
 //! | `preflight` | what is looked at before such an import |
 //! | `select_certificate` | list the server certificates held, select one |
@@ -39,6 +40,7 @@ mod server_log;
 mod settings;
 mod settings_transfer;
 mod trust;
+mod sign_csrs;
 mod users;
 
 pub use activate::{Activate, KeySource};
@@ -61,4 +63,5 @@ pub use trust::{
     Thing, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust, WATCH_INTERVAL, WatchEvent,
     watch_trust,
 };
+pub use sign_csrs::SignCsrs;
 pub use users::{AddUser, ListUsers, RemoveUsers};

@@ -53,6 +53,7 @@ pub enum Step {
     Connect,
     Read,
     MakeKey,
+    Sign,
     Apply,
     SaveBackup,
 }

@@ -17,7 +17,8 @@ pub(super) fn create_folder(path: &Path) -> Result<(), WorkspaceError> {
 ///
 /// The file is readable by its owner only (0600); missing folders are made.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), WorkspaceError> {
-    let folder = path.parent().unwrap_or(Path::new("."));
+    // A bare name is in the current folder.
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     create_folder(folder)?;
     let failed = |e| WorkspaceError::writing(path, e);
     // `tempfile` makes it 0600, and removes it if anything below fails.

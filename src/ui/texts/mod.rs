@@ -212,6 +212,7 @@ texts! {
     StepConnect: "Connecting", "正在连接";
     StepRead: "Reading", "正在读取";
     StepMakeKey: "Making key", "正在生成密钥";
+    StepSign: "Signing", "正在签发";
     StepApply: "Applying", "正在应用";
     StepSaveBackup: "Saving files", "正在保存文件";
     Completed: "Completed", "处理完成";

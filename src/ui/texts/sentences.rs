@@ -310,6 +310,7 @@ pub const fn step(step: Step) -> T {
         Step::Connect => T::StepConnect,
         Step::Read => T::StepRead,
         Step::MakeKey => T::StepMakeKey,
+        Step::Sign => T::StepSign,
         Step::Apply => T::StepApply,
         Step::SaveBackup => T::StepSaveBackup,
     }

@@ -64,6 +64,11 @@ impl AuthorityFiles {
         self.database_path().exists()
     }
 
+    /// Refuses if there is a CA.
+    pub fn check_absent(&self) -> Result<(), AuthorityError> {
+        if self.exist() { Err(AuthorityError::Exists(self.database_path())) } else { Ok(()) }
+    }
+
     /// Makes a CA, with an empty CRL. Slow: makes one key or two.
     pub fn create(
         &self,
@@ -125,10 +130,9 @@ impl AuthorityFiles {
 
     /// The lock, if there is no CA yet.
     pub(super) fn lock_absent(&self) -> Result<WorkspaceLock, AuthorityError> {
+        self.check_absent()?;
         let lock = lock_folder(&self.folder)?;
-        if self.exist() {
-            return Err(AuthorityError::Exists(self.database_path()));
-        }
+        self.check_absent()?;
         Ok(lock)
     }
 

@@ -1,0 +1,92 @@
+use std::path::Path;
+
+use chrono::{DateTime, Utc};
+use serde_json::{Value, json};
+
+use crate::cli::table::table;
+use crate::cli::{Ending, Settled};
+use crate::model::Problem;
+use crate::workspace::authority::{AuthorityOverview, IssuedCertificate, PublishedAuthority};
+
+pub fn run(settled: &Settled) -> Result<Ending, Problem> {
+    let overview = settled.workspace.authority().overview()?;
+    settled.output.finished(&json(&overview), &text(&overview));
+    Ok(Ending::AllDone)
+}
+
+pub fn json(overview: &AuthorityOverview) -> Value {
+    let now = Utc::now();
+    let authority = |name: &str, ca: &PublishedAuthority| {
+        json!({
+            "certificate": ca.summary,
+            "file": overview.folder.join(format!("{name}.der")),
+            "valid": (ca.certificate.not_before()..=ca.certificate.not_after()).contains(&now),
+            "crl": crl(&overview.folder, name, ca),
+        })
+    };
+    json!({
+        "folder": overview.folder,
+        "ca": authority("ca", &overview.signing),
+        "root": overview.root.as_ref().map(|root| authority("root", root)),
+        "issued": overview.issued.iter().map(|issued| entry(issued, now)).collect::<Vec<_>>(),
+    })
+}
+
+/// The CRL of a CA, as JSON.
+pub fn crl(folder: &Path, name: &str, ca: &PublishedAuthority) -> Value {
+    let mut json = json!(ca.crl.summary());
+    json["file"] = json!(folder.join(format!("{name}.crl")));
+    json["expired"] = json!(ca.crl.next_update().is_none_or(|next| next < Utc::now()));
+    json
+}
+
+fn entry(issued: &IssuedCertificate, now: DateTime<Utc>) -> Value {
+    let mut json = json!(issued);
+    json["status"] = json!(issued.state(now));
+    json
+}
+
+pub fn text(overview: &AuthorityOverview) -> String {
+    let now = Utc::now();
+    let date = |at: DateTime<Utc>| at.format("%Y-%m-%d").to_string();
+    let authorities: Vec<Vec<String>> = std::iter::once(&overview.signing)
+        .chain(&overview.root)
+        .map(|ca| {
+            let next = ca.crl.next_update();
+            vec![
+                ca.summary.issued_to.clone(),
+                ca.summary.issued_by.clone(),
+                date(ca.summary.not_after),
+                ca.summary.key_bits.to_string(),
+                ca.crl.summary().entries.to_string(),
+                ca.crl_number.to_string(),
+                next.map(date).unwrap_or_default(),
+            ]
+        })
+        .collect();
+    let header = ["CA", "ISSUED BY", "EXPIRY", "BITS", "REVOKED", "CRL NUMBER", "NEXT CRL BY"];
+    let mut text = format!("{}\n\n{}", overview.folder.display(), table(&header, &authorities));
+    if !overview.issued.is_empty() {
+        let rows: Vec<Vec<String>> = overview
+            .issued
+            .iter()
+            .map(|issued| {
+                let state = match issued.revoked {
+                    Some(revocation) => format!("revoked ({})", revocation.reason.as_str()),
+                    None => issued.state(now).as_str().to_owned(),
+                };
+                vec![
+                    issued.serial_number.clone(),
+                    issued.issued_to.clone(),
+                    issued.profile.as_str().to_owned(),
+                    state,
+                    date(issued.not_after),
+                    issued.controller.as_ref().map(|c| c.name.to_string()).unwrap_or_default(),
+                ]
+            })
+            .collect();
+        text.push('\n');
+        text.push_str(&table(&["SERIAL NUMBER", "ISSUED TO", "PROFILE", "STATUS", "EXPIRY", "CONTROLLER"], &rows));
+    }
+    text
+}

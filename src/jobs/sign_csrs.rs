@@ -1,0 +1,125 @@
+use std::sync::Arc;
+
+use async_trait::async_trait;
+use chrono::Utc;
+use parking_lot::Mutex;
+
+use super::{Confirmation, CreateCsr, JobController, Operation, Outcome, Run, Step, preflight};
+use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, Validity};
+use crate::pki::{Certificate, Csr, IssueRequest};
+use crate::protocol::{Base64Bytes, ImportCaSigned};
+use crate::workspace::authority::{Authority, Drafted, IssuedFor};
+
+/// Has the small CA sign what each controller asks for, and imports and selects the certificate: from whatever a
+/// controller has to a CA-signed server certificate in one operation.
+///
+/// The signing request is the one the controller holds; one is made where there is none. What is signed is looked at
+/// as [`ImportCaCertificate`](super::ImportCaCertificate) does before the CA writes it down or anything is sent. A
+/// request that was signed before, and whose certificate is still valid, gets that certificate: after a failure the
+/// operation can simply be repeated. A controller that uses it already is left alone.
+#[derive(Debug, Clone)]
+pub struct SignCsrs {
+    pub authority: Arc<Mutex<Authority>>,
+    /// How a controller is asked for a signing request.
+    pub request: CreateCsr,
+    /// Make a new key and request even where there is a request.
+    pub new_key: bool,
+    /// Sign again what was signed before.
+    pub renew: bool,
+    pub validity: Validity,
+    /// See [`IssueRequest::allow_short_keys`].
+    pub allow_short_keys: bool,
+    /// Import although some clients may complain. Otherwise that is
+    /// [`ErrorCode::PreflightWarnings`](crate::model::ErrorCode::PreflightWarnings).
+    pub accept_warnings: bool,
+}
+
+/// Where the certificate for a request comes from.
+enum Signed {
+    Before(Certificate),
+    Now(Drafted),
+}
+
+impl Signed {
+    const fn certificate(&self) -> &Certificate {
+        match self {
+            Self::Before(certificate) => certificate,
+            Self::Now(drafted) => drafted.certificate(),
+        }
+    }
+}
+
+#[async_trait]
+impl Operation for SignCsrs {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation {
+            stops_server: true,
+            replaces_certificate: true,
+            invalidates_ca_signed: self.new_key,
+            overwrites_files: self.new_key,
+            ..Confirmation::default()
+        })
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        self.request.check(controller)
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let info = run.session.info().await?;
+        let held = run.session.certificates().await?.value;
+        let csr = match &held.csr {
+            Some(csr) if !self.new_key => Csr::from_der(&csr.0)?,
+            _ => self.request.make(run, &info).await?.0,
+        };
+        run.begin(Step::Sign)?;
+        let signed = self.sign(run, csr).await?;
+        let certificate = signed.certificate().clone();
+        let findings = preflight::admit(run, &info, &certificate, self.accept_warnings).await?;
+        self.record(run, signed, &info).await?;
+        let in_use =
+            held.selected == CertificateType::CaSigned && held.of(CertificateType::CaSigned) == Some(certificate.der());
+        if !in_use {
+            run.begin(Step::Apply)?;
+            // Another one than above, if a request was made.
+            let revision = run.session.info().await?.revision;
+            let change = ImportCaSigned { revision, certificate: Base64Bytes(certificate.der().to_vec()) };
+            run.session.import_ca_signed(change).await?;
+        }
+        Ok(Outcome::Imported { summary: certificate.summary(), findings })
+    }
+}
+
+impl SignCsrs {
+    async fn sign(&self, run: &Run<'_>, csr: Csr) -> Result<Signed, Problem> {
+        let request = IssueRequest {
+            profile: CertificateProfile::Server,
+            validity: self.validity,
+            names: None,
+            allow_short_keys: self.allow_short_keys,
+        };
+        let (authority, renew) = (self.authority.clone(), self.renew);
+        run.off_thread(move || {
+            let (authority, now) = (authority.lock(), Utc::now());
+            let before = if renew { None } else { authority.valid_for(&csr, now) };
+            // One whose file is missing was never given to anybody.
+            match before.and_then(|issued| authority.files().issued(&issued.serial_number).ok()) {
+                Some(certificate) => Ok(Signed::Before(certificate)),
+                None => Ok(Signed::Now(authority.draft(&csr, &request, now)?)),
+            }
+        })
+        .await
+    }
+
+    async fn record(&self, run: &Run<'_>, signed: Signed, info: &ControllerInfo) -> Result<(), Problem> {
+        let Signed::Now(drafted) = signed else { return Ok(()) };
+        let controller = IssuedFor { name: run.controller.name.clone(), serial: info.serial.clone() };
+        let authority = self.authority.clone();
+        run.off_thread(move || {
+            authority.lock().record(drafted, Some(controller), Utc::now())?;
+            Ok(())
+        })
+        .await
+    }
+}
