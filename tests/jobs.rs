@@ -137,7 +137,10 @@ async fn a_connection_lost_before_the_change_leaves_the_controller_as_it_was() {
     plant.run(StartServer).await;
     let before = plant.controller(0).info();
     plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::BeforeApply));
-    assert_eq!(codes(&plant.run(user("operator1")).await), [Some(ErrorCode::ConnectionLost)]);
+    let reports = plant.run(user("operator1")).await;
+    assert_eq!(codes(&reports), [Some(ErrorCode::ConnectionLost)]);
+    let detail = reports[0].result.as_ref().unwrap_err().detail.clone().unwrap();
+    assert!(detail.contains("not applied when it was read again"), "{detail}");
     let after = plant.controller(0).info();
     assert_eq!((after.revision, after.status), (before.revision, ServerStatus::Run));
     let users = plant.run(ListUsers).await;
@@ -150,7 +153,7 @@ async fn a_lost_answer_is_said_to_be_lost_and_the_row_shows_what_was_done() {
     let before = plant.controller(0).info().revision;
     plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
     let reports = plant.run(user("operator1")).await;
-    assert_eq!(codes(&reports), [Some(ErrorCode::ConnectionLost)]);
+    assert_eq!(codes(&reports), [Some(ErrorCode::AnswerLost)]);
     assert_eq!(reports[0].info.as_ref().map(|i| i.revision), Some(before + 1));
 }
 
