@@ -1,7 +1,7 @@
 //! The readers of bytes from outside, fed with the fuzzer's seeds and with damaged copies of them: what a fuzzer does
 //! for hours, in seconds, with the stable compiler and the same result every time.
 
-#[path = "fuzz/src/lib.rs"]
+#[path = "fuzz/src/readers/mod.rs"]
 mod readers;
 #[path = "fuzz/make_seeds.rs"]
 mod make_seeds;
