@@ -2,7 +2,7 @@
 //! shown is understood, and mistakes are found in the line they stand in.
 
 #[allow(dead_code, reason = "the seeds and the rest are for another story")]
-#[path = "fuzz/src/lib.rs"]
+#[path = "fuzz/src/readers/mod.rs"]
 mod readers;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -68,8 +68,8 @@ fn write(
 /// Reads a key and its certificates: first the one for the key, then the others in the order of the file.
 ///
 /// Takes the modern algorithms and the old ones of Windows and OpenSSL 1. Exactly one private key is expected. Blocks;
-/// how long is up to whoever wrote
-/// the file, within a million hashings of the password for each of its parts.
+/// how long is up to whoever wrote the file, within a million hashings of the password, or a gibibyte of scrypt, for
+/// each of its parts, and sixteen of these.
 pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Certificate>), PkiError> {
     let archive = open(bytes, password)?;
     let key = single_key(&archive)?;
@@ -153,11 +153,21 @@ fn check_outside(bytes: &[u8]) -> Result<bool, PkiError> {
     if !is_pkcs12(bytes) {
         return Err(PkiError::NotPkcs12);
     }
+    // Each is hashed for anew, and a small file has room for thousands.
+    if encrypted_parts(bytes) > MAX_ENCRYPTED_PARTS {
+        return Err(PkiError::UnsupportedPkcs12(TOO_OFTEN));
+    }
     let parts = match tlv::all(bytes).as_deref() {
         Some([whole]) => tlv::all(whole.content),
         _ => None,
     };
     Ok(parts.ok_or(PkiError::Damaged)?.len() == 3)
+}
+
+/// How many parts, of those that can be seen from outside, say that they are encrypted under the password.
+fn encrypted_parts(bytes: &[u8]) -> usize {
+    let starts = |oid: &[u8]| bytes.windows(oid.len()).filter(|window| *window == oid).count();
+    starts(PBES2) + starts(PKCS12_PBE)
 }
 
 fn reading(error: &Error, has_mac: bool) -> PkiError {
@@ -167,7 +177,7 @@ fn reading(error: &Error, has_mac: bool) -> PkiError {
         }
         Error::UnsupportedContentType => PkiError::UnsupportedPkcs12("it is not protected by a password"),
         Error::UnsupportedCertificateType => PkiError::UnsupportedPkcs12("it holds a certificate that is not X.509"),
-        Error::InvalidParameters => PkiError::UnsupportedPkcs12("the password is to be hashed too often"),
+        Error::InvalidParameters => PkiError::UnsupportedPkcs12(TOO_OFTEN),
         Error::MacError(_) => PkiError::WrongPasswordOrDamaged,
         // The MAC was right, or not even reached.
         _ if has_mac => PkiError::Damaged,
@@ -175,6 +185,13 @@ fn reading(error: &Error, has_mac: bool) -> PkiError {
     }
 }
 
+/// A key and its certificates are two; each further key is one.
+const MAX_ENCRYPTED_PARTS: usize = 16;
+const TOO_OFTEN: &str = "the password is to be hashed too often";
+/// 1.2.840.113549.1.5.13
+const PBES2: &[u8] = &[0x06, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 5, 13];
+/// 1.2.840.113549.1.12.1, under which the encryptions of PKCS#12 itself stand.
+const PKCS12_PBE: &[u8] = &[0x06, 10, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 12, 1];
 const SEQUENCE: u8 = tlv::SEQUENCE;
 const VERSION_3: &[u8] = &[0x02, 0x01, 0x03];
 /// 1.2.840.113549.1.7.1
@@ -267,6 +284,14 @@ mod tests {
         assert!(matches!(pkcs12_read(&large, PASSWORD), Err(PkiError::TooLarge { .. })));
         let ber = [0x30, 0x80, 0x02, 0x01, 0x03];
         assert!(matches!(pkcs12_read(&ber, PASSWORD), Err(PkiError::UnsupportedPkcs12(_))));
+    }
+
+    #[test]
+    fn a_file_cannot_make_its_reader_hash_without_end() {
+        let keys = |count: usize| vec![(samples::legacy_key(), &[][..]); count];
+        let read = |count| pkcs12_read(&odd(&keys(count)), PASSWORD).err();
+        assert_eq!(read(MAX_ENCRYPTED_PARTS - 1), Some(PkiError::SeveralKeys(MAX_ENCRYPTED_PARTS - 1)));
+        assert_eq!(read(MAX_ENCRYPTED_PARTS + 1), Some(PkiError::UnsupportedPkcs12(TOO_OFTEN)));
     }
 
     #[test]

@@ -41,6 +41,7 @@ pub fn write(corpus: &Path) {
     seeds.trust();
     seeds.messages();
     seeds.controller_state();
+    seeds.everything();
 }
 
 struct Seeds<'a> {
@@ -310,6 +311,23 @@ impl Seeds<'_> {
             "held": Revisioned { revision, value: held },
             "listed": Revisioned { revision, value: vec![listed] },
             "failure": failure,
+        }
+    }
+
+    /// One of every kind of file with keys and certificates.
+    fn everything(&self) {
+        for (target, name) in [
+            ("certificate", "der"),
+            ("certificate", "elliptic"),
+            ("certificate_request", "pem"),
+            ("private_key", "pkcs1.der"),
+            ("private_key", "aes.pem"),
+            ("pkcs12", "modern.p12"),
+            ("bundle", "pem"),
+            ("bundle", "p7b"),
+        ] {
+            let file = self.corpus.join(target).join(format!("seed-{name}"));
+            self.seed("description", &format!("{target}-{name}"), fs::read(file).expect("a seed"));
         }
     }
 

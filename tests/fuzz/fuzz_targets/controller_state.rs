@@ -1,3 +1,3 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| opcua_configurator_fuzz::controller_state(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| opcua_configurator_fuzz::readers::controller_state(bytes));

@@ -1,3 +1,3 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| opcua_configurator_fuzz::key_and_certificate(bytes));
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| opcua_configurator_fuzz::readers::key_and_certificate(bytes));

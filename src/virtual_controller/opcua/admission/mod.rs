@@ -47,6 +47,8 @@ mod judge;
 mod limits;
 mod passage;
 mod plain;
+#[cfg(test)]
+mod properties;
 mod report;
 mod rewrap;
 mod upward;

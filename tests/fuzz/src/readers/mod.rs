@@ -1,0 +1,55 @@
+//! What every reader of bytes from outside has to hold, whatever the bytes are: one function a reader.
+//!
+//! The fuzzer calls one of [`TARGETS`] with bytes of its own making; the test `fuzz_seeds` of the main package, which
+//! compiles this very file, calls all of them with the seeds of `corpus/` and damaged copies of them.
+
+mod certificates;
+mod controller_state;
+mod describe;
+mod keys;
+mod lists;
+mod messages;
+mod names;
+mod trust;
+mod workspace;
+
+pub use certificates::{certificate, certificate_request};
+pub use controller_state::controller_state;
+pub use describe::description;
+pub use keys::{key_and_certificate, pkcs12, private_key};
+pub use lists::{activation_file, connection_list};
+pub use messages::{management_message, settings_export};
+pub use names::names;
+pub use trust::{bundle, revocation_list, trust};
+pub use workspace::configuration;
+
+/// Panics if the reader does what it must not.
+pub type Target = fn(&[u8]);
+
+/// Every target, by the name of its fuzz target and of its folder in `corpus/`.
+pub const TARGETS: &[(&str, Target)] = &[
+    ("activation_file", activation_file),
+    ("bundle", bundle),
+    ("certificate", certificate),
+    ("certificate_request", certificate_request),
+    ("configuration", configuration),
+    ("connection_list", connection_list),
+    ("controller_state", controller_state),
+    ("description", description),
+    ("key_and_certificate", key_and_certificate),
+    ("management_message", management_message),
+    ("names", names),
+    ("pkcs12", pkcs12),
+    ("private_key", private_key),
+    ("revocation_list", revocation_list),
+    ("settings_export", settings_export),
+    ("trust", trust),
+];
+
+/// What the encrypted seeds are encrypted with.
+pub const PASSWORD: &str = "fuzz";
+
+/// Text from a file or a peer ends up in lists, logs and terminals, and must not command them.
+fn assert_printable(text: &str) {
+    assert!(!text.chars().any(char::is_control), "{text:?}");
+}

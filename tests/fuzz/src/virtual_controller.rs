@@ -1,0 +1,14 @@
+//! As much of the virtual controller as reads files.
+
+#[path = "../../../src/virtual_controller/faults.rs"]
+mod faults;
+#[path = "../../../src/virtual_controller/secret_bytes.rs"]
+mod secret_bytes;
+#[path = "../../../src/virtual_controller/state.rs"]
+mod state;
+#[path = "../../../src/virtual_controller/store.rs"]
+mod store;
+
+pub use faults::Faults;
+pub use state::{State, Surroundings};
+pub use store::{Store, StoreError};
