@@ -11,6 +11,7 @@
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
+//! | `client_identity` | [`client_identity`]: what this computer shows of itself to OPC UA servers |
 //! | `tlv` | just enough DER to see from outside what a file is |
 //! | `fingerprint` | [`Fingerprint`]: what a configurator pins of that |
 //! | `name` | the text of an X.509 name |
@@ -23,6 +24,7 @@
 //! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
 
 mod certificate;
+mod client_identity;
 mod csr;
 mod error;
 mod fingerprint;
@@ -40,6 +42,7 @@ mod self_signed;
 mod tlv;
 
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
+pub use client_identity::{ClientIdentity, client_identity};
 pub use csr::{Csr, make_csr};
 pub use error::PkiError;
 pub use fingerprint::{Fingerprint, FingerprintError};

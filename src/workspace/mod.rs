@@ -4,6 +4,7 @@
 //! <workspace>/
 //!   epson_opcua_config.json          controllers and options
 //!   connections.csv                  a connection list to import, if somebody put one there (manual 2.5.3)
+//!   Configurator/…                   the certificate this program shows to OPC UA servers, and its key
 //!   .lock                            held by whoever may write the configuration
 //!   <serial>/option.json             settings export of one controller (manual 2.6.4)
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
@@ -20,6 +21,7 @@ mod certificate_files;
 mod configuration;
 mod connection_list;
 mod import_files;
+mod own_identity;
 mod passwords;
 mod settings_files;
 
@@ -40,6 +42,7 @@ pub use connection_list::{
     NewConnection, PlannedConnection, Skipped,
 };
 pub use import_files::read_import_file;
+pub use own_identity::{OwnIdentity, OwnIdentityFiles};
 pub use passwords::{KeyringPasswords, MemoryPasswords, Passwords};
 pub use settings_files::SettingsFiles;
 
@@ -142,6 +145,10 @@ impl Workspace {
 
     pub fn settings_files(&self) -> SettingsFiles {
         SettingsFiles::new(self.root.clone())
+    }
+
+    pub fn own_identity(&self) -> OwnIdentityFiles {
+        OwnIdentityFiles::new(&self.root)
     }
 
     pub fn certificate_files(&self) -> CertificateFiles {
