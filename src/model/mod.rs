@@ -9,9 +9,11 @@ mod text_in_messages;
 pub mod activation;
 mod address;
 mod certificate;
+mod certificate_status;
 mod client_list;
 mod controller;
 mod country;
+mod crl_summary;
 mod error_texts;
 mod info;
 mod language;
@@ -24,11 +26,13 @@ pub use certificate::{
     CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
     Validity, default_common_name, offered_key_lengths,
 };
+pub use certificate_status::{CertificateStatus, UnknownCertificateStatus};
 pub use client_list::{ClientList, ListLimits};
 pub use controller::{
     ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber, VersionError,
 };
 pub use country::{COUNTRIES, Country};
+pub use crl_summary::CrlSummary;
 pub use info::{ControllerInfo, ServerCertificate, ServerStatus};
 pub use language::Language;
 pub use problem::{ErrorCode, Explanation, Problem};
