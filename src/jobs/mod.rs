@@ -20,6 +20,7 @@
 //! | `activate` | activate legacy controllers by their keys |
 //! | `server_log` | read the server log |
 //! | `settings_transfer` | export settings to the PC and import them again |
+//! | `verify` | connect to the OPC UA server as a client does |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activate;
@@ -40,6 +41,7 @@ mod server_log;
 mod settings;
 mod settings_transfer;
 mod users;
+mod verify;
 
 pub use activate::{Activate, KeySource};
 pub use clients::{AddClientCertificates, ClientCertificateFile, ListClients};
@@ -58,3 +60,7 @@ pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings, MIN_PASSPHRASE_CHARS};
 pub use users::{AddUser, ListUsers, RemoveUsers};
+pub use verify::{
+    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Verdict, Verify, VerifyFinding,
+    VerifyReport,
+};

@@ -4,7 +4,7 @@ use async_trait::async_trait;
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
-use super::JobController;
+use super::{JobController, VerifyReport};
 use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Finding;
 use crate::protocol::{HeldCertificates, ListedCertificate, LogChunk, Revisioned};
@@ -50,6 +50,8 @@ pub struct Confirmation {
 pub enum Step {
     Connect,
     Read,
+    /// Connecting as an OPC UA client.
+    Verify,
     MakeKey,
     Apply,
     SaveBackup,
@@ -89,6 +91,8 @@ pub enum Outcome {
         findings: Vec<Finding>,
     },
     Certificates(Revisioned<HeldCertificates>),
+    /// The OPC UA server was connected to as a client does.
+    Verified(Box<VerifyReport>),
     /// A server certificate was saved on the PC.
     Exported {
         summary: CertificateSummary,

@@ -28,6 +28,8 @@ pub(super) struct Connection {
     pub target: Target,
     pub store: Arc<RwLock<CertificateStore>>,
     pub connect: Duration,
+    /// What is being done, for whoever gives up waiting.
+    pub stage: Arc<Mutex<Stage>>,
 }
 
 /// An open secure channel.
@@ -35,6 +37,7 @@ pub(super) struct Channel {
     pub secure: AsyncSecureChannel,
     events: SecureChannelEventLoop<StreamTransport<Reader, WriteHalf<TcpStream>>>,
     heard: Arc<Mutex<Heard>>,
+    stage: Arc<Mutex<Stage>>,
 }
 
 type Reader = Watched<ReadHalf<TcpStream>>;
@@ -43,6 +46,7 @@ impl Connection {
     /// Connects, and opens a secure channel as the description wants it.
     pub async fn open(&self, endpoint: EndpointDescription) -> Result<Channel, Failure> {
         let stream = self.tcp().await?;
+        *self.stage.lock() = Stage::Channel;
         let url = endpoint.endpoint_url.to_string();
         let (reader, writer) = tokio::io::split(stream);
         let (reader, heard) = Watched::new(reader);
@@ -74,7 +78,7 @@ impl Connection {
         );
         let events = secure.connect_no_retry(&connector).await;
         let events = events.map_err(|e| Failure::from_library(Stage::Channel, &e, &heard.lock()))?;
-        Ok(Channel { secure, events, heard })
+        Ok(Channel { secure, events, heard, stage: self.stage.clone() })
     }
 
     async fn tcp(&self) -> Result<TcpStream, Failure> {
@@ -101,8 +105,7 @@ impl Connection {
             locale_ids: None,
             profile_uris: None,
         };
-        let Channel { secure, events, heard } = &mut channel;
-        let response = drive(Stage::Endpoints, events, heard, secure.send(request, REQUEST)).await?;
+        let response = channel.drive(Stage::Endpoints, async |secure| secure.send(request, REQUEST).await).await?;
         channel.close().await;
         match response {
             ResponseMessage::GetEndpoints(response) if response.response_header.service_result.is_good() => {
@@ -127,8 +130,22 @@ impl Channel {
         stage: Stage,
         request: impl AsyncFnOnce(&AsyncSecureChannel) -> Result<R, Error>,
     ) -> Result<R, Failure> {
-        let Self { secure, events, heard } = self;
-        drive(stage, events, heard, request(secure)).await
+        let Self { secure, events, heard, stage: at } = self;
+        *at.lock() = stage;
+        let request = request(secure);
+        tokio::pin!(request);
+        let error = loop {
+            tokio::select! {
+                answer = &mut request => match answer {
+                    Ok(answer) => return Ok(answer),
+                    Err(error) => break error,
+                },
+                event = events.poll() => if let TransportPollResult::Closed(status) = event {
+                    break Error::new(status, "closed");
+                },
+            }
+        };
+        Err(Failure::from_library(stage, &error, &heard.lock()))
     }
 
     /// Says goodbye; who does not listen is left.
@@ -139,27 +156,6 @@ impl Channel {
         };
         let _late = tokio::time::timeout(GOODBYE, goodbye).await;
     }
-}
-
-async fn drive<R>(
-    stage: Stage,
-    events: &mut SecureChannelEventLoop<StreamTransport<Reader, WriteHalf<TcpStream>>>,
-    heard: &Mutex<Heard>,
-    request: impl Future<Output = Result<R, Error>>,
-) -> Result<R, Failure> {
-    tokio::pin!(request);
-    let error = loop {
-        tokio::select! {
-            answer = &mut request => match answer {
-                Ok(answer) => return Ok(answer),
-                Err(error) => break error,
-            },
-            event = events.poll() => if let TransportPollResult::Closed(status) = event {
-                break Error::new(status, "closed");
-            },
-        }
-    };
-    Err(Failure::from_library(stage, &error, &heard.lock()))
 }
 
 fn decoding() -> DecodingOptions {

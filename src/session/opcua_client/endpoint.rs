@@ -1,9 +1,11 @@
 use opcua::types::{EndpointDescription, MessageSecurityMode, UserTokenType};
 use serde::Serialize;
+use x509_parser::prelude::{FromDer as _, X509Certificate};
 
 use super::Target;
 use super::failure::printable;
 use crate::model::{SecurityPolicy, UserTokenPolicy};
+use crate::pki::{Certificate, PkiError};
 
 /// How messages are protected (OPC 10000-4 §7.20).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
@@ -123,6 +125,18 @@ impl Endpoint {
         self.parts().0
     }
 
+    /// The server's certificate, and those it sends after it.
+    pub fn certificates(&self) -> Result<(Certificate, Vec<Certificate>), PkiError> {
+        let mut chain = Vec::new();
+        let mut rest = &self.certificate[..];
+        while !rest.is_empty() && chain.len() < MAX_CHAIN {
+            let (after, _) = X509Certificate::from_der(rest).map_err(|_| PkiError::NotACertificate)?;
+            chain.push(Certificate::from_der(&rest[..rest.len() - after.len()])?);
+            rest = after;
+        }
+        if chain.is_empty() { Err(PkiError::Empty) } else { Ok((chain.remove(0), chain)) }
+    }
+
     /// Host and port of its URL.
     pub fn target(&self) -> Option<Target> {
         let (host, port, _) = self.parts();
@@ -162,6 +176,8 @@ fn policy(uri: &str) -> Option<SecurityPolicy> {
 
 const SCHEME: &str = "opc.tcp://";
 const DEFAULT_PORT: u16 = 4840;
+/// More certificates than this are no chain that anybody means.
+const MAX_CHAIN: usize = 8;
 
 #[cfg(test)]
 mod tests {

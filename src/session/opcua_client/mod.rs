@@ -28,6 +28,7 @@ use std::time::Duration;
 
 use opcua::crypto::{CertificateStore, PrivateKey, X509, X509Data};
 use opcua::sync::RwLock;
+use parking_lot::Mutex;
 use secrecy::SecretString;
 use tokio::task::JoinSet;
 
@@ -136,7 +137,7 @@ impl OpcUaClient {
     /// What the server offers to whoever asks, over a channel without security (OPC 10000-4 §5.5.4).
     pub async fn endpoints(&self, target: &Target) -> Result<Vec<Endpoint>, Failure> {
         let connection = self.connection(target);
-        self.bounded(Stage::Endpoints, async move { connection.endpoints().await }).await
+        self.bounded(connection.stage.clone(), async move { connection.endpoints().await }).await
     }
 
     /// Opens a channel as the endpoint wants it, creates and activates a session, reads the server's state, and says
@@ -152,8 +153,10 @@ impl OpcUaClient {
         let Some((own_certificate, own_key)) = self.own.clone() else {
             return Err(Failure::of(Stage::Channel, Cause::Internal("the client has no key".to_owned())));
         };
+        let connection = self.connection(target);
+        let stage = connection.stage.clone();
         let attempt = attempt::Attempt {
-            connection: self.connection(target),
+            connection,
             endpoint: endpoint.clone(),
             expected: expected.der().to_vec(),
             login: login.clone(),
@@ -161,25 +164,32 @@ impl OpcUaClient {
             own_certificate,
             own_key,
         };
-        self.bounded(Stage::Channel, attempt.run()).await
+        self.bounded(stage, attempt.run()).await
     }
 
     fn connection(&self, target: &Target) -> connection::Connection {
-        connection::Connection { target: target.clone(), store: self.store.clone(), connect: self.patience.connect }
+        connection::Connection {
+            target: target.clone(),
+            store: self.store.clone(),
+            connect: self.patience.connect,
+            stage: Arc::new(Mutex::new(Stage::Connect)),
+        }
     }
 
     /// In a task of its own, which ends with this call: what the peer sends may trip the library up.
     async fn bounded<R: Send + 'static>(
         &self,
-        stage: Stage,
+        stage: Arc<Mutex<Stage>>,
         work: impl Future<Output = Result<R, Failure>> + Send + 'static,
     ) -> Result<R, Failure> {
         let mut task = JoinSet::new();
         task.spawn(work);
         match tokio::time::timeout(self.patience.attempt, task.join_next()).await {
             Ok(Some(Ok(result))) => result,
-            Ok(Some(Err(_)) | None) => Err(Failure::of(stage, Cause::NotOpcUa("its answer cannot be read".to_owned()))),
-            Err(_) => Err(Failure::of(stage, Cause::TimedOut)),
+            Ok(Some(Err(_)) | None) => {
+                Err(Failure::of(*stage.lock(), Cause::NotOpcUa("its answer cannot be read".to_owned())))
+            }
+            Err(_) => Err(Failure::of(*stage.lock(), Cause::TimedOut)),
         }
     }
 }

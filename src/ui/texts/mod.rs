@@ -210,6 +210,7 @@ texts! {
     StateNotStarted: "Not started", "未开始";
     StepConnect: "Connecting", "正在连接";
     StepRead: "Reading", "正在读取";
+    StepVerify: "Verifying", "正在验证";
     StepMakeKey: "Making key", "正在生成密钥";
     StepApply: "Applying", "正在应用";
     StepSaveBackup: "Saving files", "正在保存文件";

@@ -297,6 +297,7 @@ pub const fn step(step: Step) -> T {
     match step {
         Step::Connect => T::StepConnect,
         Step::Read => T::StepRead,
+        Step::Verify => T::StepVerify,
         Step::MakeKey => T::StepMakeKey,
         Step::Apply => T::StepApply,
         Step::SaveBackup => T::StepSaveBackup,
