@@ -61,6 +61,6 @@ pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings, MIN_PASSPHRASE_CHARS};
 pub use users::{AddUser, ListUsers, RemoveUsers};
 pub use verify::{
-    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Verdict, Verify, VerifyFinding,
+    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, TrustConfigurator, Verdict, Verify, VerifyFinding,
     VerifyReport,
 };

@@ -5,12 +5,14 @@
 //! | `report` | [`VerifyReport`]: what came of it |
 //! | `texts` | the same in words |
 //! | `certificate` | how a client judges the server's certificate |
+//! | `trust` | [`TrustConfigurator`]: what helps most often |
 //! | `probe` | every endpoint with every token, and what a failure means |
 
 mod certificate;
 mod probe;
 mod report;
 mod texts;
+mod trust;
 
 use std::collections::HashSet;
 use std::time::Duration;
@@ -22,11 +24,13 @@ pub use report::{
     CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Verdict, VerifyFinding, VerifyReport,
 };
 
+pub use trust::TrustConfigurator;
+
 use super::{Confirmation, Operation, Outcome, Run, Step};
 use crate::model::{ControllerInfo, Credential, Problem, ServerSettings, ServerStatus, UserTokenPolicy};
 use crate::pki::Certificate;
 use crate::session::opcua_client::{Endpoint, OpcUaClient, Patience, Target, is_reachable};
-use crate::workspace::{OwnIdentity, OwnIdentityFiles};
+use crate::workspace::OwnIdentityFiles;
 use certificate::{Wanted, judge};
 use probe::{Probe, clock, compare, offered_policies, refusal_of};
 
@@ -43,23 +47,28 @@ pub struct Verify {
     pub identity: OwnIdentityFiles,
     /// Who logs in where a user name is wanted; `None` leaves that out.
     pub login: Option<Credential>,
+    /// Put this program's certificate into the trusted list first.
+    pub trust_first: bool,
     pub patience: Patience,
 }
 
 #[async_trait]
 impl Operation for Verify {
     fn confirmation(&self) -> Option<Confirmation> {
-        None
+        self.trust_first.then(Confirmation::default)
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
+        let own = trust::own(&self.identity, run).await?;
+        if self.trust_first {
+            trust::trust(run, &own).await?;
+        }
         let info = run.session.info().await?;
         let settings = run.session.settings().await?.value;
         let held = run.session.certificates().await?.value;
         let users = run.session.users().await?.value.len();
         let selected = held.of(held.selected).and_then(|der| Certificate::from_der(der).ok());
-        let own = self.own(run).await?;
         let known = Known { info, settings, selected, users };
         let target = Target { host: run.controller.address.host().to_owned(), port: known.settings.port.get() };
         let mut report = VerifyReport {
@@ -84,11 +93,6 @@ struct Known {
 }
 
 impl Verify {
-    async fn own(&self, run: &Run<'_>) -> Result<OwnIdentity, Problem> {
-        let files = self.identity.clone();
-        run.on_a_core(move || files.load_or_make(Utc::now())).await?
-    }
-
     async fn fill(
         &self,
         report: &mut VerifyReport,
