@@ -46,7 +46,8 @@ pub const STATE: Presentation = Presentation {
 
 impl Ending {
     pub fn of(reports: &[Report]) -> Self {
-        if reports.iter().all(|report| report.result.is_ok()) { Self::AllDone } else { Self::SomeFailed }
+        let good = |report: &Report| report.result.as_ref().is_ok_and(|outcome| outcome.shortcoming().is_none());
+        if reports.iter().all(good) { Self::AllDone } else { Self::SomeFailed }
     }
 }
 
@@ -119,7 +120,10 @@ impl Settled {
                 progress.set_position(finished.fetch_add(1, Ordering::Relaxed) as u64 + 1);
                 if output.is_json() {
                     match (&report.result, &report.info) {
-                        (Ok(outcome), Some(info)) => output.done(&names[index], &show(outcome, info).json),
+                        (Ok(outcome), Some(info)) => match outcome.shortcoming() {
+                            Some(problem) => output.fell_short(&names[index], &problem, &show(outcome, info).json),
+                            None => output.done(&names[index], &show(outcome, info).json),
+                        },
                         (Ok(_), None) => output.failed(&names[index], &ErrorCode::ConnectionLost.into()),
                         (Err(problem), _) => output.failed(&names[index], problem),
                     }

@@ -20,6 +20,10 @@ impl Output {
         self.json
     }
 
+    pub fn language(self) -> Language {
+        self.language
+    }
+
     /// Progress is for people at a terminal only.
     pub fn shows_progress(self) -> bool {
         !self.json && std::io::stderr().is_terminal()
@@ -33,6 +37,12 @@ impl Output {
     /// `{"controller","ok":false,"error":{"code","message","cause","remedy"}}`.
     pub fn failed(self, controller: &str, problem: &Problem) {
         line(&json!({ "controller": controller, "ok": false, "error": self.error(problem) }).to_string());
+    }
+
+    /// It was done, and what came of it is not good: both of the above.
+    pub fn fell_short(self, controller: &str, problem: &Problem, result: &Value) {
+        let error = self.error(problem);
+        line(&json!({ "controller": controller, "ok": false, "error": error, "result": result }).to_string());
     }
 
     fn error(self, problem: &Problem) -> Value {

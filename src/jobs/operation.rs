@@ -100,6 +100,16 @@ pub enum Outcome {
     },
 }
 
+impl Outcome {
+    /// What was found wrong by an operation that did its work.
+    pub fn shortcoming(&self) -> Option<Problem> {
+        match self {
+            Self::Verified(report) if !report.all_works() => Some(ErrorCode::VerifyFailed.into()),
+            _ => None,
+        }
+    }
+}
+
 /// One controller's turn: the open session, and a way to say where it is.
 pub struct Run<'a> {
     pub controller: &'a JobController,

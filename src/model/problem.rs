@@ -86,6 +86,8 @@ pub enum ErrorCode {
     OneControllerOnly,
     Preflight,
     PreflightWarnings,
+    // connecting as a client
+    VerifyFailed,
     // activation (2.6.3)
     WrongKeys,
     NotInFile,
@@ -154,6 +156,7 @@ impl ErrorCode {
                 | UnknownController
                 | FileUnreadable
                 | NotConfirmed
+                | VerifyFailed
                 | WorkspaceReadOnly
                 | WorkspaceFull
                 | WorkspaceBusy
@@ -266,6 +269,7 @@ mod tests {
             CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,
+            VerifyFailed => 1,
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
@@ -278,7 +282,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 11 + 15 + 13 + 14 + 4 + 1 + 7 + 9;
+        let all = 7 + 11 + 15 + 13 + 14 + 1 + 4 + 1 + 7 + 9;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();
