@@ -9,6 +9,7 @@ mod batch;
 mod cert;
 mod clients;
 mod controllers;
+mod crl;
 mod demo;
 mod log;
 mod output;
@@ -18,6 +19,7 @@ mod server;
 mod settings;
 mod settings_transfer;
 mod table;
+mod trust_files;
 mod users;
 mod verify;
 mod virtual_fleet;
@@ -99,9 +101,12 @@ enum Command {
     /// Make, request, import, select and export server certificates
     #[command(subcommand)]
     Cert(cert::CertCommand),
-    /// List and add trusted client certificates
+    /// List, add, trust and remove the certificates of clients and authorities
     #[command(subcommand)]
     Clients(clients::ClientsCommand),
+    /// List, add and remove certificate revocation lists
+    #[command(subcommand)]
+    Crl(crl::CrlCommand),
     /// Show or delete the log of OPC UA servers
     #[command(subcommand)]
     Log(log::LogCommand),
@@ -167,6 +172,7 @@ pub fn main() -> ExitCode {
         Some(Command::Users(command)) => users::run(&settled, command),
         Some(Command::Cert(command)) => cert::run(&settled, command),
         Some(Command::Clients(command)) => clients::run(&settled, command),
+        Some(Command::Crl(command)) => crl::run(&settled, command),
         Some(Command::Log(command)) => log::run(&settled, command),
         Some(Command::ExportSettings(args)) => settings_transfer::export(&settled, &args),
         Some(Command::ImportSettings(args)) => settings_transfer::import(&settled, &args),

@@ -16,7 +16,7 @@
 //! | `preflight` | what is looked at before such an import |
 //! | `select_certificate` | list the server certificates held, select one |
 //! | `export_self_signed` | save the self-signed certificate on the PC |
-//! | `clients` | list and add trusted client certificates |
+//! | `trust` | client certificate lists and CRLs: list, watch, add, move, remove, undo |
 //! | `activate` | activate legacy controllers by their keys |
 //! | `server_log` | read the server log |
 //! | `settings_transfer` | export settings to the PC and import them again |
@@ -24,7 +24,6 @@
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activate;
-mod clients;
 mod create_csr;
 mod enroll;
 mod export_self_signed;
@@ -40,11 +39,11 @@ mod server_control;
 mod server_log;
 mod settings;
 mod settings_transfer;
+mod trust;
 mod users;
 mod verify;
 
 pub use activate::{Activate, KeySource};
-pub use clients::{AddClientCertificates, ClientCertificateFile, ListClients};
 pub use create_csr::{CreateCsr, CsrFields};
 pub use enroll::{Enrolled, enroll, probe};
 pub use export_self_signed::ExportSelfSigned;
@@ -59,6 +58,11 @@ pub use server_control::{StartServer, StopServer};
 pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings, MIN_PASSPHRASE_CHARS};
+pub use trust::{
+    AddTrust, Destination, Fate, ListTrust, MoveClients, Note, Planned, RemoveClients, RemoveCrls, SkipReason, Target,
+    Thing, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust, WATCH_INTERVAL, WatchEvent,
+    watch_trust,
+};
 pub use users::{AddUser, ListUsers, RemoveUsers};
 pub use verify::{
     CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, TrustConfigurator, Verdict, Verify, VerifyFinding,

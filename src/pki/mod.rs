@@ -51,6 +51,7 @@ mod self_signed;
 mod signature;
 mod tlv;
 mod trust;
+mod trust_health;
 
 pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
@@ -69,3 +70,4 @@ pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 pub use self_signed::{ServerNames, self_signed};
 pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy};
+pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

@@ -6,8 +6,9 @@ use super::report::{EndpointVerdict, NotTried, Refusal, TokenVerdict, Verdict, V
 use crate::jobs::{Run, Step};
 use crate::model::{CertificateStatus, Credential, Problem, SecurityPolicy, ServerSettings, UserTokenPolicy};
 use crate::pki::Certificate;
+use crate::protocol::RejectedClient;
 use crate::session::opcua_client::{
-    Cause, Endpoint, Failure, Login, MessageSecurity, OpcUaClient, Stage, Target, TokenKind,
+    Cause, Endpoint, Failure, Login, MessageSecurity, OpcUaClient, Stage, Target, TokenKind, printable,
 };
 
 /// What is tried at one server, and with what.
@@ -111,8 +112,12 @@ impl Probe<'_> {
     }
 
     /// Why the controller refused this program's certificate just now, if it did and says so.
-    async fn told_why(&self, _run: &mut Run<'_>) -> Option<(CertificateStatus, String)> {
-        None
+    async fn told_why(&self, run: &mut Run<'_>) -> Option<(CertificateStatus, String)> {
+        let rejected = run.session.rejected_clients().await.inspect_err(|problem| {
+            tracing::info!(%problem, "the controller does not tell whom it refused");
+        });
+        let own = |client: &RejectedClient| client.certificate.0 == self.own.der() && client.last_seen >= self.since;
+        rejected.ok()?.value.into_iter().find(own).map(|client| (client.status, printable(&client.reason)))
     }
 }
 

@@ -1,9 +1,9 @@
 use async_trait::async_trait;
 use chrono::Utc;
 
-use crate::jobs::{Confirmation, Operation, Outcome, Run, Step};
+use crate::jobs::{Confirmation, Operation, Outcome, Run, Step, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, Problem};
-use crate::protocol::{AddClients, Base64Bytes};
+use crate::protocol::{Base64Bytes, EditTrust, TrustStep};
 use crate::workspace::{OwnIdentity, OwnIdentityFiles};
 
 /// Puts this program's own certificate into the trusted list of a controller, if it is not there yet, so that it may
@@ -35,17 +35,23 @@ pub(super) async fn own(files: &OwnIdentityFiles, run: &Run<'_>) -> Result<OwnId
 
 /// Does nothing if it is trusted already.
 pub(super) async fn trust(run: &mut Run<'_>, own: &OwnIdentity) -> Result<(), Problem> {
-    let limit = run.session.info().await?.limits.trusted;
-    let trusted = run.session.clients(ClientList::Trusted).await?;
-    if trusted.value.iter().any(|listed| listed.certificate.0 == own.certificate.der()) {
+    let before = TrustSnapshot::read(run.session).await?;
+    let thumbprint = own.certificate.thumbprint_sha1();
+    if before.holds(ClientList::Trusted, &thumbprint) {
         return Ok(());
     }
-    if trusted.value.len() >= limit {
-        return Err(Problem::with_detail(ErrorCode::ListFull, format!("{} > {limit}", trusted.value.len() + 1)));
+    let (have, limit) = (before.trusted.len(), before.limits.trusted);
+    if have >= limit {
+        return Err(Problem::with_detail(ErrorCode::ListFull, format!("{} > {limit}", have + 1)));
     }
-    let name = own.certificate_path.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let certificates = vec![(name, Base64Bytes(own.certificate.der().to_vec()))];
+    let step = if before.holds(ClientList::Rejected, &thumbprint) {
+        TrustStep::Move { from: ClientList::Rejected, to: ClientList::Trusted, thumbprints: vec![thumbprint] }
+    } else {
+        let name = own.certificate_path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let certificates = vec![(name, Base64Bytes(own.certificate.der().to_vec()))];
+        TrustStep::Add { list: ClientList::Trusted, certificates }
+    };
     run.begin(Step::Apply)?;
-    run.session.add_clients(ClientList::Trusted, AddClients { revision: trusted.revision, certificates }).await?;
+    run.session.edit_trust(EditTrust { revision: before.revision, steps: vec![step] }).await?;
     Ok(())
 }

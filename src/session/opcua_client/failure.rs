@@ -86,7 +86,7 @@ pub(super) fn status(code: StatusCode, reason: &str) -> Cause {
 }
 
 /// What a stranger wrote, fit to be shown: one line, and not a long one.
-pub(super) fn printable(text: &str) -> String {
+pub fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(MAX_CHARS).collect::<String>().trim().to_owned()
 }
 

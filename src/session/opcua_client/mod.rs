@@ -33,7 +33,7 @@ use secrecy::SecretString;
 use tokio::task::JoinSet;
 
 pub use endpoint::{Endpoint, MessageSecurity, OfferedToken, TokenKind};
-pub use failure::{Cause, Failure, Stage};
+pub use failure::{Cause, Failure, Stage, printable};
 
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Certificate;
