@@ -127,8 +127,11 @@ async fn an_unknown_configurator_is_refused_at_every_secured_endpoint() {
         assert_eq!(report.counts().work, 2, "{report:?}");
         for endpoint in report.endpoints.iter().filter(|endpoint| endpoint.name() != "None") {
             for token in &endpoint.tokens {
-                let Verdict::Fails(Refusal::OwnCertificate(why)) = &token.verdict else { panic!("{token:?}") };
-                assert!(why.as_ref().is_none_or(|(status, _)| *status == CertificateStatus::Untrusted), "{why:?}");
+                let Verdict::Fails(Refusal::OwnCertificate(Some((status, reason)))) = &token.verdict else {
+                    panic!("{token:?}")
+                };
+                assert_eq!(*status, CertificateStatus::Untrusted, "the server tells its clients less");
+                assert!(!reason.is_empty());
             }
         }
     }
@@ -188,11 +191,17 @@ async fn another_name_for_the_same_controller_is_noticed() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_clock_that_is_wrong_is_noticed() {
-    let cell = Cell::running(1, FleetFirmware::Current, &[SecurityPolicy::None]).await;
-    cell.plant.controller(0).faults().update(|faults| faults.clock_offset = chrono::TimeDelta::days(400));
+async fn a_clock_that_is_wrong_is_noticed_and_named_as_the_reason() {
+    let cell = Cell::running(1, FleetFirmware::Current, &[SecurityPolicy::Basic256Sha256]).await;
+    cell.run(TrustConfigurator { identity: Workspace::new(cell.folder.path()).own_identity() }).await;
+    assert!(cell.report(None).await.all_works());
+    cell.plant.controller(0).faults().update(|faults| faults.clock_offset = chrono::TimeDelta::days(4000));
     let report = cell.report(None).await;
-    assert!(report.findings.iter().any(|f| f.explain(opcua_configurator::model::Language::En).contains("days ahead")));
+    assert!(report.findings.iter().any(|finding| matches!(finding, VerifyFinding::Clock(_))), "{report:?}");
+    let refused = verdict(&report, "Basic256Sha256 – SignAndEncrypt", TokenKind::Anonymous);
+    let Verdict::Fails(Refusal::OwnCertificate(Some((status, _)))) = refused else { panic!("{refused:?}") };
+    assert_eq!(*status, CertificateStatus::TimeInvalid);
+    assert!(!report.lacks_trust(), "trusting it once more would not help");
 }
 
 #[tokio::test(flavor = "multi_thread")]
