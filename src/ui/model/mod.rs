@@ -14,6 +14,7 @@ mod reduce_dialogs;
 mod rows;
 mod server_log;
 mod transfer;
+mod verify;
 
 #[cfg(test)]
 mod tests;
@@ -35,6 +36,7 @@ pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
 pub use server_log::LogView;
+pub use verify::VerifyView;
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
 
 use super::backend::Event;
@@ -104,6 +106,10 @@ pub enum Message {
     NewCsr,
     /// Read the server log again.
     RefreshLog,
+    /// Verify the servers that run anew after the ended job.
+    VerifyChanged,
+    /// Put this program's certificate into the trusted lists that lack it.
+    TrustConfigurator,
     /// Delete the server log that is shown.
     DeleteLog,
     /// Go on with the job after all.
@@ -113,6 +119,7 @@ pub enum Message {
     SetLanguage(Language),
     SetTheme(ThemeChoice),
     SetParallelism(usize),
+    SetVerifyAfterChanges(bool),
     StartVirtual,
     Save,
     Event(Event),
