@@ -255,7 +255,7 @@ proptest! {
         parallelism in 1_usize..=64,
         size in prop::option::of((points(), points())),
         columns in prop::collection::btree_map("[a-z]{1,8}", points(), 0..4),
-        chinese: bool,
+        (chinese, verify_after_changes) in any::<(bool, bool)>(),
     ) {
         let mut configuration = Configuration::default();
         configuration.controllers = entries
@@ -267,6 +267,7 @@ proptest! {
             .collect();
         configuration.options = Options {
             backup,
+            verify_after_changes,
             parallelism,
             language: chinese.then_some(Language::Zh),
             theme: ThemeChoice::Dark,

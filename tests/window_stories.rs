@@ -379,15 +379,15 @@ fn users_are_deleted_from_the_list() {
 }
 
 #[test]
-fn commands_of_later_versions_say_so() {
+fn a_command_that_cannot_be_given_says_why() {
     let desk = Desk::with_controllers(1, FleetFirmware::Current);
     let mut window = desk.window;
     click(&mut window, "Tools");
-    let item = window.get_by_label("Verify…");
+    let item = window.get_by_label("Verify");
     assert!(item.accesskit_node().is_disabled());
     item.hover();
     for _ in 0..60 {
         window.step();
     }
-    assert!(shows(&window, "Comes in a later version"));
+    assert!(shows(&window, "Tick at least one controller first"));
 }

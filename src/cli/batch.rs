@@ -47,7 +47,8 @@ pub const STATE: Presentation = Presentation {
 
 impl Ending {
     pub fn of(reports: &[Report]) -> Self {
-        if reports.iter().all(|report| report.result.is_ok()) { Self::AllDone } else { Self::SomeFailed }
+        let good = |report: &Report| report.result.as_ref().is_ok_and(|outcome| outcome.shortcoming().is_none());
+        if reports.iter().all(good) { Self::AllDone } else { Self::SomeFailed }
     }
 }
 
@@ -178,9 +179,15 @@ impl Settled {
                 progress.set_position(finished.fetch_add(1, Ordering::Relaxed) as u64 + 1);
                 if output.is_json() {
                     match (&report.result, &report.info) {
-                        (Ok(outcome), Some(info)) => output.done(&names[index], &show(outcome, info).json),
+                        (Ok(outcome), Some(info)) => match outcome.shortcoming() {
+                            Some(problem) => output.fell_short(&names[index], &problem, &show(outcome, info).json),
+                            None => output.done(&names[index], &show(outcome, info).json),
+                        },
                         // Done, but what the controller is like now could not be read.
-                        (Ok(_), None) => output.done(&names[index], &Value::Null),
+                        (Ok(outcome), None) => match outcome.shortcoming() {
+                            Some(problem) => output.failed(&names[index], &problem),
+                            None => output.done(&names[index], &Value::Null),
+                        },
                         (Err(problem), _) => output.failed(&names[index], problem),
                     }
                 }

@@ -23,6 +23,7 @@ mod settings_transfer;
 mod table;
 mod trust_files;
 mod users;
+mod verify;
 mod virtual_fleet;
 mod virtual_plant;
 mod window;
@@ -121,6 +122,8 @@ enum Command {
     ExportSettings(settings_transfer::TransferArgs),
     /// Put exported settings, users and keys back into the controllers they came from
     ImportSettings(settings_transfer::TransferArgs),
+    /// Connect to OPC UA servers as a client through every offered endpoint and token; say what works and why not
+    Verify(verify::VerifyArgs),
     /// Switch the backup of what is made on or off
     #[command(subcommand)]
     Backup(backup::BackupCommand),
@@ -183,6 +186,7 @@ pub fn main() -> ExitCode {
         Some(Command::Log(command)) => log::run(&settled, command),
         Some(Command::ExportSettings(args)) => settings_transfer::export(&settled, &args),
         Some(Command::ImportSettings(args)) => settings_transfer::import(&settled, &args),
+        Some(Command::Verify(args)) => verify::run(&settled, &args),
         Some(Command::Backup(command)) => backup::run(&settled, command),
         Some(Command::Completions { shell }) => {
             clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut std::io::stdout());
@@ -207,7 +211,8 @@ fn system_language() -> Language {
 fn init_log(verbose: u8) {
     use tracing_subscriber::EnvFilter;
     let default = match verbose {
-        0 => "error",
+        // What the OPC UA library calls an error is a peer that refuses or hangs up; whoever asked is told.
+        0 => "error,opcua_client=off,opcua_core=off,opcua_crypto=off",
         1 => "warn,opcua_configurator=info",
         2 => "info,opcua_configurator=debug",
         _ => "debug",

@@ -61,6 +61,12 @@ impl Output {
         }
     }
 
+    /// It was done, and what came of it is not good: both of the above.
+    pub fn fell_short(self, controller: &str, problem: &Problem, result: &Value) {
+        let error = self.error(problem);
+        line(&json!({ "controller": controller, "ok": false, "error": error, "result": result }).to_string());
+    }
+
     fn error(self, problem: &Problem) -> Value {
         let explained = problem.code.explain(self.language);
         let mut error = json!({

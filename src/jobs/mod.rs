@@ -21,6 +21,7 @@
 //! | `activate` | activate legacy controllers by their keys |
 //! | `server_log` | read the server log |
 //! | `settings_transfer` | export settings to the PC and import them again |
+//! | `verify` | connect to the OPC UA server as a client does |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activate;
@@ -39,9 +40,10 @@ mod server_control;
 mod server_log;
 mod settings;
 mod settings_transfer;
-mod trust;
 mod sign_csrs;
+mod trust;
 mod users;
+mod verify;
 
 pub use activate::{Activate, KeySource};
 pub use create_csr::{CreateCsr, CsrFields};
@@ -58,10 +60,14 @@ pub use server_control::{StartServer, StopServer};
 pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings};
+pub use sign_csrs::SignCsrs;
 pub use trust::{
     AddTrust, Destination, Fate, ListTrust, MoveClients, Note, Planned, RemoveClients, RemoveCrls, SkipReason, Target,
     Thing, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust, WATCH_INTERVAL, WatchEvent,
     watch_trust,
 };
-pub use sign_csrs::SignCsrs;
 pub use users::{AddUser, ListUsers, RemoveUsers};
+pub use verify::{
+    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, TrustConfigurator, Verdict, Verify,
+    VerifyFinding, VerifyReport,
+};

@@ -4,7 +4,7 @@ use async_trait::async_trait;
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
-use super::{JobController, TrustChange, TrustSnapshot};
+use super::{JobController, TrustChange, TrustSnapshot, VerifyReport};
 use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, ServerStatus, UserName};
 use crate::pki::{Finding, Issuers};
 use crate::protocol::{HeldCertificates, LogChunk, Revisioned};
@@ -62,6 +62,8 @@ pub struct Confirmation {
 pub enum Step {
     Connect,
     Read,
+    /// Connecting as an OPC UA client.
+    Verify,
     MakeKey,
     Sign,
     Apply,
@@ -107,11 +109,23 @@ pub enum Outcome {
         issuers: Option<Issuers>,
     },
     Certificates(Revisioned<HeldCertificates>),
+    /// The OPC UA server was connected to as a client does.
+    Verified(Box<VerifyReport>),
     /// A server certificate was saved on the PC.
     Exported {
         summary: CertificateSummary,
         file: PathBuf,
     },
+}
+
+impl Outcome {
+    /// What was found wrong by an operation that did its work.
+    pub fn shortcoming(&self) -> Option<Problem> {
+        match self {
+            Self::Verified(report) if !report.all_works() => Some(ErrorCode::VerifyFailed.into()),
+            _ => None,
+        }
+    }
 }
 
 /// One controller's turn: the open session, and a way to say where it is.

@@ -870,6 +870,19 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("密码短语无法打开备份", "备份时使用了其他密码短语，或备份已被修改。", "请输入备份时 CA 的密码短语。"),
     ),
     (
+        ErrorCode::VerifyFailed,
+        text(
+            "Not everything the OPC UA server offers works",
+            "Connecting as an OPC UA client failed in at least one way, or something about the server is wrong.",
+            "Do what the report says for each failure, then verify again.",
+        ),
+        text(
+            "OPC UA 服务器提供的连接方式并非全部正常",
+            "以 OPC UA 客户端方式连接时至少有一种失败，或服务器存在问题。",
+            "请按报告中的说明处理，然后重新验证。",
+        ),
+    ),
+    (
         ErrorCode::WrongKeys,
         text(
             "The controller does not accept the keys",

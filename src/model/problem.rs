@@ -107,6 +107,8 @@ pub enum ErrorCode {
     AlreadyRevoked,
     BackupDamaged,
     BackupPassphrase,
+    // connecting as a client
+    VerifyFailed,
     // activation (2.6.3)
     WrongKeys,
     NotInFile,
@@ -179,6 +181,7 @@ impl ErrorCode {
                 | UnknownController
                 | FileUnreadable
                 | NotConfirmed
+                | VerifyFailed
                 | WorkspaceReadOnly
                 | WorkspaceFull
                 | WorkspaceBusy
@@ -317,6 +320,7 @@ mod tests {
             NoAuthority | AuthorityExists | AuthorityBusy | AuthorityDamaged | AuthorityPassphrase
             | AuthorityExpired | CsrRefused | ShortKey | AlreadySigned | UnknownSerial | AlreadyRevoked
             | BackupDamaged | BackupPassphrase => 13,
+            VerifyFailed => 1,
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
@@ -331,7 +335,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 12 + 20 + 14 + 14 + 13 + 4 + 1 + 7 + 12;
+        let all = 7 + 12 + 20 + 14 + 14 + 13 + 1 + 4 + 1 + 7 + 12;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

@@ -21,6 +21,7 @@
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
+//! | `client_identity` | [`client_identity`]: what this computer shows of itself to OPC UA servers |
 //! | `tlv` | just enough DER to see from outside what a file is |
 //! | `fingerprint` | [`Fingerprint`]: what a configurator pins of that |
 //! | `name` | the text of an X.509 name |
@@ -36,6 +37,7 @@
 mod bundle;
 mod ca;
 mod certificate;
+mod client_identity;
 mod crl;
 mod csr;
 mod describe;
@@ -64,6 +66,7 @@ mod trust_health;
 pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
 pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, REVOCATION_REASONS, RevokedCertificate};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
+pub use client_identity::{ClientIdentity, client_identity};
 pub use crl::{Crl, MAX_CRL_BYTES, RevocationReason, Revoked};
 pub use csr::{Csr, make_csr};
 pub use describe::{

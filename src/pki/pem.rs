@@ -137,9 +137,15 @@ pub(super) fn encrypted_key(der: &[u8]) -> String {
     armour("ENCRYPTED PRIVATE KEY", der)
 }
 
+/// The PEM form of an unencrypted PKCS#8. A secret, to be wiped by whoever asked for it.
+pub(super) fn private_key(der: &[u8]) -> String {
+    armour("PRIVATE KEY", der)
+}
+
 /// DER under that label.
 pub(super) fn armour(label: &str, der: &[u8]) -> String {
-    let body = STANDARD.encode(der);
+    // It may be a key.
+    let body = Zeroizing::new(STANDARD.encode(der));
     let mut text = format!("-----BEGIN {label}-----\n");
     text.reserve(body.len() + body.len() / 64 + 64);
     let mut rest = body.as_str();

@@ -2,8 +2,11 @@
 //!
 //! A [`Connector`] opens [`ControllerSession`]s. Jobs know only these two traits, so another way of reaching a
 //! controller is one more driver and no change anywhere else.
+//!
+//! [`opcua_client`] is no session to configure with: it looks at a controller's OPC UA server as its clients do.
 
 mod management;
+pub mod opcua_client;
 mod pinned_tls;
 
 use async_trait::async_trait;

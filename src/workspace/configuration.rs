@@ -98,6 +98,9 @@ pub struct Options {
     pub backup: bool,
     /// How many controllers a job works on at once: 1 to [`MAX_PARALLELISM`]. Default 16.
     pub parallelism: usize,
+    /// Connect to a server as a client does after each change that starts it again. Default off: it takes seconds, and a
+    /// server that does not know this program notes it among those it refused.
+    pub verify_after_changes: bool,
     /// `None` follows the operating system.
     pub language: Option<Language>,
     pub theme: ThemeChoice,
@@ -109,6 +112,7 @@ impl Default for Options {
         Self {
             backup: false,
             parallelism: 16,
+            verify_after_changes: false,
             language: None,
             theme: ThemeChoice::System,
             window: WindowState::default(),

@@ -4,6 +4,7 @@
 //! <workspace>/
 //!   epson_opcua_config.json          controllers and options
 //!   connections.csv                  a connection list to import, if somebody put one there (manual 2.5.3)
+//!   Configurator/…                   the certificate this program shows to OPC UA servers, and its key
 //!   .lock                            held by whoever may write the configuration
 //!   CA/…                             the small CA, see `authority`
 //!   <serial>/option.json             settings export of one controller (manual 2.6.4)
@@ -22,6 +23,7 @@ mod certificate_files;
 mod configuration;
 mod connection_list;
 mod import_files;
+mod own_identity;
 mod passwords;
 mod recognise;
 mod settings_files;
@@ -43,6 +45,7 @@ pub use connection_list::{
     NewConnection, PlannedConnection, Skipped,
 };
 pub use import_files::{certificate_files_beside, read_import_file};
+pub use own_identity::{OwnIdentity, OwnIdentityFiles};
 pub use passwords::{KeyringPasswords, MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase};
 pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
 pub use settings_files::SettingsFiles;
@@ -179,6 +182,10 @@ impl Workspace {
     /// The small CA of this workspace, whether there is one or not.
     pub fn authority(&self) -> authority::AuthorityFiles {
         authority::AuthorityFiles::new(self.root.join("CA"))
+    }
+
+    pub fn own_identity(&self) -> OwnIdentityFiles {
+        OwnIdentityFiles::new(&self.root)
     }
 
     pub fn certificate_files(&self) -> CertificateFiles {

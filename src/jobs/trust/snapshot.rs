@@ -45,7 +45,7 @@ impl Operation for ListTrust {
 const ATTEMPTS: u32 = 4;
 
 impl TrustSnapshot {
-    pub(super) async fn read(session: &mut dyn ControllerSession) -> Result<Self, Problem> {
+    pub(in crate::jobs) async fn read(session: &mut dyn ControllerSession) -> Result<Self, Problem> {
         for _ in 0..ATTEMPTS {
             if let Some(whole) = Self::read_once(session).await? {
                 return Ok(whole);

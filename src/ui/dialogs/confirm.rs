@@ -24,6 +24,7 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
         } = confirmation;
         let stops = if matches!(task, Task::Stop) { T::ConfirmStop } else { T::ConfirmStops };
         let remarks = [
+            (matches!(task, Task::TrustConfigurator), T::ConfirmTrustConfigurator),
             (stops_server, stops),
             (replaces_certificate, T::ConfirmReplaces),
             (overwrites_backup, T::ConfirmBackup),

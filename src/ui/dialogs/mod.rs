@@ -21,6 +21,7 @@ mod transfer;
 mod type_select;
 mod user_specified;
 mod users;
+mod verify;
 
 use egui::{Key, Modifiers, Ui};
 
@@ -80,6 +81,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::UserSpecified(form) => user_specified::show(ui, form, focus, model, messages),
         Dialog::ImportReview(review) => import_review::show(ui, review, model),
         Dialog::ServerLog(log) => server_log::show(ui, log, model, messages),
+        Dialog::Verify(view) => verify::show(ui, view, model, messages),
         Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
         Dialog::Drop(form) => drop::show(ui, form, model),
         Dialog::Backup { on } => options::backup(ui, on, model),

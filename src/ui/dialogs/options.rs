@@ -42,6 +42,13 @@ pub fn options(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
                 fine_print(ui, text(T::ParallelismTip));
                 Some(response)
             });
+            labelled(ui, text(T::VerifyAfterChanges), |ui| {
+                let mut on = model.options.verify_after_changes;
+                if ui.checkbox(&mut on, text(T::VerifyAfterChangesOn)).changed() {
+                    messages.push(Message::SetVerifyAfterChanges(on));
+                }
+                None
+            });
         });
     })
 }

@@ -37,6 +37,12 @@ pub fn show(ui: &Ui, view: &mut ProcessingView, model: &Model, messages: &mut Ve
                 error::explanation(ui, problem, model.language);
             });
         }
+        if ended && !view.over_form && !model.changed_servers().is_empty() {
+            ui.add_space(theme::SPACE);
+            if ui.button(text(T::Verify)).on_hover_text(text(T::VerifyTip)).clicked() {
+                messages.push(Message::VerifyChanged);
+            }
+        }
         if ended && !job.without_password().is_empty() {
             ui.add_space(theme::SPACE);
             if ui.button(text(T::EnterPassword)).clicked() {

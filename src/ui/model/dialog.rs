@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use super::{
     ActivationForm, CaSignedForm, ConnectionListForm, DropForm, ExportForm, FileForm, ImportReview, KeysForm, LogView,
-    Purpose, RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
+    Purpose, RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm, VerifyView,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -23,6 +23,7 @@ pub enum Dialog {
     AddUser(AddUserForm),
     SelfSigned(SelfSignedForm),
     Activation(ActivationForm),
+    Verify(VerifyView),
     ConnectionList(ConnectionListForm),
     TypeSelect(TypeSelectForm),
     ExportSelfSigned(ExportForm),
@@ -142,6 +143,8 @@ pub struct ProcessingView {
     pub selected: Option<usize>,
     /// The one the list has scrolled to.
     pub revealed: Option<usize>,
+    /// It lies over a form, which goes on when it is closed.
+    pub over_form: bool,
 }
 
 /// The basic settings (manual 2.6.1).

@@ -5,7 +5,8 @@ use secrecy::SecretString;
 
 use super::{ImportSource, RowId};
 use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
-use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
+use crate::model::{CertificateType, Credential, ErrorCode, FileFormat, Problem};
+use crate::session::opcua_client::Patience;
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
 
@@ -53,6 +54,10 @@ pub enum Task {
     },
     ReadLog,
     DeleteLog,
+    Verify {
+        login: Option<Credential>,
+    },
+    TrustConfigurator,
 }
 
 impl Task {
@@ -94,6 +99,13 @@ impl Task {
                 };
                 Arc::new(jobs::ImportSettings { files, passphrase: passphrase.clone() })
             }
+            Self::Verify { login } => Arc::new(jobs::Verify {
+                identity: workspace.own_identity(),
+                login: login.clone(),
+                trust_first: false,
+                patience: Patience::default(),
+            }),
+            Self::TrustConfigurator => Arc::new(jobs::TrustConfigurator { identity: workspace.own_identity() }),
             Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
             Self::DeleteLog => Arc::new(jobs::SetSettings {
                 change: jobs::SettingsChange { delete_log: true, ..Default::default() },
@@ -119,6 +131,8 @@ impl Task {
             Self::Check(source) | Self::Import { source, .. } => source.title(),
             Self::ExportSettings { .. } => TextKey::ExportTitle,
             Self::ImportSettings { .. } => TextKey::ImportTitle,
+            Self::Verify { .. } => TextKey::VerifyTitle,
+            Self::TrustConfigurator => TextKey::TrustConfiguratorTitle,
             Self::ReadLog => TextKey::ServerLog,
             Self::DeleteLog => TextKey::DeleteLog,
         }
@@ -126,7 +140,22 @@ impl Task {
 
     /// Nothing to read when all went well: the status bar says so and no click is asked for.
     pub const fn is_quiet(&self) -> bool {
-        matches!(self, Self::GetInfo | Self::Start)
+        matches!(self, Self::GetInfo | Self::Start | Self::TrustConfigurator)
+    }
+
+    /// Whether a server that runs was started by it, or anew for it.
+    pub const fn restarts_server(&self) -> bool {
+        matches!(
+            self,
+            Self::Start
+                | Self::SetSettings(_)
+                | Self::AddUser(_)
+                | Self::RemoveUsers(_)
+                | Self::SelfSigned { .. }
+                | Self::SelectType(_)
+                | Self::Import { .. }
+                | Self::ImportSettings { .. }
+        )
     }
 }
 
@@ -146,6 +175,16 @@ pub enum Purpose {
     /// Certificates from elsewhere are looked at before their import; likewise.
     Check,
     LoadLog,
+    /// The processing dialog, and in the end the reports; one controller that cannot be asked does not keep the others
+    /// out.
+    Verify,
+}
+
+impl Purpose {
+    /// Whether the processing dialog shows how far it is.
+    pub const fn is_shown(self) -> bool {
+        matches!(self, Self::Show | Self::Verify)
+    }
 }
 
 /// Where a job is with one controller.

@@ -15,6 +15,7 @@ mod reduce_dialogs;
 mod rows;
 mod server_log;
 mod transfer;
+mod verify;
 
 #[cfg(test)]
 mod tests;
@@ -39,6 +40,7 @@ pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
 pub use server_log::LogView;
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
+pub use verify::VerifyView;
 
 use super::backend::Event;
 use super::command::UiCommand;
@@ -121,6 +123,10 @@ pub enum Message {
     NewCsr,
     /// Read the server log again.
     RefreshLog,
+    /// Verify the servers that run anew after the ended job.
+    VerifyChanged,
+    /// Put this program's certificate into the trusted lists that lack it.
+    TrustConfigurator,
     /// Delete the server log that is shown.
     DeleteLog,
     /// Go on with the job after all.
@@ -130,6 +136,7 @@ pub enum Message {
     SetLanguage(Language),
     SetTheme(ThemeChoice),
     SetParallelism(usize),
+    SetVerifyAfterChanges(bool),
     StartVirtual,
     Save,
     Event(Event),

@@ -45,6 +45,8 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::NewCsr => commands = model.new_csr(),
         Message::RefreshLog => commands = model.refresh_log(),
         Message::DeleteLog => commands = model.delete_log(),
+        Message::VerifyChanged => commands = model.verify_changed(),
+        Message::TrustConfigurator => commands = model.trust_configurator(),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -60,6 +62,10 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::SetParallelism(count) => {
             model.options.parallelism = count.clamp(1, crate::workspace::MAX_PARALLELISM);
             model.unsaved = true;
+        }
+        Message::SetVerifyAfterChanges(on) => {
+            model.options.verify_after_changes = on;
+            commands = model.save();
         }
         Message::StartVirtual => {
             if model.virtual_available && !model.virtual_starting {
@@ -106,6 +112,7 @@ impl Model {
             UiCommand::ExportSettings => return self.open_transfer(Transfer::Export, ticked),
             UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
             UiCommand::ServerLog => return ticked.first().map(|row| self.open_log(*row)).unwrap_or_default(),
+            UiCommand::Verify => return self.verify(ticked),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -162,11 +169,12 @@ impl Model {
             .map(|row| JobRow { row: row.id, name: row.entry.name.to_string(), state: RowState::Waiting, saved: None })
             .collect::<Vec<_>>();
         self.status = None;
-        if purpose == Purpose::Show {
+        if purpose.is_shown() {
             for row in &rows {
                 self.rows.set_live(row.row, Some(RowState::Waiting));
             }
-            self.dialogs.push(Dialog::Processing(ProcessingView::default()));
+            let over_form = !self.dialogs.is_empty();
+            self.dialogs.push(Dialog::Processing(ProcessingView { over_form, ..ProcessingView::default() }));
         }
         self.job = Some(Job {
             id,
@@ -226,7 +234,7 @@ impl Model {
             JobEvent::Step { index, step } => {
                 if let Some(row) = job.rows.get_mut(index) {
                     row.state = RowState::Step(step);
-                    if job.purpose == Purpose::Show {
+                    if job.purpose.is_shown() {
                         self.rows.set_live(row.row, Some(RowState::Step(step)));
                     }
                 }
@@ -236,7 +244,8 @@ impl Model {
                 let purpose = job.purpose;
                 let Some(row) = job.rows.get_mut(index) else { return vec![] };
                 let Report { result, info } = *report;
-                let each = matches!(purpose, Purpose::LoadCertificates | Purpose::Check).then(|| result.clone());
+                let each = matches!(purpose, Purpose::LoadCertificates | Purpose::Check | Purpose::Verify)
+                    .then(|| result.clone());
                 let (state, outcome) = match result {
                     Ok(outcome) => (RowState::Done, Some(outcome)),
                     Err(problem) if problem.code == ErrorCode::Cancelled => (RowState::NotStarted, None),
@@ -252,7 +261,7 @@ impl Model {
                 row.state = state.clone();
                 job.finished += 1;
                 job.failed += usize::from(state.problem().is_some());
-                if purpose == Purpose::Show {
+                if purpose.is_shown() {
                     self.rows.set_live(id, Some(state));
                 }
                 if let Some(info) = info {
@@ -260,6 +269,7 @@ impl Model {
                 }
                 match each {
                     Some(result) if purpose == Purpose::Check => self.checked(id, result),
+                    Some(result) if purpose == Purpose::Verify => self.verified(id, result),
                     Some(result) => self.certificates_loaded(id, result),
                     None => {}
                 }
@@ -279,12 +289,15 @@ impl Model {
         let lacks_password = !job.without_password().is_empty();
         let failure = job.rows.iter().position(|row| row.state.problem().is_some());
         self.rows.rebuild();
-        let commands = self.save();
+        let mut commands = self.save();
         if lacks_password && purpose != Purpose::CountUsers {
             self.ask_passwords();
             return commands;
         }
+        let alone = matches!(self.dialogs[..], [Dialog::Processing(_)]);
+        let verify = all_done && alone && self.options.verify_after_changes && !self.changed_servers().is_empty();
         match purpose {
+            Purpose::Show if verify => commands.extend(self.verify_changed()),
             Purpose::Show => {
                 let Some(job) = &self.job else { return commands };
                 if all_done && job.task.is_quiet() {
@@ -297,6 +310,7 @@ impl Model {
             Purpose::CountUsers => self.job = None,
             Purpose::LoadCertificates => self.certificates_ended(),
             Purpose::Check => self.checks_ended(),
+            Purpose::Verify => self.verify_ended(),
             Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies | Purpose::LoadLog => {
                 let problem =
                     self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));

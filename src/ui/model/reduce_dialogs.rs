@@ -97,7 +97,7 @@ impl Model {
             Dialog::Delete { rows, .. } => self.delete(&rows),
             Dialog::Password(form) => {
                 let password = SecretString::from(form.password.0.clone());
-                if form.purpose == Purpose::Show {
+                if form.purpose.is_shown() {
                     self.end_processing();
                 }
                 self.start(form.task, form.rows, form.purpose, Some(password))
@@ -150,6 +150,7 @@ impl Model {
             Dialog::CaSigned(form) => self.check_ca_signed(form),
             Dialog::UserSpecified(form) => self.check_user_specified(form),
             Dialog::ImportReview(review) => self.import(review),
+            Dialog::Verify(view) => self.verify_again(view),
             Dialog::Transfer(form) => {
                 let planned = form.task().map(|task| (task, form.rows.clone()));
                 self.ask(Dialog::Transfer(form), planned)
@@ -200,6 +201,11 @@ impl Model {
             Some(Dialog::Password(form)) if form.purpose == Purpose::Check => {
                 self.dialogs.pop();
                 self.checks_ended();
+                vec![]
+            }
+            Some(Dialog::Password(form)) if form.purpose == Purpose::Verify => {
+                self.dialogs.pop();
+                self.verify_ended();
                 vec![]
             }
             Some(Dialog::Password(form)) => {

@@ -5,9 +5,11 @@
 
 mod files;
 mod sentences;
+mod verify;
 
 pub use files::*;
 pub use sentences::*;
+pub use verify::*;
 
 use crate::model::Language;
 
@@ -90,8 +92,8 @@ texts! {
     OptionsTip: "Language, theme and controllers worked on at once", "语言、主题和同时处理的控制器数量";
     CertificateAuthority: "Certificate authority…", "证书颁发机构…";
     CertificateAuthorityTip: "Sign certificate requests with an authority of your own", "使用自己的颁发机构签署证书请求";
-    Verify: "Verify…", "验证…";
-    VerifyTip: "Connect to the OPC UA server as a client would", "以客户端方式连接 OPC UA 服务器";
+    Verify: "Verify", "验证";
+    VerifyTip: "Connect to the OPC UA server as a client would, in every way it offers", "以客户端方式尝试 OPC UA 服务器提供的每种连接";
     Shortcuts: "Keyboard shortcuts", "键盘快捷键";
     ShortcutsTip: "Every key this window knows", "本窗口的全部快捷键";
     About: "About", "关于";
@@ -211,6 +213,7 @@ texts! {
     StateNotStarted: "Not started", "未开始";
     StepConnect: "Connecting", "正在连接";
     StepRead: "Reading", "正在读取";
+    StepVerify: "Verifying", "正在验证";
     StepMakeKey: "Making key", "正在生成密钥";
     StepSign: "Signing", "正在签发";
     StepApply: "Applying", "正在应用";
@@ -410,6 +413,26 @@ texts! {
     LogNothingFound: "No line matches the filter", "没有匹配的行";
     Refresh: "Refresh", "刷新";
     DeleteLogButton: "Delete…", "删除…";
+
+    // verify
+    VerifyTitle: "Verify", "验证";
+    VerifyWorks: "Everything tried works", "所有尝试均正常";
+    VerifyFails: "Not everything works", "并非全部正常";
+    VerifyEndpoint: "Endpoint", "端点";
+    VerdictWorks: "Works", "正常";
+    VerdictFails: "Fails", "失败";
+    VerdictNotTried: "Not tried", "未尝试";
+    VerifyCertificate: "Server certificate", "服务器证书";
+    VerifyAccepted: "a careful client accepts it", "客户端可接受";
+    VerifyRefused: "a careful client refuses it", "客户端将拒绝";
+    VerifyAgain: "Verify again", "重新验证";
+    VerifyTrust: "Trust this configurator…", "信任本配置工具…";
+    VerifyTrustText: "The server lets in only clients whose certificate is in Trusted. That of this configurator is not there; it can be added now, or later from this file.", "服务器仅允许证书在[信任]列表中的客户端连接。本配置工具的证书不在其中，可立即添加，或以后使用此文件添加。";
+    VerifyLogin: "To try logging in, give a user of the controller. The password is sent encrypted only, and not again once it was refused.", "如需尝试登录，请输入控制器的用户。密码仅以加密方式发送，被拒绝后不会再次发送。";
+    TrustConfiguratorTitle: "Trust this configurator", "信任本配置工具";
+    ConfirmTrustConfigurator: "The certificate of this configurator is put into Trusted and stays there: with a user of the controller, or where anonymous users are let in, it may connect like any other client.", "将把本配置工具的证书添加到[信任]并保留：使用控制器的用户，或在允许匿名时，可与其他客户端一样连接。";
+    VerifyAfterChanges: "After a change", "更改之后";
+    VerifyAfterChangesOn: "Verify when the server has started again", "服务器重新启动后进行验证";
 
     // backup
     BackupTitle: "Backup", "备份";

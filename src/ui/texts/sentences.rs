@@ -309,6 +309,7 @@ pub const fn step(step: Step) -> T {
     match step {
         Step::Connect => T::StepConnect,
         Step::Read => T::StepRead,
+        Step::Verify => T::StepVerify,
         Step::MakeKey => T::StepMakeKey,
         Step::Sign => T::StepSign,
         Step::Apply => T::StepApply,

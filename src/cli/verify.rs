@@ -1,0 +1,208 @@
+use std::path::PathBuf;
+
+use clap::Args;
+use secrecy::ExposeSecret as _;
+use serde_json::{Value, json};
+
+use super::batch::{Presentation, Shown};
+use super::passwords::read_secret;
+use super::select::Select;
+use super::table::table;
+use super::{Ending, Settled};
+use crate::jobs::{Outcome, Refusal, Verdict, Verify, VerifyReport};
+use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword};
+use crate::pki::Severity;
+use crate::session::opcua_client::{MessageSecurity, Patience};
+
+/// Exit code 1 if anything that is offered does not work.
+#[derive(Debug, Args)]
+pub struct VerifyArgs {
+    /// User that logs in where a user name is wanted; without one, such logins are not tried
+    #[arg(long, value_name = "USER", requires = "user_password_file")]
+    user: Option<String>,
+
+    /// File with the user's password, "-" for standard input
+    #[arg(long, value_name = "FILE", requires = "user")]
+    user_password_file: Option<PathBuf>,
+
+    /// First put the certificate of this configurator into the trusted list of each controller, where it stays
+    #[arg(long)]
+    trust_me: bool,
+
+    #[command(flatten)]
+    select: Select,
+}
+
+pub fn run(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    let chosen = args.select.resolve(&configuration)?;
+    let login = match (&args.user, &args.user_password_file) {
+        (Some(user), Some(file)) => {
+            let bad = |e| Problem::with_detail(ErrorCode::BadCredential, e);
+            let password = UserPassword::new(read_secret(file)?.expose_secret()).map_err(bad)?;
+            Some(Credential { name: user.parse().map_err(bad)?, password })
+        }
+        _ => None,
+    };
+    let verify = Verify {
+        identity: settled.workspace.own_identity(),
+        login,
+        trust_first: args.trust_me,
+        patience: Patience::default(),
+    };
+    let language = settled.output.language();
+    let presentation = match language {
+        Language::En => ENGLISH,
+        Language::Zh => CHINESE,
+    };
+    let reports = settled.reports(&configuration, &chosen, verify, &presentation)?;
+    if !settled.output.is_json() {
+        for (entry, report) in chosen.iter().zip(&reports) {
+            match &report.result {
+                Ok(Outcome::Verified(report)) => {
+                    settled.output.text(&format!("{}: {}", entry.name, words(report, language)));
+                }
+                Ok(_) => {}
+                Err(problem) => settled.output.explain(Some(entry.name.as_str()), problem),
+            }
+        }
+    }
+    Ok(Ending::of(&reports))
+}
+
+const ENGLISH: Presentation = Presentation { header: &[], show: |outcome, _| shown(outcome, Language::En) };
+const CHINESE: Presentation = Presentation { header: &[], show: |outcome, _| shown(outcome, Language::Zh) };
+
+fn shown(outcome: &Outcome, language: Language) -> Shown {
+    let Outcome::Verified(report) = outcome else {
+        return Shown { json: json!(null), cells: Vec::new() };
+    };
+    Shown { json: as_json(report, language), cells: Vec::new() }
+}
+
+fn as_json(report: &VerifyReport, language: Language) -> Value {
+    let severity = |severity| match severity {
+        Severity::Error => "error",
+        Severity::Warning => "warning",
+    };
+    let findings: Vec<Value> = report
+        .findings
+        .iter()
+        .map(|finding| {
+            json!({
+                "severity": severity(finding.severity()),
+                "code": finding.code(),
+                "message": finding.explain(language),
+            })
+        })
+        .collect();
+    let certificate = report.certificate.as_ref().map(|verdict| {
+        let (status, reason) = match &verdict.refused {
+            Some((status, reason)) => (status.as_str(), Some(reason)),
+            None => ("Good", None),
+        };
+        let findings: Vec<Value> = verdict
+            .findings
+            .iter()
+            .map(|finding| {
+                json!({
+                    "severity": severity(finding.severity()),
+                    "status": finding.status(),
+                    "message": finding.explain(language),
+                })
+            })
+            .collect();
+        json!({ "status": status, "reason": reason, "certificate": verdict.summary, "findings": findings })
+    });
+    let endpoints: Vec<Value> = report
+        .endpoints
+        .iter()
+        .map(|endpoint| {
+            let tokens: Vec<Value> = endpoint
+                .tokens
+                .iter()
+                .map(|token| {
+                    let mut json = json!({
+                        "token": token.kind,
+                        "result": token.verdict.code(),
+                        "message": token.verdict.explain(language),
+                    });
+                    if let Verdict::Fails(Refusal::OwnCertificate(Some((status, reason)))) = &token.verdict {
+                        json["status"] = json!(status.as_str());
+                        json["reason"] = json!(reason);
+                    }
+                    if let Verdict::Fails(Refusal::Status { name, .. }) = &token.verdict {
+                        json["status"] = json!(name);
+                    }
+                    json
+                })
+                .collect();
+            let policy = endpoint.policy.as_ref().map_or_else(String::as_str, |policy| policy.as_str());
+            json!({ "policy": policy, "mode": endpoint.mode.map(MessageSecurity::as_str), "tokens": tokens })
+        })
+        .collect();
+    json!({
+        "url": report.url,
+        "all_works": report.all_works(),
+        "findings": findings,
+        "server_certificate": certificate,
+        "endpoints": endpoints,
+        "own_certificate": {
+            "file": report.own.certificate_path,
+            "thumbprint": report.own.certificate.thumbprint_sha1(),
+        },
+    })
+}
+
+/// The report for a terminal: the address, what was found, the server's certificate, a line for each token.
+fn words(report: &VerifyReport, language: Language) -> String {
+    let mut text = report.url.clone();
+    let mark = |severity| if severity == Severity::Error { '✗' } else { '!' };
+    let mut line = |mark: char, said: &str| {
+        text.push_str(&format!("\n  {mark} {}", said.replace(char::is_control, "�")));
+    };
+    for finding in &report.findings {
+        line(mark(finding.severity()), &finding.explain(language));
+    }
+    if let Some(verdict) = &report.certificate {
+        match (&verdict.refused, language) {
+            (None, Language::En) => line('✓', "A careful client accepts the server's certificate"),
+            (None, Language::Zh) => line('✓', "客户端可接受服务器证书"),
+            (Some((status, reason)), _) => {
+                line('✗', &format!("{status}: {}", status.explain(language)));
+                line(' ', reason);
+            }
+        }
+        for finding in &verdict.findings {
+            line(mark(finding.severity()), &finding.explain(language));
+        }
+    }
+    let mut rows = Vec::new();
+    for endpoint in &report.endpoints {
+        for token in &endpoint.tokens {
+            let mark = match token.verdict {
+                Verdict::Works => "✓",
+                Verdict::Fails(_) => "✗",
+                Verdict::NotTried(_) => "-",
+            };
+            let said = token.verdict.explain(language);
+            rows.push(vec![endpoint.name(), token.kind.text(language).to_owned(), format!("{mark} {said}")]);
+        }
+    }
+    if !rows.is_empty() {
+        let header = match language {
+            Language::En => ["ENDPOINT", "USER TOKEN", "RESULT"],
+            Language::Zh => ["端点", "用户令牌", "结果"],
+        };
+        text.push('\n');
+        text.push_str(&table(&header, &rows));
+    }
+    if report.lacks_trust() {
+        let file = report.own.certificate_path.display();
+        text.push_str(&match language {
+            Language::En => format!("The certificate of this configurator is {file}; --trust-me puts it into Trusted"),
+            Language::Zh => format!("本配置工具的证书为 {file}；使用 --trust-me 可将其添加到[信任]"),
+        });
+    }
+    text
+}

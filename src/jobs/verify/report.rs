@@ -1,0 +1,240 @@
+use chrono::TimeDelta;
+
+use crate::model::{CertificateStatus, CertificateSummary, ErrorCode, SecurityPolicy, ServerStatus, UserTokenPolicy};
+use crate::pki::{Finding, Severity};
+use crate::session::opcua_client::{MessageSecurity, TokenKind};
+use crate::workspace::OwnIdentity;
+
+/// What came of connecting to one controller's OPC UA server as a client does.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VerifyReport {
+    /// What was connected to: the address in the engineer's list, and the port of the basic settings.
+    pub url: String,
+    /// What this program showed to the server.
+    pub own: OwnIdentity,
+    /// Errors first.
+    pub findings: Vec<VerifyFinding>,
+    /// `None`: the server showed none.
+    pub certificate: Option<CertificateVerdict>,
+    /// By policy and mode.
+    pub endpoints: Vec<EndpointVerdict>,
+}
+
+/// How this computer, as a client, judges the certificate the server shows.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertificateVerdict {
+    pub summary: CertificateSummary,
+    /// Why it is refused (OPC 10000-4 §6.1.3), and in English words; `None`: it is accepted.
+    pub refused: Option<(CertificateStatus, String)>,
+    /// Everything clients may say about it, errors first.
+    pub findings: Vec<Finding>,
+}
+
+/// One endpoint: a security policy with a mode.
+#[derive(Debug, Clone, PartialEq)]
+pub struct EndpointVerdict {
+    /// Or the URI of one that is not known here.
+    pub policy: Result<SecurityPolicy, String>,
+    pub mode: Option<MessageSecurity>,
+    pub tokens: Vec<TokenVerdict>,
+}
+
+/// What came of one token at one endpoint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TokenVerdict {
+    pub kind: TokenKind,
+    pub verdict: Verdict,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Verdict {
+    /// A session was activated, and values were read.
+    Works,
+    Fails(Refusal),
+    NotTried(NotTried),
+}
+
+/// Why a client does not get in.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Refusal {
+    /// No TCP connection; the operating system's words.
+    NotReachable(String),
+    TimedOut,
+    /// What answers is no OPC UA server, or a broken one.
+    NotOpcUa(String),
+    /// The connection was closed without a word.
+    Closed,
+    /// The server refuses this program's certificate. The true reason is that of the controller's rejected list, `None`
+    /// where that does not tell it.
+    OwnCertificate(Option<(CertificateStatus, String)>),
+    /// The certificate in the answer is another than the one of the endpoint.
+    OtherCertificate,
+    /// User name or password.
+    Password,
+    /// Nobody is let in without a name, although it is offered.
+    Anonymous,
+    /// No room for another client.
+    Busy(String),
+    /// A client gets in, but the server does not run as it should; `ServerState` (OPC 10000-5 §12.6).
+    State(i32),
+    /// Any other OPC UA status, with the server's own words if it gave any.
+    Status {
+        name: String,
+        reason: String,
+    },
+}
+
+/// Why something that is offered was left out. None of it is a fault.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum NotTried {
+    /// No user and password were given.
+    NoPassword,
+    /// The same password was refused at another endpoint; trying on would lock the user out.
+    PasswordRefused,
+    /// The server takes the password without encryption.
+    PasswordInTheClear,
+    /// No certificate or ticket of a user is at hand.
+    OtherToken,
+    /// A policy or a mode that is not known here.
+    UnknownSecurity,
+    /// The server shows another certificate than the one selected in the controller: it may be somebody else.
+    OtherCertificate,
+    /// The server sends a chain of certificates, which this client cannot use.
+    Chain,
+}
+
+/// Something about the server as a whole.
+#[derive(Debug, Clone, PartialEq)]
+pub enum VerifyFinding {
+    /// Nothing was connected to.
+    NotRunning {
+        status: ServerStatus,
+        error: Option<ErrorCode>,
+    },
+    /// The server could not be asked for its endpoints.
+    NoAnswer(Refusal),
+    NoEndpoints,
+    /// Ticked in the basic settings, but not offered.
+    PolicyMissing(SecurityPolicy),
+    /// Offered, but not ticked.
+    PolicyNotTicked(SecurityPolicy),
+    TokenMissing(UserTokenPolicy),
+    TokenNotTicked(UserTokenPolicy),
+    /// The server names another address than the one it was reached at. Clients that ask for endpoints follow it.
+    OtherAddress {
+        url: String,
+        /// From this computer.
+        reachable: bool,
+    },
+    /// Not encrypted, or deprecated.
+    WeakPolicy(SecurityPolicy),
+    /// Only users with passwords are let in, and there is none.
+    NoUsers,
+    /// How far the controller's clock is ahead of this computer's: certificates may seem expired to one of them.
+    Clock(TimeDelta),
+}
+
+impl VerifyReport {
+    /// Nothing that is offered fails.
+    pub fn all_works(&self) -> bool {
+        self.findings.iter().all(|finding| finding.severity() == Severity::Warning)
+            && self.certificate.as_ref().is_none_or(|certificate| certificate.refused.is_none())
+            && !self.verdicts().any(|verdict| matches!(verdict, Verdict::Fails(_)))
+    }
+
+    /// What was offered: how much of it works, fails, was not tried.
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        for verdict in self.verdicts() {
+            match verdict {
+                Verdict::Works => counts.work += 1,
+                Verdict::Fails(_) => counts.fail += 1,
+                Verdict::NotTried(_) => counts.not_tried += 1,
+            }
+        }
+        counts
+    }
+
+    /// The server refuses this program because nobody has trusted its certificate yet, or for a reason nobody knows.
+    pub fn lacks_trust(&self) -> bool {
+        self.verdicts().any(|verdict| match verdict {
+            Verdict::Fails(Refusal::OwnCertificate(why)) => {
+                why.as_ref().is_none_or(|(status, _)| *status == CertificateStatus::Untrusted)
+            }
+            _ => false,
+        })
+    }
+
+    /// Something was left out that a user and a password would let try.
+    pub fn lacks_password(&self) -> bool {
+        self.verdicts().any(|verdict| *verdict == Verdict::NotTried(NotTried::NoPassword))
+    }
+
+    fn verdicts(&self) -> impl Iterator<Item = &Verdict> {
+        self.endpoints.iter().flat_map(|endpoint| &endpoint.tokens).map(|token| &token.verdict)
+    }
+}
+
+/// See [`VerifyReport::counts`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    pub work: usize,
+    pub fail: usize,
+    pub not_tried: usize,
+}
+
+impl EndpointVerdict {
+    /// `Basic256Sha256 – Sign`; of `None` there is one mode only.
+    pub fn name(&self) -> String {
+        let policy = self.policy.as_ref().map_or_else(String::as_str, |policy| policy.as_str());
+        match self.mode {
+            Some(MessageSecurity::None) if self.policy == Ok(SecurityPolicy::None) => policy.to_owned(),
+            mode => format!("{policy} – {}", mode.map_or("?", MessageSecurity::as_str)),
+        }
+    }
+}
+
+impl VerifyFinding {
+    pub fn severity(&self) -> Severity {
+        match self {
+            Self::NotRunning { .. }
+            | Self::NoAnswer(_)
+            | Self::NoEndpoints
+            | Self::PolicyMissing(_)
+            | Self::PolicyNotTicked(_)
+            | Self::TokenMissing(_)
+            | Self::TokenNotTicked(_)
+            | Self::OtherAddress { reachable: false, .. }
+            | Self::NoUsers => Severity::Error,
+            Self::OtherAddress { reachable: true, .. } | Self::WeakPolicy(_) | Self::Clock(_) => Severity::Warning,
+        }
+    }
+
+    /// As `--json` writes it.
+    pub const fn code(&self) -> &'static str {
+        match self {
+            Self::NotRunning { .. } => "not-running",
+            Self::NoAnswer(_) => "no-answer",
+            Self::NoEndpoints => "no-endpoints",
+            Self::PolicyMissing(_) => "policy-missing",
+            Self::PolicyNotTicked(_) => "policy-not-ticked",
+            Self::TokenMissing(_) => "token-missing",
+            Self::TokenNotTicked(_) => "token-not-ticked",
+            Self::OtherAddress { .. } => "other-address",
+            Self::WeakPolicy(_) => "weak-policy",
+            Self::NoUsers => "no-users",
+            Self::Clock(_) => "clock",
+        }
+    }
+}
+
+impl Verdict {
+    /// As `--json` writes it.
+    pub const fn code(&self) -> &'static str {
+        match self {
+            Self::Works => "works",
+            Self::Fails(_) => "fails",
+            Self::NotTried(_) => "not-tried",
+        }
+    }
+}

@@ -1,0 +1,57 @@
+use async_trait::async_trait;
+use chrono::Utc;
+
+use crate::jobs::{Confirmation, Operation, Outcome, Run, Step, TrustSnapshot};
+use crate::model::{ClientList, ErrorCode, Problem};
+use crate::protocol::{Base64Bytes, EditTrust, TrustStep};
+use crate::workspace::{OwnIdentity, OwnIdentityFiles};
+
+/// Puts this program's own certificate into the trusted list of a controller, if it is not there yet, so that it may
+/// connect as an OPC UA client like any other.
+#[derive(Debug, Clone)]
+pub struct TrustConfigurator {
+    pub identity: OwnIdentityFiles,
+}
+
+#[async_trait]
+impl Operation for TrustConfigurator {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation::default())
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let own = own(&self.identity, run).await?;
+        trust(run, &own).await?;
+        Ok(Outcome::Done)
+    }
+}
+
+/// The program's own certificate; made if there is none yet.
+pub(super) async fn own(files: &OwnIdentityFiles, run: &Run<'_>) -> Result<OwnIdentity, Problem> {
+    let files = files.clone();
+    run.on_a_core(move || files.load_or_make(Utc::now())).await?
+}
+
+/// Does nothing if it is trusted already.
+pub(super) async fn trust(run: &mut Run<'_>, own: &OwnIdentity) -> Result<(), Problem> {
+    let before = TrustSnapshot::read(run.session).await?;
+    let thumbprint = own.certificate.thumbprint_sha1();
+    if before.holds(ClientList::Trusted, &thumbprint) {
+        return Ok(());
+    }
+    let (have, limit) = (before.trusted.len(), before.limits.trusted);
+    if have >= limit {
+        return Err(Problem::with_detail(ErrorCode::ListFull, format!("{} > {limit}", have + 1)));
+    }
+    let step = if before.holds(ClientList::Rejected, &thumbprint) {
+        TrustStep::Move { from: ClientList::Rejected, to: ClientList::Trusted, thumbprints: vec![thumbprint] }
+    } else {
+        let name = own.certificate_path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let certificates = vec![(name, Base64Bytes(own.certificate.der().to_vec()))];
+        TrustStep::Add { list: ClientList::Trusted, certificates }
+    };
+    run.begin(Step::Apply)?;
+    run.session.edit_trust(EditTrust { revision: before.revision, steps: vec![step] }).await?;
+    Ok(())
+}

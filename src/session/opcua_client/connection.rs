@@ -1,0 +1,175 @@
+use std::sync::Arc;
+use std::time::Duration;
+
+use opcua::client::transport::{
+    SecureChannelEventLoop, StreamConnection, StreamConnector, StreamTransport, TransportConfiguration,
+    TransportPollResult,
+};
+use opcua::client::{AsyncSecureChannel, SessionRetryPolicy};
+use opcua::core::ResponseMessage;
+use opcua::core::comms::tcp_codec::TcpCodec;
+use opcua::crypto::CertificateStore;
+use opcua::sync::RwLock;
+use opcua::types::{
+    ContextOwned, DecodingOptions, EndpointDescription, Error, GetEndpointsRequest, NamespaceMap, RequestHeader,
+    StatusCode,
+};
+use parking_lot::Mutex;
+use tokio::io::{ReadHalf, WriteHalf};
+use tokio::net::TcpStream;
+use tokio_util::codec::FramedRead;
+
+use super::failure::{Cause, Failure, Stage};
+use super::watched_stream::{Heard, MAX_BYTES, MAX_FRAME, Watched};
+use super::{Endpoint, Target};
+
+/// How one connection is made.
+pub(super) struct Connection {
+    pub target: Target,
+    pub store: Arc<RwLock<CertificateStore>>,
+    pub connect: Duration,
+    /// What is being done, for whoever gives up waiting.
+    pub stage: Arc<Mutex<Stage>>,
+}
+
+/// An open secure channel.
+pub(super) struct Channel {
+    pub secure: AsyncSecureChannel,
+    events: SecureChannelEventLoop<StreamTransport<Reader, WriteHalf<TcpStream>>>,
+    heard: Arc<Mutex<Heard>>,
+    stage: Arc<Mutex<Stage>>,
+}
+
+type Reader = Watched<ReadHalf<TcpStream>>;
+
+impl Connection {
+    /// Connects, and opens a secure channel as the description wants it.
+    pub async fn open(&self, endpoint: EndpointDescription) -> Result<Channel, Failure> {
+        let stream = self.tcp().await?;
+        *self.stage.lock() = Stage::Channel;
+        let url = endpoint.endpoint_url.to_string();
+        let (reader, writer) = tokio::io::split(stream);
+        let (reader, heard) = Watched::new(reader);
+        let secure = AsyncSecureChannel::new(
+            self.store.clone(),
+            endpoint.into(),
+            SessionRetryPolicy::default(),
+            // A controller's clock may be off, which is not what this is about.
+            true,
+            Arc::default(),
+            TransportConfiguration {
+                send_buffer_size: MAX_FRAME,
+                recv_buffer_size: MAX_FRAME,
+                max_message_size: MAX_BYTES,
+                max_chunk_count: MAX_CHUNKS,
+            },
+            TOKEN_LIFETIME_MS,
+            Arc::new(RwLock::new(ContextOwned::new_default(NamespaceMap::new(), decoding()))),
+        );
+        let once = Mutex::new(Some((reader, writer)));
+        let connector = StreamConnector::new(
+            |url: String, options: DecodingOptions| {
+                let opened = once.lock().take().map(|(reader, writer)| {
+                    StreamConnection::new(FramedRead::new(reader, TcpCodec::new(options)), writer, url)
+                });
+                std::future::ready(opened.ok_or_else(|| Error::new(StatusCode::BadInvalidState, "connected twice")))
+            },
+            url,
+        );
+        let events = secure.connect_no_retry(&connector).await;
+        let events = events.map_err(|e| Failure::from_library(Stage::Channel, &e, &heard.lock()))?;
+        Ok(Channel { secure, events, heard, stage: self.stage.clone() })
+    }
+
+    async fn tcp(&self) -> Result<TcpStream, Failure> {
+        let connect = TcpStream::connect(self.target.authority());
+        match tokio::time::timeout(self.connect, connect).await {
+            Ok(Ok(stream)) => Ok(stream),
+            Ok(Err(e)) => Err(Failure::of(Stage::Connect, Cause::NotReachable(e.to_string()))),
+            Err(_) => Err(Failure::of(Stage::Connect, Cause::TimedOut)),
+        }
+    }
+
+    /// GetEndpoints over a channel without security.
+    pub async fn endpoints(&self) -> Result<Vec<Endpoint>, Failure> {
+        let url = format!("{}/", self.target.url());
+        let mut channel = self.open(EndpointDescription::from(url.as_str())).await?;
+        let request = GetEndpointsRequest {
+            request_header: RequestHeader {
+                timestamp: opcua::types::DateTime::now(),
+                request_handle: channel.secure.request_handle(),
+                timeout_hint: REQUEST.as_millis() as u32,
+                ..Default::default()
+            },
+            endpoint_url: url.into(),
+            locale_ids: None,
+            profile_uris: None,
+        };
+        let response = channel.drive(Stage::Endpoints, async |secure| secure.send(request, REQUEST).await).await?;
+        channel.close().await;
+        match response {
+            ResponseMessage::GetEndpoints(response) if response.response_header.service_result.is_good() => {
+                Ok(response.endpoints.into_iter().flatten().filter_map(Endpoint::new).collect())
+            }
+            ResponseMessage::GetEndpoints(response) => {
+                Err(Failure::of(Stage::Endpoints, super::failure::status(response.response_header.service_result, "")))
+            }
+            ResponseMessage::ServiceFault(fault) => {
+                Err(Failure::of(Stage::Endpoints, super::failure::status(fault.response_header.service_result, "")))
+            }
+            _ => Err(Failure::of(Stage::Endpoints, Cause::NotOpcUa("its answer is not what was asked for".to_owned()))),
+        }
+    }
+}
+
+impl Channel {
+    /// Runs a request to its answer while the connection is served.
+    pub async fn drive<R>(
+        &mut self,
+        stage: Stage,
+        request: impl AsyncFnOnce(&AsyncSecureChannel) -> Result<R, Error>,
+    ) -> Result<R, Failure> {
+        let Self { secure, events, heard, stage: at } = self;
+        *at.lock() = stage;
+        let request = request(secure);
+        tokio::pin!(request);
+        let error = loop {
+            tokio::select! {
+                answer = &mut request => match answer {
+                    Ok(answer) => return Ok(answer),
+                    Err(error) => break error,
+                },
+                event = events.poll() => if let TransportPollResult::Closed(status) = event {
+                    break Error::new(status, "closed");
+                },
+            }
+        };
+        Err(Failure::from_library(stage, &error, &heard.lock()))
+    }
+
+    /// Says goodbye; who does not listen is left.
+    pub async fn close(mut self) {
+        let goodbye = async {
+            self.secure.close_channel().await;
+            while !matches!(self.events.poll().await, TransportPollResult::Closed(_)) {}
+        };
+        let _late = tokio::time::timeout(GOODBYE, goodbye).await;
+    }
+}
+
+fn decoding() -> DecodingOptions {
+    DecodingOptions {
+        max_message_size: MAX_BYTES,
+        max_chunk_count: MAX_CHUNKS,
+        max_string_length: MAX_FRAME,
+        max_byte_string_length: MAX_FRAME,
+        max_array_length: 1_000,
+        ..Default::default()
+    }
+}
+
+/// Nothing takes a request longer than the whole try has time.
+pub(super) const REQUEST: Duration = Duration::from_secs(60);
+const GOODBYE: Duration = Duration::from_secs(1);
+const MAX_CHUNKS: usize = 64;
+const TOKEN_LIFETIME_MS: u32 = 60_000;

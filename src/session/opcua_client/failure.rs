@@ -1,0 +1,123 @@
+use std::fmt;
+
+use opcua::types::{Error, StatusCode};
+
+use super::watched_stream::Heard;
+
+/// How far a try came: what was being done when it failed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Stage {
+    /// Opening the TCP connection.
+    Connect,
+    /// Hello, and opening the secure channel.
+    Channel,
+    /// Asking for the endpoints.
+    Endpoints,
+    CreateSession,
+    /// ActivateSession: the user logs in.
+    Login,
+    Read,
+}
+
+/// A try that did not succeed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Failure {
+    pub stage: Stage,
+    pub cause: Cause,
+}
+
+/// Why it went no further.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Cause {
+    /// No TCP connection came about; the operating system's words.
+    NotReachable(String),
+    TimedOut,
+    /// What answers is not an OPC UA server, or a broken one.
+    NotOpcUa(String),
+    /// The connection was closed without a word.
+    Closed,
+    /// The server's certificate is not the one it must be.
+    OtherCertificate,
+    /// The server, or this side's own checks, refused with an OPC UA status.
+    Status {
+        code: u32,
+        /// `BadSecurityChecksFailed` and the like.
+        name: String,
+        /// The server's own words, if it gave any.
+        reason: String,
+    },
+    /// This side's fault.
+    Internal(String),
+}
+
+impl Failure {
+    pub(super) fn of(stage: Stage, cause: Cause) -> Self {
+        Self { stage, cause }
+    }
+
+    /// What the library says, put right by what was heard on the wire.
+    pub(super) fn from_library(stage: Stage, error: &Error, heard: &Heard) -> Self {
+        let cause = match (&heard.fault, &heard.last_word) {
+            (Some(fault), _) => Cause::NotOpcUa(fault.clone()),
+            (None, Some((code, reason))) => status(StatusCode::from(*code), reason),
+            (None, None) => match error.status() {
+                StatusCode::BadTimeout => Cause::TimedOut,
+                StatusCode::BadDecodingError | StatusCode::BadEncodingLimitsExceeded => {
+                    Cause::NotOpcUa("its answer cannot be read".to_owned())
+                }
+                StatusCode::BadCommunicationError | StatusCode::BadConnectionClosed => Cause::Closed,
+                code => status(code, ""),
+            },
+        };
+        Self { stage, cause }
+    }
+
+    /// The name of the OPC UA status, if it ended with one.
+    pub fn status(&self) -> Option<&str> {
+        match &self.cause {
+            Cause::Status { name, .. } => Some(name),
+            _ => None,
+        }
+    }
+}
+
+pub(super) fn status(code: StatusCode, reason: &str) -> Cause {
+    Cause::Status { code: code.bits(), name: code.sub_code().to_string(), reason: printable(reason) }
+}
+
+/// What a stranger wrote, fit to be shown: one line, and not a long one.
+pub fn printable(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(MAX_CHARS).collect::<String>().trim().to_owned()
+}
+
+const MAX_CHARS: usize = 300;
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotReachable(why) | Self::NotOpcUa(why) | Self::Internal(why) => f.write_str(why),
+            Self::TimedOut => f.write_str("no answer in time"),
+            Self::Closed => f.write_str("the connection was closed"),
+            Self::OtherCertificate => f.write_str("the server shows another certificate"),
+            Self::Status { name, reason, .. } if reason.is_empty() => f.write_str(name),
+            Self::Status { name, reason, .. } => write!(f, "{name}: {reason}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_the_server_said_last_counts_more_than_that_the_connection_closed() {
+        let error = Error::new(StatusCode::BadConnectionClosed, "closed");
+        let heard = Heard { last_word: Some((0x8013_0000, "\u{1b}[2Jno\r\n".into())), ..Heard::default() };
+        let failure = Failure::from_library(Stage::Channel, &error, &heard);
+        assert_eq!(failure.status(), Some("BadSecurityChecksFailed"));
+        assert_eq!(failure.cause.to_string(), "BadSecurityChecksFailed: [2Jno");
+        assert_eq!(Failure::from_library(Stage::Channel, &error, &Heard::default()).cause, Cause::Closed);
+        let heard = Heard { fault: Some("a web server".into()), ..heard };
+        assert_eq!(Failure::from_library(Stage::Channel, &error, &heard).cause, Cause::NotOpcUa("a web server".into()));
+    }
+}

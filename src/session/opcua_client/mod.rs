@@ -1,0 +1,207 @@
+//! An OPC UA client for one purpose: to find out whether a server lets a client in, and if not, why.
+//!
+//! | file | its one idea |
+//! |---|---|
+//! | `endpoint` | [`Endpoint`]: what a server offers, as far as it is understood |
+//! | `watched_stream` | what a server sends, bounded, and its last word noted |
+//! | `connection` | TCP and the secure channel |
+//! | `attempt` | one try from the secure channel to a value that was read |
+//! | `failure` | [`Failure`]: how far it came, and why no further |
+//!
+//! Every call is one connection, bounded in time and in what it takes in; nothing is tried again by itself. Whatever
+//! the peer sends gives a result: what the protocol's library makes of it runs in a task of its own.
+//!
+//! The server's certificate is not judged here. Whoever calls compares it with the one that is expected, before a
+//! secure channel is opened to it: [`OpcUaClient::attempt`] takes the certificate it must be.
+
+mod attempt;
+mod connection;
+mod endpoint;
+mod failure;
+#[cfg(test)]
+mod tests;
+mod watched_stream;
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
+
+use opcua::crypto::{CertificateStore, PrivateKey, X509, X509Data};
+use opcua::sync::RwLock;
+use parking_lot::Mutex;
+use secrecy::SecretString;
+use tokio::task::JoinSet;
+
+pub use endpoint::{Endpoint, MessageSecurity, OfferedToken, TokenKind};
+pub use failure::{Cause, Failure, Stage, printable};
+
+use crate::model::{ErrorCode, Problem};
+use crate::pki::Certificate;
+use crate::workspace::OwnIdentity;
+
+/// How long a client waits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Patience {
+    /// For the TCP connection. Default 4 s.
+    pub connect: Duration,
+    /// For everything of one try, from TCP to goodbye. Default 10 s: a controller needs seconds for RSA with 4096 bits
+    /// and for hashing a password.
+    pub attempt: Duration,
+}
+
+impl Default for Patience {
+    fn default() -> Self {
+        Self { connect: Duration::from_secs(4), attempt: Duration::from_secs(10) }
+    }
+}
+
+/// Where a server is reached.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Target {
+    /// A name or an address, without brackets.
+    pub host: String,
+    pub port: u16,
+}
+
+impl Target {
+    /// `host:port`, as `getaddrinfo` and URLs want it.
+    pub fn authority(&self) -> String {
+        if self.host.contains(':') {
+            format!("[{}]:{}", self.host, self.port)
+        } else {
+            format!("{}:{}", self.host, self.port)
+        }
+    }
+
+    /// `opc.tcp://host:port`.
+    pub fn url(&self) -> String {
+        format!("opc.tcp://{}", self.authority())
+    }
+}
+
+/// Who logs in.
+#[derive(Debug, Clone)]
+pub enum Login {
+    Anonymous,
+    User { name: String, password: SecretString },
+}
+
+/// What a client that was let in has read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Welcome {
+    /// `ServerStatus.State`; 0 is Running (OPC 10000-5 §12.6).
+    pub state: i32,
+}
+
+/// Tries one server under one application instance certificate.
+pub struct OpcUaClient {
+    application_uri: String,
+    store: Arc<RwLock<CertificateStore>>,
+    own: Option<(X509, PrivateKey)>,
+    patience: Patience,
+    /// Where the library writes the certificates of servers; removed in the end.
+    _folder: tempfile::TempDir,
+}
+
+impl std::fmt::Debug for OpcUaClient {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("OpcUaClient").field("application_uri", &self.application_uri).finish_non_exhaustive()
+    }
+}
+
+impl OpcUaClient {
+    /// Blocks while it reads key and certificate.
+    pub fn new(identity: &OwnIdentity, patience: Patience) -> Result<Self, Problem> {
+        let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
+        // The library reads both again for every connection; the paths are absolute, so that the key is not copied.
+        let absolute =
+            |path: &Path| std::path::absolute(path).map_err(|e| Problem::with_detail(ErrorCode::Internal, e));
+        let (certificate, key) = (absolute(&identity.certificate_path)?, absolute(&identity.key_path)?);
+        let (mut store, certificate, key) = CertificateStore::new_with_x509_data(
+            folder.path(),
+            false,
+            Some(&certificate),
+            Some(&key),
+            None::<X509Data>,
+        );
+        // It knows exact copies only, and no issuers; the caller judges the certificate before this client sees it.
+        store.set_skip_verify_certs(true);
+        store.set_trust_unknown_certs(true);
+        let own = certificate.zip(key);
+        if own.is_none() {
+            return Err(Problem::with_detail(ErrorCode::FileUnreadable, identity.key_path.display()));
+        }
+        Ok(Self {
+            application_uri: identity.application_uri(),
+            store: Arc::new(RwLock::new(store)),
+            own,
+            patience,
+            _folder: folder,
+        })
+    }
+
+    /// What the server offers to whoever asks, over a channel without security (OPC 10000-4 §5.5.4).
+    pub async fn endpoints(&self, target: &Target) -> Result<Vec<Endpoint>, Failure> {
+        let connection = self.connection(target);
+        self.bounded(connection.stage.clone(), async move { connection.endpoints().await }).await
+    }
+
+    /// Opens a channel as the endpoint wants it, creates and activates a session, reads the server's state, and says
+    /// goodbye. `expected` is the certificate the server must have: with another it comes to no secure channel, and no
+    /// password is sent.
+    pub async fn attempt(
+        &self,
+        target: &Target,
+        endpoint: &Endpoint,
+        expected: &Certificate,
+        login: &Login,
+    ) -> Result<Welcome, Failure> {
+        let Some((own_certificate, own_key)) = self.own.clone() else {
+            return Err(Failure::of(Stage::Channel, Cause::Internal("the client has no key".to_owned())));
+        };
+        let connection = self.connection(target);
+        let stage = connection.stage.clone();
+        let attempt = attempt::Attempt {
+            connection,
+            endpoint: endpoint.clone(),
+            expected: expected.der().to_vec(),
+            login: login.clone(),
+            application_uri: self.application_uri.clone(),
+            own_certificate,
+            own_key,
+        };
+        self.bounded(stage, attempt.run()).await
+    }
+
+    fn connection(&self, target: &Target) -> connection::Connection {
+        connection::Connection {
+            target: target.clone(),
+            store: self.store.clone(),
+            connect: self.patience.connect,
+            stage: Arc::new(Mutex::new(Stage::Connect)),
+        }
+    }
+
+    /// In a task of its own, which ends with this call: what the peer sends may trip the library up.
+    async fn bounded<R: Send + 'static>(
+        &self,
+        stage: Arc<Mutex<Stage>>,
+        work: impl Future<Output = Result<R, Failure>> + Send + 'static,
+    ) -> Result<R, Failure> {
+        let mut task = JoinSet::new();
+        task.spawn(work);
+        match tokio::time::timeout(self.patience.attempt, task.join_next()).await {
+            Ok(Some(Ok(result))) => result,
+            Ok(Some(Err(_)) | None) => {
+                Err(Failure::of(*stage.lock(), Cause::NotOpcUa("its answer cannot be read".to_owned())))
+            }
+            Err(_) => Err(Failure::of(*stage.lock(), Cause::TimedOut)),
+        }
+    }
+}
+
+/// Whether anybody listens there, found out by connecting and hanging up.
+pub async fn is_reachable(target: &Target, patience: Duration) -> bool {
+    let connect = tokio::net::TcpStream::connect(target.authority());
+    matches!(tokio::time::timeout(patience, connect).await, Ok(Ok(_)))
+}

@@ -1,0 +1,171 @@
+//! What came of connecting to OPC UA servers as a client, and what to do about it.
+
+use std::collections::BTreeMap;
+
+use super::{Dialog, Model, Purpose, RowId, RowState, Task, Typed};
+use crate::jobs::{Outcome, VerifyReport};
+use crate::model::{Credential, ErrorCode, Problem, ServerStatus, UserName, UserPassword};
+use crate::ui::backend::Command;
+use crate::ui::texts::TextKey;
+
+/// The reports of one or more controllers. Not to be seen before all of them are there.
+#[derive(Debug)]
+pub struct VerifyView {
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    pub running: bool,
+    /// By controller; a problem where it could not be asked.
+    pub of: BTreeMap<RowId, Result<Box<VerifyReport>, Problem>>,
+    /// Whose report is looked at.
+    pub shown: Option<RowId>,
+    /// Who logs in the next time; empty: nobody.
+    pub user: String,
+    pub password: Typed,
+    pub show_password: bool,
+}
+
+impl VerifyView {
+    /// The report that is looked at, or why there is none.
+    pub fn report(&self) -> Option<&Result<Box<VerifyReport>, Problem>> {
+        self.of.get(&self.shown?)
+    }
+
+    /// The controllers that do not trust this program.
+    pub fn lacking_trust(&self) -> Vec<RowId> {
+        let lacks =
+            |found: &Result<Box<VerifyReport>, Problem>| found.as_ref().is_ok_and(|report| report.lacks_trust());
+        self.of.iter().filter(|(_, found)| lacks(found)).map(|(row, _)| *row).collect()
+    }
+
+    /// Whether there is a login to ask for: one was left out, or something is typed already.
+    pub fn asks_for_login(&self) -> bool {
+        let lacks = |found: &Result<Box<VerifyReport>, Problem>| found.as_ref().is_ok_and(|r| r.lacks_password());
+        !self.user.is_empty() || self.of.values().any(lacks)
+    }
+
+    /// Why it cannot be verified again.
+    pub fn incomplete(&self) -> Option<TextKey> {
+        self.login().err()
+    }
+
+    /// Who logs in.
+    fn login(&self) -> Result<Option<Credential>, TextKey> {
+        if self.user.is_empty() && self.password.0.is_empty() {
+            return Ok(None);
+        }
+        let name = self.user.parse::<UserName>().map_err(|_| TextKey::UserRule)?;
+        let password = UserPassword::new(&self.password.0).map_err(|_| TextKey::UserRule)?;
+        Ok(Some(Credential { name, password }))
+    }
+}
+
+impl Model {
+    /// Connects to these controllers as a client, and shows the reports in the end.
+    pub(super) fn verify(&mut self, rows: Vec<RowId>) -> Vec<Command> {
+        self.dialogs.push(Dialog::Verify(VerifyView {
+            names: self.rows.names(&rows),
+            rows: rows.clone(),
+            running: true,
+            of: BTreeMap::new(),
+            shown: None,
+            user: String::new(),
+            password: Typed::default(),
+            show_password: false,
+        }));
+        self.start(Task::Verify { login: None }, rows, Purpose::Verify, None)
+    }
+
+    /// The main button of the dialog.
+    pub(super) fn verify_again(&mut self, mut view: VerifyView) -> Vec<Command> {
+        let login = view.login().ok().filter(|_| !view.running);
+        view.running |= login.is_some();
+        let rows = view.rows.clone();
+        self.dialogs.push(Dialog::Verify(view));
+        match login {
+            Some(login) => self.start(Task::Verify { login }, rows, Purpose::Verify, None),
+            None => vec![],
+        }
+    }
+
+    /// What the ended job changed, looked at as a client would.
+    pub(super) fn verify_changed(&mut self) -> Vec<Command> {
+        let rows = self.changed_servers();
+        // A form that lies under it waits for what was changed.
+        if rows.is_empty() || !matches!(self.dialogs[..], [Dialog::Processing(_)]) {
+            return vec![];
+        }
+        self.end_processing();
+        self.verify(rows)
+    }
+
+    /// The controllers whose server runs anew after the job that has ended.
+    pub fn changed_servers(&self) -> Vec<RowId> {
+        let Some(job) = self.job.as_ref().filter(|job| job.summary.is_some() && job.task.restarts_server()) else {
+            return vec![];
+        };
+        let runs = |row: RowId| {
+            let info = self.rows.get(row).and_then(|row| row.info());
+            info.is_some_and(|info| info.status == ServerStatus::Run)
+        };
+        job.rows.iter().filter(|row| row.state == RowState::Done && runs(row.row)).map(|row| row.row).collect()
+    }
+
+    /// Asks whether this program's certificate may be put into the trusted lists.
+    pub(super) fn trust_configurator(&mut self) -> Vec<Command> {
+        match self.dialogs.last() {
+            Some(Dialog::Verify(view)) if !view.running => {
+                let rows = view.lacking_trust();
+                if rows.is_empty() { vec![] } else { self.plan(Task::TrustConfigurator, rows) }
+            }
+            _ => vec![],
+        }
+    }
+
+    fn verifying(&mut self) -> Option<&mut VerifyView> {
+        self.dialogs.iter_mut().rev().find_map(|dialog| match dialog {
+            Dialog::Verify(view) => Some(view),
+            _ => None,
+        })
+    }
+
+    /// One controller was verified, or could not be asked.
+    pub(super) fn verified(&mut self, row: RowId, result: Result<Outcome, Problem>) {
+        let Some(view) = self.verifying() else { return };
+        let found = match result {
+            Ok(Outcome::Verified(report)) => Ok(report),
+            Ok(_) => return,
+            // Its turn never came.
+            Err(problem) if problem.code == ErrorCode::Cancelled => return,
+            Err(problem) => Err(problem),
+        };
+        view.of.insert(row, found);
+    }
+
+    /// All were.
+    pub(super) fn verify_ended(&mut self) {
+        self.end_processing();
+        let Some(view) = self.verifying() else { return };
+        view.running = false;
+        let worth_a_look = |row: &&RowId| match view.of.get(row) {
+            Some(Ok(report)) => !report.all_works(),
+            Some(Err(_)) => true,
+            None => false,
+        };
+        let first =
+            view.rows.iter().find(worth_a_look).or_else(|| view.rows.iter().find(|row| view.of.contains_key(row)));
+        view.shown = view.shown.filter(|row| view.of.contains_key(row)).or(first.copied());
+        match view.of.values().next() {
+            None => self.drop_verify(),
+            Some(Err(problem)) if view.rows.len() == 1 => {
+                let problem = problem.clone();
+                self.drop_verify();
+                self.show_problem(problem);
+            }
+            Some(_) => {}
+        }
+    }
+
+    fn drop_verify(&mut self) {
+        self.dialogs.retain(|dialog| !matches!(dialog, Dialog::Verify(_)));
+    }
+}
