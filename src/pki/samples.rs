@@ -62,6 +62,7 @@ pub(super) fn now() -> DateTime<Utc> {
 
 /// A CA that signs certificates and revocation lists, all valid at [`now`].
 pub(super) struct TestCa {
+    params: CertificateParams,
     issuer: Issuer<'static, KeyPair>,
     pub certificate: Certificate,
 }
@@ -74,7 +75,12 @@ impl TestCa {
         params.key_usages = vec![KeyUsagePurpose::KeyCertSign, KeyUsagePurpose::CrlSign];
         let key = KeyPair::generate().unwrap();
         let certificate = Certificate::from_der(params.self_signed(&key).unwrap().der()).unwrap();
-        Self { issuer: Issuer::new(params, key), certificate }
+        Self { issuer: Issuer::new(params.clone(), key), params, certificate }
+    }
+
+    /// The other CA's certificate, signed by this one.
+    pub fn certify(&self, other: &Self) -> Certificate {
+        Certificate::from_der(other.params.signed_by(other.issuer.key(), &self.issuer).unwrap().der()).unwrap()
     }
 
     pub fn application(&self, serial: &[u8]) -> Certificate {
