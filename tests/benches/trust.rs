@@ -23,7 +23,7 @@ fn main() {
     let benching = report::is_benching();
     let checks = report::number(0).unwrap_or(if benching { 2_000 } else { 2 });
     let plant = Plant::new();
-    println!("a chain of three with 2048-bit RSA keys, {checks} checks a round, one thread");
+    println!("a chain of three with 2048-bit RSA keys, {checks} checks a round, one of {} cores", report::cores());
     for entries in [10, 100_000] {
         let crls = [plant.crl(&plant.root, entries), plant.crl(&plant.middle, entries)];
         let (mut reading, mut first, mut later) = (Vec::new(), Vec::new(), Vec::new());
@@ -36,7 +36,7 @@ fn main() {
         }
         let bytes: usize = crls.iter().map(Vec::len).sum();
         println!("revocation lists of {entries} entries, {bytes} bytes together");
-        line("reading both (ms)", milliseconds(&reading));
+        line("reading both (s)", Spread::seconds(&reading));
         line("first check (ms)", milliseconds(&first));
         line("every later check (ms)", milliseconds(&later));
     }

@@ -59,9 +59,7 @@ pub(super) fn dates(table: &mut Table) {
 }
 
 pub(super) fn signatures(table: &mut Table) {
-    fn last_bit(bytes: &mut Vec<u8>) {
-        *bytes.last_mut().unwrap() ^= 1;
-    }
+    let last_bit: fn(&mut Vec<u8>) = |bytes| *bytes.last_mut().unwrap() ^= 1;
     fn shorter(bytes: &mut Vec<u8>) {
         bytes.pop();
     }

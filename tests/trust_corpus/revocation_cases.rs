@@ -130,9 +130,7 @@ pub(super) fn missing_lists(table: &mut Table) {
 
 /// Lists that must not be believed when they say nothing.
 pub(super) fn bad_lists(table: &mut Table) {
-    fn last_bit(bytes: &mut Vec<u8>) {
-        *bytes.last_mut().unwrap() ^= 1;
-    }
+    let last_bit: fn(&mut Vec<u8>) = |bytes| *bytes.last_mut().unwrap() ^= 1;
     fn point(tag: u8, content: &[u8]) -> Extension {
         Extension::new(DISTRIBUTION_POINT, true, seq(&[&tlv(tag, &[content])]))
     }
