@@ -133,7 +133,7 @@ impl UiCommand {
     /// Why it cannot be done now; what a disabled item says on hover.
     pub fn why_disabled(self, model: &Model) -> Option<T> {
         match self {
-            Self::ClientLists | Self::Crl | Self::CertificateAuthority | Self::Verify => Some(T::WhyLater),
+            Self::CertificateAuthority | Self::Verify => Some(T::WhyLater),
             Self::DeleteControllers
             | Self::Start
             | Self::Stop
@@ -143,7 +143,9 @@ impl UiCommand {
             | Self::SelfSigned
             | Self::CaSigned
             | Self::ExportSelfSigned
-            | Self::TypeSelect => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
+            | Self::TypeSelect
+            | Self::ClientLists
+            | Self::Crl => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
             Self::UserSpecified => match model.rows.ticked()[..] {
                 [] => Some(T::WhyTick),
                 [row] => model.any_current(&[row]).then_some(T::WhyUserLegacy),

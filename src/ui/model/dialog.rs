@@ -1,5 +1,6 @@
 use std::collections::BTreeSet;
 
+use super::trust::{AddTrustForm, DeleteTrust, DetailsView, TrustForm};
 use super::{
     ActivationForm, CaSignedForm, ConnectionListForm, ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose,
     RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
@@ -31,6 +32,10 @@ pub enum Dialog {
     ImportReview(ImportReview),
     Transfer(TransferForm),
     ServerLog(LogView),
+    Trust(Box<TrustForm>),
+    AddTrust(AddTrustForm),
+    DeleteTrust(DeleteTrust),
+    TrustDetails(Box<DetailsView>),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -50,6 +55,7 @@ impl Dialog {
                 | Self::ExportSelfSigned(_)
                 | Self::Activation(_)
                 | Self::Transfer(_)
+                | Self::AddTrust(_)
         )
     }
 

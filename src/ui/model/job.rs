@@ -3,9 +3,12 @@ use std::sync::Arc;
 
 use secrecy::SecretString;
 
+use super::trust::TrustTask;
 use super::{ImportSource, RowId};
 use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
+use crate::jobs::TrustUndo;
 use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
+use crate::protocol::CutClient;
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
 
@@ -37,6 +40,7 @@ pub enum Task {
     ImportSettings { passphrase: Option<SecretString> },
     ReadLog,
     DeleteLog,
+    Trust(TrustTask),
 }
 
 impl Task {
@@ -74,6 +78,7 @@ impl Task {
             Self::ImportSettings { passphrase } => {
                 Arc::new(jobs::ImportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
             }
+            Self::Trust(task) => task.operation(),
             Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
             Self::DeleteLog => Arc::new(jobs::SetSettings {
                 change: jobs::SettingsChange { delete_log: true, ..Default::default() },
@@ -101,6 +106,7 @@ impl Task {
             Self::ImportSettings { .. } => TextKey::ImportTitle,
             Self::ReadLog => TextKey::ServerLog,
             Self::DeleteLog => TextKey::DeleteLog,
+            Self::Trust(task) => task.title(),
         }
     }
 
@@ -126,6 +132,9 @@ pub enum Purpose {
     /// Certificates from elsewhere are looked at before their import; likewise.
     Check,
     LoadLog,
+    LoadTrust,
+    /// The dialog with the lists of one controller, which shows by itself what came of it.
+    ChangeTrust,
 }
 
 /// Where a job is with one controller.
@@ -168,6 +177,10 @@ pub struct JobRow {
     pub state: RowState,
     /// What was asked for and is on this computer now.
     pub saved: Option<PathBuf>,
+    /// Whose connections the change ended.
+    pub cut: Vec<CutClient>,
+    /// What takes a change of whom it trusts back.
+    pub undo: Option<TrustUndo>,
 }
 
 /// A job, running or ended.
@@ -182,6 +195,12 @@ pub struct Job {
     pub cancel: CancelState,
     /// Set when it has ended.
     pub summary: Option<Summary>,
+}
+
+impl JobRow {
+    pub fn new(row: RowId, name: String) -> Self {
+        Self { row, name, state: RowState::Waiting, saved: None, cut: Vec::new(), undo: None }
+    }
 }
 
 impl Job {
