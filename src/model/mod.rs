@@ -26,7 +26,7 @@ pub use certificate::{
     CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
     Validity, default_common_name, offered_key_lengths,
 };
-pub use certificate_status::CertificateStatus;
+pub use certificate_status::{CertificateStatus, UnknownCertificateStatus};
 pub use client_list::{ClientList, ListLimits};
 pub use controller::{
     ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber, VersionError,

@@ -1,14 +1,16 @@
 use std::fmt;
+use std::net::IpAddr;
+use std::sync::Arc;
 
 use chrono::{DateTime, Utc};
 use rsa::pkcs8::PrivateKeyInfo;
 use sha1::{Digest as _, Sha1};
-use x509_parser::asn1_rs::oid;
-use x509_parser::prelude::{ASN1Time, FromDer, GeneralName, SubjectPublicKeyInfo, X509Certificate};
-use x509_parser::public_key::PublicKey;
+use x509_parser::prelude::{FromDer, X509Certificate};
 
+use super::PkiError;
+use super::facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, Facts, KeyUsage};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
-use super::{Fingerprint, PkiError, name};
+use super::signature::{PublicKey, Verdict};
 use crate::model::CertificateSummary;
 
 /// The largest certificate that is read, in bytes of DER.
@@ -21,23 +23,8 @@ pub const MAX_CERTIFICATE_BYTES: usize = 16 * 1024;
 /// such a certificate can be shown before it is refused.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Certificate {
-    der: Vec<u8>,
-    facts: Facts,
-}
-
-/// What was read from the DER.
-#[derive(Clone, PartialEq, Eq)]
-struct Facts {
-    common_name: Option<String>,
-    issued_to: String,
-    issued_by: String,
-    names_equal: bool,
-    serial_number: String,
-    not_before: DateTime<Utc>,
-    not_after: DateTime<Utc>,
-    key_bits: u16,
-    rsa_public_key: Option<Vec<u8>>,
-    application_uri: Option<String>,
+    der: Arc<[u8]>,
+    facts: Arc<Facts>,
 }
 
 impl Certificate {
@@ -48,7 +35,7 @@ impl Certificate {
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
-        Ok(Self { der: der.to_vec(), facts: Facts::of(&parsed)? })
+        Ok(Self { der: der.into(), facts: Arc::new(Facts::of(der, &parsed)?) })
     }
 
     /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one certificate, in DER or PEM.
@@ -83,7 +70,7 @@ impl Certificate {
 
     /// SHA-256 of the DER.
     pub fn sha256(&self) -> [u8; 32] {
-        *Fingerprint::of(&self.der).as_bytes()
+        self.facts.sha256
     }
 
     /// The subject's common name, without control characters.
@@ -92,18 +79,18 @@ impl Certificate {
     }
 
     /// Valid from this second on.
-    pub const fn not_before(&self) -> DateTime<Utc> {
+    pub fn not_before(&self) -> DateTime<Utc> {
         self.facts.not_before
     }
 
     /// Valid up to and with this second.
-    pub const fn not_after(&self) -> DateTime<Utc> {
+    pub fn not_after(&self) -> DateTime<Utc> {
         self.facts.not_after
     }
 
     /// The length of the public key; 0 if its kind is not known.
-    pub const fn key_bits(&self) -> u16 {
-        self.facts.key_bits
+    pub fn key_bits(&self) -> u16 {
+        self.facts.public_key.bits()
     }
 
     /// The first URI of the subject alternative name, without control characters.
@@ -112,13 +99,88 @@ impl Certificate {
     }
 
     /// Whether subject and issuer have the same name. The signature is not looked at.
-    pub const fn is_self_signed(&self) -> bool {
+    pub fn is_self_signed(&self) -> bool {
         self.facts.names_equal
     }
 
-    /// Whether the basic constraints say that it may sign other certificates.
+    /// The subject's whole name, without control characters.
+    pub fn subject(&self) -> &str {
+        &self.facts.subject
+    }
+
+    /// The issuer's whole name, without control characters.
+    pub fn issuer(&self) -> &str {
+        &self.facts.issuer
+    }
+
+    /// 1 or 3; OPC UA wants 3.
+    pub fn version(&self) -> u32 {
+        self.facts.version
+    }
+
+    /// Whether it says of itself that it is the certificate of a CA, and does not say that its key signs none.
     pub fn is_ca(&self) -> bool {
-        X509Certificate::from_der(&self.der).is_ok_and(|(_, parsed)| parsed.is_ca())
+        self.facts.version == 3
+            && self.facts.basic_constraints.is_some_and(|constraints| constraints.ca)
+            && self.facts.key_usages.as_ref().is_none_or(|usages| usages.contains(&KeyUsage::KeyCertSign))
+    }
+
+    /// What its basic constraints say, if there are any.
+    pub fn basic_constraints(&self) -> Option<BasicConstraints> {
+        self.facts.basic_constraints
+    }
+
+    /// What its key may be used for; `None` if it does not say.
+    pub fn key_usages(&self) -> Option<&[KeyUsage]> {
+        self.facts.key_usages.as_deref()
+    }
+
+    /// What the certificate is for; `None` if it does not say.
+    pub fn extended_key_usages(&self) -> Option<&[ExtendedKeyUsage]> {
+        self.facts.extended_key_usages.as_deref()
+    }
+
+    /// The subject alternative name, in its order.
+    pub fn alternative_names(&self) -> &[AlternativeName] {
+        &self.facts.alternative_names
+    }
+
+    /// Whether one of the addresses or DNS names of the subject alternative name is this one. Case, a dot at the end,
+    /// and the many ways to write an IPv6 address do not matter; there are no wildcards in OPC UA.
+    pub fn names_host(&self, host: &str) -> bool {
+        let address = host.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>().ok();
+        let plain = host.strip_suffix('.').unwrap_or(host);
+        self.facts.alternative_names.iter().any(|name| match name {
+            AlternativeName::Ip(named) => address == Some(*named),
+            AlternativeName::Dns(named) => named.strip_suffix('.').unwrap_or(named).eq_ignore_ascii_case(plain),
+            _ => false,
+        })
+    }
+
+    /// The subject key identifier, if there is one.
+    pub fn subject_key_id(&self) -> Option<&[u8]> {
+        self.facts.subject_key_id.as_deref()
+    }
+
+    /// The key identifier of its issuer, if there is one.
+    pub fn authority_key_id(&self) -> Option<&[u8]> {
+        self.facts.authority_key_id.as_deref()
+    }
+
+    /// Whether its signature was made with the key of `issuer`. Names, dates and usages are not looked at.
+    pub fn verify_signed_by(&self, issuer: &Self) -> bool {
+        self.signature_by(issuer) == Verdict::Right
+    }
+
+    /// As [`Certificate::verify_signed_by`], and why nothing can be said about a signature.
+    pub(super) fn signature_by(&self, issuer: &Self) -> Verdict {
+        let facts = &self.facts;
+        facts.signature_algorithm.verify(&issuer.facts.public_key, &self.der[facts.signed.clone()], &facts.signature)
+    }
+
+    /// What was read from it.
+    pub(super) fn facts(&self) -> &Facts {
+        &self.facts
     }
 
     /// What a list shows of it. A name is its common name, or the whole name where there is none.
@@ -130,42 +192,23 @@ impl Certificate {
             not_before: self.facts.not_before,
             not_after: self.facts.not_after,
             thumbprint: self.thumbprint_sha1(),
-            key_bits: self.facts.key_bits,
+            key_bits: self.facts.public_key.bits(),
             application_uri: self.facts.application_uri.clone(),
         }
     }
 
     /// The RSA public key in PKCS#1, if it is an RSA key.
     pub(super) fn rsa_public_key(&self) -> Option<&[u8]> {
-        self.facts.rsa_public_key.as_deref()
+        match &self.facts.public_key {
+            PublicKey::Rsa { pkcs1, .. } => Some(pkcs1),
+            _ => None,
+        }
     }
 }
 
 impl fmt::Debug for Certificate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Certificate({:?}, {})", self.facts.issued_to, self.thumbprint_sha1())
-    }
-}
-
-impl Facts {
-    fn of(parsed: &X509Certificate<'_>) -> Result<Self, PkiError> {
-        if parsed.signature_algorithm != parsed.tbs_certificate.signature {
-            return Err(PkiError::SignatureAlgorithms);
-        }
-        parsed.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;
-        let (key_bits, rsa_public_key) = public_key(parsed.public_key())?;
-        Ok(Self {
-            common_name: name::common_name(parsed.subject()),
-            issued_to: name::title(parsed.subject()),
-            issued_by: name::title(parsed.issuer()),
-            names_equal: parsed.subject().as_raw() == parsed.issuer().as_raw(),
-            serial_number: serial_number(parsed.raw_serial()),
-            not_before: date(parsed.validity().not_before)?,
-            not_after: date(parsed.validity().not_after)?,
-            key_bits,
-            rsa_public_key,
-            application_uri: application_uri(parsed),
-        })
     }
 }
 
@@ -177,51 +220,10 @@ pub(super) fn check_size(bytes: &[u8], max: usize) -> Result<(), PkiError> {
     }
 }
 
-/// The length of a public key, 0 if its kind is not known; and in PKCS#1, if it is an RSA key.
-pub(super) fn public_key(info: &SubjectPublicKeyInfo<'_>) -> Result<(u16, Option<Vec<u8>>), PkiError> {
-    let key = info.parsed().map_err(|_| PkiError::NotACertificate)?;
-    let bits = match &key {
-        PublicKey::RSA(rsa) => bit_length(rsa.modulus),
-        PublicKey::EC(point) => point.key_size(),
-        _ => 0,
-    };
-    let is_rsa = info.algorithm.algorithm == oid!(1.2.840.113549.1.1.1);
-    let rsa_public_key = is_rsa.then(|| info.subject_public_key.data.to_vec());
-    Ok((u16::try_from(bits).unwrap_or(u16::MAX), rsa_public_key))
-}
-
-/// The bits of a big-endian number, however many zeros stand before it.
-fn bit_length(number: &[u8]) -> usize {
-    match number.iter().position(|byte| *byte != 0) {
-        Some(first) => (number.len() - first) * 8 - number[first].leading_zeros() as usize,
-        None => 0,
-    }
-}
-
-fn serial_number(raw: &[u8]) -> String {
-    match raw {
-        // The zero that keeps a DER integer positive is not part of the number.
-        [0, number @ ..] if !number.is_empty() => hex::encode_upper(number),
-        number => hex::encode_upper(number),
-    }
-}
-
-fn date(time: ASN1Time) -> Result<DateTime<Utc>, PkiError> {
-    DateTime::from_timestamp(time.timestamp(), 0).ok_or(PkiError::NotACertificate)
-}
-
-fn application_uri(parsed: &X509Certificate<'_>) -> Option<String> {
-    let names = parsed.subject_alternative_name().ok().flatten()?;
-    names.value.general_names.iter().find_map(|general_name| match general_name {
-        GeneralName::URI(uri) => Some(name::printable(uri)),
-        _ => None,
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::pki::samples;
+    use crate::pki::{Fingerprint, samples};
 
     #[test]
     fn only_a_whole_certificate_and_nothing_else_is_taken() {
@@ -302,14 +304,5 @@ mod tests {
         let certificate = Certificate::from_der(made.der()).unwrap();
         assert_eq!(certificate.common_name(), None);
         assert_eq!(certificate.summary().issued_to, "O=Example");
-    }
-
-    #[test]
-    fn numbers_lose_the_zeros_before_them() {
-        assert_eq!(bit_length(&[0, 0x80, 0]), 16);
-        assert_eq!(bit_length(&[0x7f, 0xff]), 15);
-        assert_eq!(bit_length(&[0, 0]), 0);
-        assert_eq!(serial_number(&[0, 0x9a, 1]), "9A01");
-        assert_eq!(serial_number(&[0]), "00");
     }
 }

@@ -1,37 +1,411 @@
-use chrono::DateTime;
-use sha1::{Digest as _, Sha1};
-use x509_parser::prelude::{CertificateRevocationList, FromDer};
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
 
-use super::PkiError;
+use chrono::{DateTime, Utc};
+use serde::{Deserialize, Serialize};
+use sha1::{Digest as _, Sha1};
+use x509_parser::prelude::{
+    CertificateRevocationList, FromDer, ParsedExtension, ReasonCode, RevokedCertificate, X509Extension,
+};
+
+use super::certificate::check_size;
+use super::facts::{date, range_within, significant};
+use super::signature::{SignatureAlgorithm, Verdict};
+use super::{Certificate, PkiError, name, tlv};
 use crate::model::CrlSummary;
 
-/// One certificate revocation list.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// The largest revocation list that is read, in bytes of DER: room for 150,000 entries with long serial numbers.
+pub const MAX_CRL_BYTES: usize = 8 * 1024 * 1024;
+
+/// One X.509 certificate revocation list, found whole: nothing missing, nothing after it, no extension twice, one
+/// signature algorithm. Indexed once, so that looking a certificate up does not depend on how long the list is.
+///
+/// Nothing is said about who signed it, or whether it is of today. One that cannot be used for a full check can be
+/// read and shown; [`Crl::unusable`] says why.
+#[derive(Clone, PartialEq, Eq)]
 pub struct Crl {
-    der: Vec<u8>,
-    summary: CrlSummary,
+    der: Arc<[u8]>,
+    facts: Arc<Facts>,
+}
+
+#[derive(Debug, PartialEq, Eq)]
+struct Facts {
+    issuer: String,
+    issuer_title: String,
+    issuer_folded: Vec<u8>,
+    authority_key_id: Option<Vec<u8>>,
+    number: Option<Vec<u8>>,
+    number_text: Option<String>,
+    this_update: DateTime<Utc>,
+    next_update: Option<DateTime<Utc>>,
+    /// Sorted by serial number.
+    entries: Vec<Entry>,
+    unusable: Option<String>,
+    /// Whether its entries may be about certificates of other authorities.
+    indirect: bool,
+    signature_algorithm: SignatureAlgorithm,
+    signed: Range<usize>,
+    signature: Vec<u8>,
+}
+
+/// Small, because a list may have a hundred thousand of them: the serial number itself stays in the DER.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Entry {
+    start: u32,
+    length: u32,
+    date: i64,
+    reason: RevocationReason,
+}
+
+/// What a revocation list says of one certificate.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Revoked {
+    pub date: DateTime<Utc>,
+    pub reason: RevocationReason,
+}
+
+/// Why a certificate was revoked (RFC 5280 §5.3.1), by the names of that document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum RevocationReason {
+    Unspecified,
+    KeyCompromise,
+    #[serde(rename = "cACompromise")]
+    CaCompromise,
+    AffiliationChanged,
+    Superseded,
+    CessationOfOperation,
+    CertificateHold,
+    /// Only in a delta list: it is not revoked any more.
+    #[serde(rename = "removeFromCRL")]
+    RemoveFromCrl,
+    PrivilegeWithdrawn,
+    #[serde(rename = "aACompromise")]
+    AaCompromise,
 }
 
 impl Crl {
+    /// From DER and nothing but DER, of at most [`MAX_CRL_BYTES`].
     pub fn from_der(der: &[u8]) -> Result<Self, PkiError> {
-        let (_, crl) = CertificateRevocationList::from_der(der).map_err(|_| PkiError::NotACertificate)?;
-        let date = |seconds| DateTime::from_timestamp(seconds, 0).ok_or(PkiError::NotACertificate);
-        let summary = CrlSummary {
-            issuer: super::name::title(crl.issuer()),
-            this_update: date(crl.last_update().timestamp())?,
-            next_update: crl.next_update().map(|time| date(time.timestamp())).transpose()?,
-            entries: crl.iter_revoked_certificates().count(),
-            number: crl.crl_number().map(ToString::to_string),
-            id: hex::encode_upper(Sha1::digest(der)),
-        };
-        Ok(Self { der: der.to_vec(), summary })
+        check_size(der, MAX_CRL_BYTES)?;
+        let (rest, parsed) =
+            CertificateRevocationList::from_der(der).map_err(|_| PkiError::NotACrl("it cannot be read"))?;
+        if !rest.is_empty() {
+            return Err(PkiError::TrailingBytes(rest.len()));
+        }
+        Ok(Self { der: der.into(), facts: Arc::new(Facts::of(der, &parsed)?) })
     }
 
+    /// The list itself, as it was read.
     pub fn der(&self) -> &[u8] {
         &self.der
     }
 
+    /// What a list of lists shows of it.
     pub fn summary(&self) -> CrlSummary {
-        self.summary.clone()
+        CrlSummary {
+            issuer: self.facts.issuer_title.clone(),
+            this_update: self.facts.this_update,
+            next_update: self.facts.next_update,
+            entries: self.facts.entries.len(),
+            number: self.facts.number_text.clone(),
+            id: self.id(),
+        }
+    }
+
+    /// SHA-1 of the DER in upper-case hexadecimal, like the thumbprint of a certificate.
+    pub fn id(&self) -> String {
+        hex::encode_upper(Sha1::digest(&self.der))
+    }
+
+    /// The whole name of the authority, without control characters.
+    pub fn issuer(&self) -> &str {
+        &self.facts.issuer
+    }
+
+    /// The key identifier of the authority, if there is one.
+    pub fn authority_key_id(&self) -> Option<&[u8]> {
+        self.facts.authority_key_id.as_deref()
+    }
+
+    /// When the authority made it.
+    pub fn this_update(&self) -> DateTime<Utc> {
+        self.facts.this_update
+    }
+
+    /// When the authority promised the next one, if it did.
+    pub fn next_update(&self) -> Option<DateTime<Utc>> {
+        self.facts.next_update
+    }
+
+    /// The CRL number in decimal, if there is one.
+    pub fn number(&self) -> Option<&str> {
+        self.facts.number_text.as_deref()
+    }
+
+    /// The name of the algorithm it is signed with.
+    pub fn signature_algorithm(&self) -> &str {
+        self.facts.signature_algorithm.name()
+    }
+
+    /// Why it cannot be used for a full check, if it cannot: it is a delta, indirect or partitioned list, or something
+    /// in it is critical and not understood (RFC 5280 §5.2).
+    pub fn unusable(&self) -> Option<&str> {
+        self.facts.unusable.as_deref()
+    }
+
+    /// Whether both are lists of the same authority: the same name and, where both say it, the same key.
+    pub fn is_of_same_issuer(&self, other: &Self) -> bool {
+        self.facts.issuer_folded == other.facts.issuer_folded
+            && match (self.authority_key_id(), other.authority_key_id()) {
+                (Some(one), Some(other)) => one == other,
+                _ => true,
+            }
+    }
+
+    /// Whether it is a later one than `other` of the same authority: by the CRL number where both have one, then by
+    /// the date. A list is not newer than itself.
+    pub fn is_newer_than(&self, other: &Self) -> bool {
+        let numbers = match (&self.facts.number, &other.facts.number) {
+            (Some(one), Some(other)) => (one.len(), one).cmp(&(other.len(), other)),
+            _ => std::cmp::Ordering::Equal,
+        };
+        numbers.then(self.facts.this_update.cmp(&other.facts.this_update)).is_gt()
+    }
+
+    /// Whether the authority may have issued the certificate: the same name. Keys are not looked at.
+    pub fn is_by_issuer_of(&self, certificate: &Certificate) -> bool {
+        self.facts.issuer_folded == certificate.facts().issuer_folded
+    }
+
+    /// What it says of a certificate, if it lists it. Says nothing about certificates of other authorities.
+    ///
+    /// An indirect list never does: its entries may be about certificates of anybody.
+    pub fn revoked(&self, certificate: &Certificate) -> Option<Revoked> {
+        if self.facts.indirect || !self.is_by_issuer_of(certificate) {
+            return None;
+        }
+        let serial = certificate.facts().serial.as_slice();
+        let entries = &self.facts.entries;
+        let first = entries.partition_point(|entry| entry.serial(&self.der) < serial);
+        let same = entries[first..].iter().take_while(|entry| entry.serial(&self.der) == serial);
+        // A list may name one certificate twice; what revokes it counts.
+        let entry = same.into_iter().find(|entry| entry.reason != RevocationReason::RemoveFromCrl)?;
+        Some(Revoked { date: DateTime::from_timestamp(entry.date, 0)?, reason: entry.reason })
+    }
+
+    /// Every entry: the serial number in upper-case hexadecimal, and what is said of it. Sorted by serial number.
+    pub fn entries(&self) -> impl Iterator<Item = (String, Revoked)> + '_ {
+        self.facts.entries.iter().filter_map(|entry| {
+            let serial = hex::encode_upper(entry.serial(&self.der));
+            Some((serial, Revoked { date: DateTime::from_timestamp(entry.date, 0)?, reason: entry.reason }))
+        })
+    }
+
+    /// Whether its signature was made with the key of `issuer`. Names, dates and usages are not looked at. Reads the
+    /// whole list.
+    pub fn verify_signed_by(&self, issuer: &Certificate) -> bool {
+        self.signature_by(issuer) == Verdict::Right
+    }
+
+    pub(super) fn signature_by(&self, issuer: &Certificate) -> Verdict {
+        let facts = &self.facts;
+        facts.signature_algorithm.verify(&issuer.facts().public_key, &self.der[facts.signed.clone()], &facts.signature)
+    }
+
+    pub(super) fn issuer_folded(&self) -> &[u8] {
+        &self.facts.issuer_folded
+    }
+
+    pub(super) fn algorithm(&self) -> &SignatureAlgorithm {
+        &self.facts.signature_algorithm
     }
 }
+
+impl fmt::Debug for Crl {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Crl({:?}, {} entries, {})", self.facts.issuer_title, self.facts.entries.len(), self.id())
+    }
+}
+
+impl Entry {
+    fn serial<'a>(&self, der: &'a [u8]) -> &'a [u8] {
+        let start = self.start as usize;
+        &der[start..start + self.length as usize]
+    }
+}
+
+impl Facts {
+    fn of(der: &[u8], parsed: &CertificateRevocationList<'_>) -> Result<Self, PkiError> {
+        let damaged = |_: PkiError| PkiError::NotACrl("a date is out of range");
+        let list = &parsed.tbs_cert_list;
+        if parsed.signature_algorithm != list.signature {
+            return Err(PkiError::SignatureAlgorithms);
+        }
+        if !matches!(list.version.map(|version| version.0), None | Some(1)) {
+            return Err(PkiError::NotACrl("it has a version nobody knows"));
+        }
+        parsed.tbs_cert_list.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;
+        let entries = &list.revoked_certificates;
+        // The parser passes over a table of entries that it cannot read, as if there were none.
+        if count_entries(der) != Some(entries.len()) {
+            return Err(PkiError::NotACrl("its entries are damaged"));
+        }
+        let mut facts = Self {
+            issuer: name::full(parsed.issuer()),
+            issuer_title: name::title(parsed.issuer()),
+            issuer_folded: name::folded(parsed.issuer()),
+            authority_key_id: None,
+            number: None,
+            number_text: None,
+            this_update: date(parsed.last_update()).map_err(damaged)?,
+            next_update: parsed.next_update().map(date).transpose().map_err(damaged)?,
+            entries: Vec::with_capacity(entries.len()),
+            unusable: None,
+            indirect: false,
+            signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
+            signed: range_within(der, list.as_ref()).ok_or(PkiError::NotACrl("it cannot be read"))?,
+            signature: parsed.signature_value.data.to_vec(),
+        };
+        for extension in parsed.extensions() {
+            facts.read(extension)?;
+        }
+        for entry in entries {
+            facts.add(der, entry)?;
+        }
+        facts.entries.sort_by(|one, other| one.serial(der).cmp(other.serial(der)));
+        Ok(facts)
+    }
+
+    fn read(&mut self, extension: &X509Extension<'_>) -> Result<(), PkiError> {
+        match extension.parsed_extension() {
+            ParsedExtension::AuthorityKeyIdentifier(authority) => {
+                self.authority_key_id = authority.key_identifier.as_ref().map(|id| id.0.to_vec());
+            }
+            ParsedExtension::CRLNumber(number) => {
+                let bytes = number.to_bytes_be();
+                if bytes.len() > MAX_NUMBER_BYTES {
+                    return Err(PkiError::NotACrl("its number is too long"));
+                }
+                self.number_text = Some(number.to_string());
+                self.number = Some(bytes);
+            }
+            ParsedExtension::IssuingDistributionPoint(point) => {
+                self.indirect |= point.indirect_crl;
+                self.unusable(if point.indirect_crl {
+                    "it is an indirect list, which speaks for other authorities".to_owned()
+                } else if point.only_contains_user_certs
+                    || point.only_contains_ca_certs
+                    || point.only_contains_attribute_certs
+                {
+                    "it is a partitioned list, only about some kinds of certificates".to_owned()
+                } else if point.only_some_reasons.is_some() {
+                    "it is a partitioned list, only about some reasons".to_owned()
+                } else {
+                    "it is a partitioned list, only about the certificates of one distribution point".to_owned()
+                });
+            }
+            ParsedExtension::ParseError { .. } => return Err(PkiError::NotACrl("one of its extensions is damaged")),
+            _ if extension.oid.to_id_string() == DELTA_CRL_INDICATOR => {
+                self.unusable("it is a delta list, which says only what changed since another list".to_owned());
+            }
+            _ if extension.critical => {
+                let oid = extension.oid.to_id_string();
+                self.unusable(format!("its extension {oid} is critical and not understood"));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, der: &[u8], entry: &RevokedCertificate<'_>) -> Result<(), PkiError> {
+        let damaged = PkiError::NotACrl("its entries are damaged");
+        let mut reason = RevocationReason::Unspecified;
+        for extension in entry.extensions() {
+            match extension.parsed_extension() {
+                ParsedExtension::ReasonCode(code) => reason = RevocationReason::of(*code).ok_or(damaged.clone())?,
+                ParsedExtension::InvalidityDate(_) => {}
+                ParsedExtension::ParseError { .. } => return Err(damaged),
+                _ if extension.oid.to_id_string() == CERTIFICATE_ISSUER => {
+                    self.indirect = true;
+                    self.unusable("it is an indirect list, which speaks for other authorities".to_owned());
+                }
+                _ if extension.critical => {
+                    let oid = extension.oid.to_id_string();
+                    self.unusable(format!("an entry's extension {oid} is critical and not understood"));
+                }
+                _ => {}
+            }
+        }
+        let serial = significant(entry.raw_serial());
+        let at = range_within(der, serial).ok_or(damaged.clone())?;
+        self.entries.push(Entry {
+            start: u32::try_from(at.start).map_err(|_| damaged.clone())?,
+            length: u32::try_from(at.len()).map_err(|_| damaged.clone())?,
+            date: date(entry.revocation_date).map_err(|_| damaged)?.timestamp(),
+            reason,
+        });
+        Ok(())
+    }
+
+    fn unusable(&mut self, why: String) {
+        self.unusable.get_or_insert(why);
+    }
+}
+
+impl RevocationReason {
+    fn of(code: ReasonCode) -> Option<Self> {
+        Some(match code.0 {
+            0 => Self::Unspecified,
+            1 => Self::KeyCompromise,
+            2 => Self::CaCompromise,
+            3 => Self::AffiliationChanged,
+            4 => Self::Superseded,
+            5 => Self::CessationOfOperation,
+            6 => Self::CertificateHold,
+            8 => Self::RemoveFromCrl,
+            9 => Self::PrivilegeWithdrawn,
+            10 => Self::AaCompromise,
+            _ => return None,
+        })
+    }
+
+    /// As RFC 5280 writes it.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::Unspecified => "unspecified",
+            Self::KeyCompromise => "keyCompromise",
+            Self::CaCompromise => "cACompromise",
+            Self::AffiliationChanged => "affiliationChanged",
+            Self::Superseded => "superseded",
+            Self::CessationOfOperation => "cessationOfOperation",
+            Self::CertificateHold => "certificateHold",
+            Self::RemoveFromCrl => "removeFromCRL",
+            Self::PrivilegeWithdrawn => "privilegeWithdrawn",
+            Self::AaCompromise => "aACompromise",
+        }
+    }
+}
+
+/// How many entries the table of entries has; `None` if the list, or the table, is not whole.
+fn count_entries(der: &[u8]) -> Option<usize> {
+    let (list, _) = tlv::first(der)?;
+    let (signed, _) = tlv::first(list.content)?;
+    let parts = tlv::all(signed.content)?;
+    // Behind version, algorithm and issuer come one or two dates, and behind these the table, if there is one.
+    let dates = parts.iter().position(|part| TIMES.contains(&part.tag))?;
+    let behind = parts[dates..].iter().find(|part| !TIMES.contains(&part.tag));
+    match behind {
+        Some(table) if table.tag == tlv::SEQUENCE => tlv::all(table.content).map(|entries| entries.len()),
+        _ => Some(0),
+    }
+}
+
+const UTC_TIME: u8 = 0x17;
+const GENERALIZED_TIME: u8 = 0x18;
+const TIMES: [u8; 2] = [UTC_TIME, GENERALIZED_TIME];
+/// RFC 5280 §5.2.3.
+const MAX_NUMBER_BYTES: usize = 20;
+const DELTA_CRL_INDICATOR: &str = "2.5.29.27";
+const CERTIFICATE_ISSUER: &str = "2.5.29.29";

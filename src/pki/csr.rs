@@ -1,16 +1,13 @@
 use std::fmt;
 
-use aws_lc_rs::signature::{
-    RSA_PKCS1_1024_8192_SHA1_FOR_LEGACY_USE_ONLY, RSA_PKCS1_1024_8192_SHA256_FOR_LEGACY_USE_ONLY,
-    RSA_PKCS1_1024_8192_SHA512_FOR_LEGACY_USE_ONLY, RSA_PKCS1_2048_8192_SHA384, RsaParameters, UnparsedPublicKey,
-};
 use rcgen::{CertificateParams, ExtendedKeyUsagePurpose, IsCa, KeyUsagePurpose};
 use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::prelude::FromDer;
 
-use super::certificate::{check_size, public_key};
+use super::certificate::check_size;
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
 use super::self_signed::{alternative_names, distinguished_name};
+use super::signature::{PublicKey, SignatureAlgorithm, Verdict};
 use super::{Certificate, MAX_CERTIFICATE_BYTES, PkiError, PrivateKey, ServerNames, name};
 use crate::model::CsrRequest;
 
@@ -34,12 +31,15 @@ impl Csr {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
         let info = &parsed.certification_request_info;
-        let (key_bits, public_key) = public_key(&info.subject_pki).map_err(|_| PkiError::NotACsr)?;
-        let public_key = public_key.ok_or(PkiError::NotACsr)?;
-        let algorithm = algorithm(&parsed.signature_algorithm.algorithm.to_id_string())?;
-        UnparsedPublicKey::new(algorithm, &public_key)
-            .verify(info.raw, &parsed.signature_value.data)
-            .map_err(|_| PkiError::CsrSignature)?;
+        let key = PublicKey::of(&info.subject_pki).map_err(|_| PkiError::NotACsr)?;
+        let algorithm = SignatureAlgorithm::of(&parsed.signature_algorithm);
+        let verdict = algorithm.verify(&key, info.raw, &parsed.signature_value.data);
+        let PublicKey::Rsa { pkcs1: public_key, bits: key_bits, .. } = key else { return Err(PkiError::NotACsr) };
+        match verdict {
+            Verdict::Right => {}
+            Verdict::Wrong => return Err(PkiError::CsrSignature),
+            Verdict::CannotSay(_) => return Err(PkiError::NotACsr),
+        }
         Ok(Self { der: der.to_vec(), common_name: name::common_name(&info.subject), key_bits, public_key })
     }
 
@@ -109,17 +109,6 @@ pub fn make_csr(request: &CsrRequest, names: &ServerNames, key: &PrivateKey) -> 
     params.is_ca = IsCa::ExplicitNoCa;
     let csr = params.serialize_request(key).map_err(|_| PkiError::Signing)?;
     Csr::from_der(csr.der())
-}
-
-/// RSA with PKCS#1 v1.5: what every tool signs requests with.
-pub(super) fn algorithm(oid: &str) -> Result<&'static RsaParameters, PkiError> {
-    match oid {
-        "1.2.840.113549.1.1.5" => Ok(&RSA_PKCS1_1024_8192_SHA1_FOR_LEGACY_USE_ONLY),
-        "1.2.840.113549.1.1.11" => Ok(&RSA_PKCS1_1024_8192_SHA256_FOR_LEGACY_USE_ONLY),
-        "1.2.840.113549.1.1.12" => Ok(&RSA_PKCS1_2048_8192_SHA384),
-        "1.2.840.113549.1.1.13" => Ok(&RSA_PKCS1_1024_8192_SHA512_FOR_LEGACY_USE_ONLY),
-        _ => Err(PkiError::NotACsr),
-    }
 }
 
 #[cfg(test)]

@@ -14,11 +14,11 @@ pub enum PkiError {
     TooLarge { bytes: usize, max: usize },
     #[error("not an X.509 certificate, or a damaged one")]
     NotACertificate,
-    #[error("{0} bytes follow the certificate")]
+    #[error("{0} bytes follow the end")]
     TrailingBytes(usize),
-    #[error("the certificate names two different signature algorithms")]
+    #[error("it names two different signature algorithms")]
     SignatureAlgorithms,
-    #[error("the certificate has the same extension twice")]
+    #[error("it has the same extension twice")]
     RepeatedExtension,
     #[error("the PEM text is damaged")]
     BadPem,
@@ -29,6 +29,18 @@ pub enum PkiError {
     /// A private key does not belong among certificates, which are handed around.
     #[error("there is a private key in it; a file with only the certificate is expected")]
     PrivateKeyInside,
+
+    // a revocation list, and files of several things
+    #[error("not a certificate revocation list, or a damaged one: {0}")]
+    NotACrl(&'static str),
+    #[error("not a PKCS#7 with certificates, or a damaged one: {0}")]
+    NotPkcs7(&'static str),
+    #[error("neither a certificate nor a revocation list nor a PKCS#7, or a damaged one")]
+    NotTrustMaterial,
+    #[error("there is something else in it, \"{0}\", than certificates and revocation lists")]
+    UnexpectedBlock(String),
+    #[error("there are more than {0} certificates and revocation lists in it")]
+    TooMany(usize),
 
     // a certificate signing request
     #[error("not a certificate signing request (PKCS#10) for an RSA key, or a damaged one")]
@@ -144,6 +156,11 @@ impl From<PkiError> for Problem {
             | PkiError::BadPem
             | PkiError::NoCertificate
             | PkiError::SeveralCertificates(_)
+            | PkiError::NotACrl(_)
+            | PkiError::NotPkcs7(_)
+            | PkiError::NotTrustMaterial
+            | PkiError::UnexpectedBlock(_)
+            | PkiError::TooMany(_)
             | PkiError::PrivateKeyInside => ErrorCode::BadCertificate,
         };
         Self::with_detail(code, error)
@@ -158,7 +175,7 @@ mod tests {
     fn a_problem_says_whose_fault_it_is_and_why() {
         let bad_file = Problem::from(PkiError::TrailingBytes(3));
         assert_eq!(bad_file.code, ErrorCode::BadCertificate);
-        assert_eq!(bad_file.detail.as_deref(), Some("3 bytes follow the certificate"));
+        assert_eq!(bad_file.detail.as_deref(), Some("3 bytes follow the end"));
 
         let bad_wish = Problem::from(PkiError::from(SubjectError::Empty("common name")));
         assert_eq!(bad_wish.code, ErrorCode::BadCertificateRequest);

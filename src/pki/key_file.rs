@@ -6,7 +6,7 @@ use rsa::pkcs8::{AlgorithmIdentifierRef, PrivateKeyInfo};
 use zeroize::Zeroizing;
 
 use super::certificate::check_size;
-use super::pem::{self, KeyBlock};
+use super::pem::{self, Block};
 use super::{Certificate, PkiError, PrivateKey, pkcs12, tlv};
 
 /// The largest file a private key is looked for in. Certificates may stand around its PEM.
@@ -30,7 +30,7 @@ pub fn read_key_file(bytes: &[u8], password: Option<&str>) -> Result<PrivateKey,
         return from_der(bytes, password);
     }
     let blocks = pem::private_keys(bytes)?;
-    let KeyBlock { label, encrypted, der } = match blocks.as_slice() {
+    let Block { label, encrypted, der } = match blocks.as_slice() {
         [] => return Err(PkiError::NoKey),
         [block] => block,
         several => return Err(PkiError::SeveralKeys(several.len())),

@@ -3,6 +3,11 @@
 //! | file | its one idea |
 //! |---|---|
 //! | `certificate` | [`Certificate`]: one X.509 certificate that was parsed and found whole |
+//! | `facts` | what is read from a certificate, once |
+//! | `signature` | which signatures there are, and whether one is right |
+//! | `crl` | [`Crl`]: one certificate revocation list, indexed |
+//! | `bundle` | [`read_bundle`]: any file with certificates and revocation lists |
+//! | `trust` | [`TrustLists`]: whether a certificate may be trusted (OPC 10000-4 §6.1.3) |
 //! | `pem` | the text armour around DER, both ways |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
@@ -11,7 +16,6 @@
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
-//! | `trust_health` | [`TrustHealth`]: what is wrong with CRLs before a client is refused because of it |
 //! | `tlv` | just enough DER to see from outside what a file is |
 //! | `fingerprint` | [`Fingerprint`]: what a configurator pins of that |
 //! | `name` | the text of an X.509 name |
@@ -21,13 +25,15 @@
 //! workers.
 //!
 //! What comes from outside is bounded before it is parsed: [`MAX_CERTIFICATE_BYTES`],
-//! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`]. Text taken from a certificate holds no control characters.
+//! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`], [`MAX_CRL_BYTES`],
+//! [`MAX_BUNDLE_BYTES`]. Text taken from a certificate holds no control characters.
 
 mod bundle;
 mod certificate;
 mod crl;
 mod csr;
 mod error;
+mod facts;
 mod fingerprint;
 mod identity;
 mod key;
@@ -40,14 +46,17 @@ mod preflight;
 mod samples;
 mod sealed;
 mod self_signed;
+mod signature;
 mod tlv;
+mod trust;
 mod trust_health;
 
 pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
-pub use crl::Crl;
+pub use crl::{Crl, MAX_CRL_BYTES, RevocationReason, Revoked};
 pub use csr::{Csr, make_csr};
 pub use error::PkiError;
+pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
 pub use key::PrivateKey;
@@ -57,4 +66,5 @@ pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_k
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 pub use self_signed::{ServerNames, self_signed};
+pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy};
 pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

@@ -1,4 +1,5 @@
 use x509_parser::asn1_rs::Tag;
+use x509_parser::objects::{oid_registry, oid2abbrev};
 use x509_parser::prelude::{AttributeTypeAndValue, X509Name};
 
 /// The common name, or `None` if there is none.
@@ -11,24 +12,84 @@ pub(super) fn title(name: &X509Name<'_>) -> String {
     common_name(name).unwrap_or_else(|| printable(&name.to_string()))
 }
 
+/// The whole name, its parts in the order of the certificate: `C=JP, O=Example + OU=Robots, CN=robot`.
+pub(super) fn full(name: &X509Name<'_>) -> String {
+    let part = |attribute: &AttributeTypeAndValue<'_>| {
+        let oid = attribute.attr_type();
+        let what = oid2abbrev(oid, oid_registry()).map_or_else(|_| oid.to_id_string(), str::to_owned);
+        format!("{what}={}", text_of(attribute))
+    };
+    let parts: Vec<String> = name.iter_rdn().map(|rdn| rdn.iter().map(part).collect::<Vec<_>>().join(" + ")).collect();
+    parts.join(", ")
+}
+
+/// Equal for names that RFC 5280 §7.1 calls the same: whatever the string type, case and inner white space.
+///
+/// Every part stands behind its length, so that no text can pass for the seam between two parts.
+pub(super) fn folded(name: &X509Name<'_>) -> Vec<u8> {
+    let mut whole = Vec::new();
+    for rdn in name.iter_rdn() {
+        let mut parts: Vec<Vec<u8>> = rdn.iter().map(folded_part).collect();
+        parts.sort();
+        whole.extend((parts.len() as u32).to_be_bytes());
+        for part in parts {
+            whole.extend((part.len() as u32).to_be_bytes());
+            whole.extend(part);
+        }
+    }
+    whole
+}
+
+fn folded_part(attribute: &AttributeTypeAndValue<'_>) -> Vec<u8> {
+    let mut part = attribute.attr_type().as_bytes().to_vec();
+    part.push(0);
+    if STRINGS.contains(&attribute.attr_value().tag()) {
+        let words = decoded(attribute).split_whitespace().collect::<Vec<_>>().join(" ");
+        part.extend(words.to_lowercase().into_bytes());
+    } else {
+        part.extend_from_slice(attribute.attr_value().data);
+    }
+    part
+}
+
+const STRINGS: [Tag; 8] = [
+    Tag::Utf8String,
+    Tag::PrintableString,
+    Tag::Ia5String,
+    Tag::T61String,
+    Tag::BmpString,
+    Tag::NumericString,
+    Tag::VisibleString,
+    Tag::UniversalString,
+];
+
 /// Without control characters: the text comes from a file or a peer, and ends up in lists, logs and terminals.
 pub(super) fn printable(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
 }
 
-/// Old certificates write names in UTF-16 or Latin-1.
 fn text_of(attribute: &AttributeTypeAndValue<'_>) -> String {
+    printable(&decoded(attribute))
+}
+
+/// Old certificates write names in UTF-16 or Latin-1.
+fn decoded(attribute: &AttributeTypeAndValue<'_>) -> String {
     let value = attribute.attr_value();
-    let text = match value.tag() {
+    match value.tag() {
         Tag::BmpString => {
             let units: Vec<u16> =
                 value.data.chunks_exact(2).map(|pair| u16::from_be_bytes([pair[0], pair[1]])).collect();
             String::from_utf16_lossy(&units)
         }
         Tag::T61String => value.data.iter().copied().map(char::from).collect(),
+        Tag::UniversalString => value
+            .data
+            .chunks_exact(4)
+            .map(|four| u32::from_be_bytes([four[0], four[1], four[2], four[3]]))
+            .map(|code| char::from_u32(code).unwrap_or(char::REPLACEMENT_CHARACTER))
+            .collect(),
         _ => String::from_utf8_lossy(value.data).into_owned(),
-    };
-    printable(&text)
+    }
 }
 
 #[cfg(test)]

@@ -58,8 +58,8 @@ pub(super) fn single_csr(text: &[u8]) -> Result<Vec<u8>, PkiError> {
     }
 }
 
-/// A private key in a PEM text.
-pub(super) struct KeyBlock {
+/// One block of a PEM text.
+pub(super) struct Block {
     /// What stands after `BEGIN`.
     pub label: String,
     /// In the traditional way, outside of the DER.
@@ -67,16 +67,30 @@ pub(super) struct KeyBlock {
     pub der: Zeroizing<Vec<u8>>,
 }
 
+impl Block {
+    pub fn is_private_key(&self) -> bool {
+        self.label.ends_with("PRIVATE KEY")
+    }
+}
+
 /// Every private key in a PEM text, of whatever kind. Other text and other blocks are passed over.
-///
-/// Written by hand, because the parser does not know encrypted keys.
-pub(super) fn private_keys(text: &[u8]) -> Result<Vec<KeyBlock>, PkiError> {
-    let mut keys = Vec::new();
+pub(super) fn private_keys(text: &[u8]) -> Result<Vec<Block>, PkiError> {
+    blocks(text, |label| label.ends_with(PRIVATE_KEY))
+}
+
+/// Every block of a PEM text, of whatever kind. Only text between the blocks is passed over.
+pub(super) fn all_blocks(text: &[u8]) -> Result<Vec<Block>, PkiError> {
+    blocks(text, |_| true)
+}
+
+/// Written by hand, because the parser does not know encrypted keys, and passes over what it does not know.
+fn blocks(text: &[u8], is_wanted: impl Fn(&[u8]) -> bool) -> Result<Vec<Block>, PkiError> {
+    let mut blocks = Vec::new();
     let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
     while let Some(line) = lines.next() {
         let line = line.strip_prefix(BYTE_ORDER_MARK).unwrap_or(line);
         let Some(label) = line.strip_prefix(BEGIN).and_then(|rest| rest.strip_suffix(b"-----")) else { continue };
-        if !label.ends_with(PRIVATE_KEY) {
+        if !is_wanted(label) {
             continue;
         }
         let label = String::from_utf8_lossy(label).into_owned();
@@ -93,9 +107,9 @@ pub(super) fn private_keys(text: &[u8]) -> Result<Vec<KeyBlock>, PkiError> {
             }
         }
         let der = Zeroizing::new(STANDARD.decode(&*body).map_err(|_| PkiError::BadPem)?);
-        keys.push(KeyBlock { label, encrypted, der });
+        blocks.push(Block { label, encrypted, der });
     }
-    Ok(keys)
+    Ok(blocks)
 }
 
 /// The PEM form of a certificate.

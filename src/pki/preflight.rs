@@ -3,11 +3,11 @@
 use std::collections::BTreeSet;
 use std::net::IpAddr;
 
-use aws_lc_rs::signature::UnparsedPublicKey;
 use chrono::{DateTime, Duration, SecondsFormat, Utc};
 use x509_parser::prelude::{FromDer, GeneralName, X509Certificate};
 
-use super::{Certificate, PkiError, csr, name};
+use super::signature::Verdict;
+use super::{Certificate, PkiError, name};
 use crate::model::{Language, SecurityPolicy, offered_key_lengths};
 
 /// What a certificate is to be compared with.
@@ -239,7 +239,7 @@ fn names(
         Some(_) => {}
     }
     let found = hosts(parsed);
-    if !expected.hosts.iter().any(|host| found.iter().any(|name| same_host(name, host))) {
+    if !expected.hosts.iter().any(|host| certificate.names_host(host)) {
         findings.push(Finding::HostName { expected: expected.hosts.to_vec(), found });
     }
 }
@@ -260,14 +260,6 @@ fn hosts(parsed: &X509Certificate<'_>) -> Vec<String> {
             _ => None,
         })
         .collect()
-}
-
-/// Host names know no case; the same IPv6 address can be written in several ways.
-fn same_host(one: &str, other: &str) -> bool {
-    match (one.parse::<IpAddr>(), other.parse::<IpAddr>()) {
-        (Ok(one), Ok(other)) => one == other,
-        _ => one.eq_ignore_ascii_case(other),
-    }
 }
 
 fn usage(parsed: &X509Certificate<'_>, findings: &mut Vec<Finding>) {
@@ -312,7 +304,7 @@ fn strength(
     } else if !length_fits(certificate.key_bits(), policies) {
         findings.push(Finding::KeyLength { bits: certificate.key_bits() });
     }
-    if certificate.is_self_signed() && !is_signed_by_itself(parsed, certificate) {
+    if certificate.is_self_signed() && certificate.signature_by(certificate) == Verdict::Wrong {
         findings.push(Finding::Signature);
     }
     let wants_better = policies.iter().any(|policy| !policy.is_weak());
@@ -326,14 +318,6 @@ fn strength(
         }
         _ => {}
     }
-}
-
-/// True also for signatures of a kind that is not known here.
-fn is_signed_by_itself(parsed: &X509Certificate<'_>, certificate: &Certificate) -> bool {
-    let algorithm = csr::algorithm(&parsed.signature_algorithm.algorithm.to_id_string());
-    let (Ok(algorithm), Some(public_key)) = (algorithm, certificate.rsa_public_key()) else { return true };
-    let signature = &parsed.signature_value.data;
-    UnparsedPublicKey::new(algorithm, public_key).verify(parsed.tbs_certificate.as_ref(), signature).is_ok()
 }
 
 fn dates(certificate: &Certificate, now: DateTime<Utc>, findings: &mut Vec<Finding>) {

@@ -1,0 +1,313 @@
+//! What is read from a certificate, once.
+
+use std::fmt;
+use std::net::IpAddr;
+use std::ops::Range;
+
+use chrono::{DateTime, Utc};
+use serde::{Deserialize, Serialize};
+use x509_parser::prelude::{ASN1Time, GeneralName, ParsedExtension, X509Certificate, X509Extension};
+
+use super::signature::{PublicKey, SignatureAlgorithm};
+use super::{Fingerprint, PkiError, name};
+
+/// What a key may be used for (RFC 5280 §4.2.1.3), by the names of that document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum KeyUsage {
+    DigitalSignature,
+    NonRepudiation,
+    KeyEncipherment,
+    DataEncipherment,
+    KeyAgreement,
+    KeyCertSign,
+    #[serde(rename = "cRLSign")]
+    CrlSign,
+    EncipherOnly,
+    DecipherOnly,
+}
+
+impl KeyUsage {
+    /// In the order of their bits.
+    pub const ALL: [Self; 9] = [
+        Self::DigitalSignature,
+        Self::NonRepudiation,
+        Self::KeyEncipherment,
+        Self::DataEncipherment,
+        Self::KeyAgreement,
+        Self::KeyCertSign,
+        Self::CrlSign,
+        Self::EncipherOnly,
+        Self::DecipherOnly,
+    ];
+
+    /// As RFC 5280 writes it.
+    pub const fn as_str(self) -> &'static str {
+        match self {
+            Self::DigitalSignature => "digitalSignature",
+            Self::NonRepudiation => "nonRepudiation",
+            Self::KeyEncipherment => "keyEncipherment",
+            Self::DataEncipherment => "dataEncipherment",
+            Self::KeyAgreement => "keyAgreement",
+            Self::KeyCertSign => "keyCertSign",
+            Self::CrlSign => "cRLSign",
+            Self::EncipherOnly => "encipherOnly",
+            Self::DecipherOnly => "decipherOnly",
+        }
+    }
+}
+
+/// What a certificate is for (RFC 5280 §4.2.1.12), by the names of that document.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "camelCase")]
+pub enum ExtendedKeyUsage {
+    AnyExtendedKeyUsage,
+    ServerAuth,
+    ClientAuth,
+    CodeSigning,
+    EmailProtection,
+    TimeStamping,
+    #[serde(rename = "OCSPSigning")]
+    OcspSigning,
+    /// Its object identifier.
+    Other(String),
+}
+
+/// One entry of a subject alternative name, without control characters.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum AlternativeName {
+    Uri(String),
+    Dns(String),
+    Ip(IpAddr),
+    Email(String),
+    /// Of a kind OPC UA has no use for.
+    Other(String),
+}
+
+impl fmt::Display for AlternativeName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Uri(text) => write!(f, "URI:{text}"),
+            Self::Dns(text) => write!(f, "DNS:{text}"),
+            Self::Ip(address) => write!(f, "IP:{address}"),
+            Self::Email(text) => write!(f, "email:{text}"),
+            Self::Other(text) => f.write_str(text),
+        }
+    }
+}
+
+/// Whether a certificate is that of a CA, and how many CAs may stand below it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct BasicConstraints {
+    pub ca: bool,
+    pub path_length: Option<u32>,
+}
+
+/// What was read from the DER.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Facts {
+    pub common_name: Option<String>,
+    pub issued_to: String,
+    pub issued_by: String,
+    pub subject: String,
+    pub issuer: String,
+    /// For comparing names; see [`name::folded`].
+    pub subject_folded: Vec<u8>,
+    pub issuer_folded: Vec<u8>,
+    pub names_equal: bool,
+    pub version: u32,
+    pub serial_number: String,
+    /// Without the bytes that only keep its sign.
+    pub serial: Vec<u8>,
+    pub not_before: DateTime<Utc>,
+    pub not_after: DateTime<Utc>,
+    pub public_key: PublicKey,
+    pub application_uri: Option<String>,
+    pub alternative_names: Vec<AlternativeName>,
+    pub basic_constraints: Option<BasicConstraints>,
+    pub key_usages: Option<Vec<KeyUsage>>,
+    pub extended_key_usages: Option<Vec<ExtendedKeyUsage>>,
+    pub subject_key_id: Option<Vec<u8>>,
+    pub authority_key_id: Option<Vec<u8>>,
+    /// Why nobody should act on this certificate, though it can be shown: an extension that is critical and not
+    /// understood, or one that contradicts its own definition.
+    pub not_understood: Option<String>,
+    pub signature_algorithm: SignatureAlgorithm,
+    /// Where in the DER lies what is signed.
+    pub signed: Range<usize>,
+    pub signature: Vec<u8>,
+    pub sha256: [u8; 32],
+}
+
+impl Facts {
+    pub fn of(der: &[u8], parsed: &X509Certificate<'_>) -> Result<Self, PkiError> {
+        if parsed.signature_algorithm != parsed.tbs_certificate.signature {
+            return Err(PkiError::SignatureAlgorithms);
+        }
+        parsed.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;
+        let mut facts = Self {
+            common_name: name::common_name(parsed.subject()),
+            issued_to: name::title(parsed.subject()),
+            issued_by: name::title(parsed.issuer()),
+            subject: name::full(parsed.subject()),
+            issuer: name::full(parsed.issuer()),
+            subject_folded: name::folded(parsed.subject()),
+            issuer_folded: name::folded(parsed.issuer()),
+            names_equal: parsed.subject().as_raw() == parsed.issuer().as_raw(),
+            version: parsed.version().0.saturating_add(1),
+            serial_number: serial_number(parsed.raw_serial()),
+            serial: significant(parsed.raw_serial()).to_vec(),
+            not_before: date(parsed.validity().not_before)?,
+            not_after: date(parsed.validity().not_after)?,
+            public_key: PublicKey::of(parsed.public_key())?,
+            application_uri: None,
+            alternative_names: Vec::new(),
+            basic_constraints: None,
+            key_usages: None,
+            extended_key_usages: None,
+            subject_key_id: None,
+            authority_key_id: None,
+            not_understood: None,
+            signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
+            signed: range_within(der, parsed.tbs_certificate.as_ref()).ok_or(PkiError::NotACertificate)?,
+            signature: parsed.signature_value.data.to_vec(),
+            sha256: *Fingerprint::of(der).as_bytes(),
+        };
+        for extension in parsed.extensions() {
+            facts.read(extension);
+        }
+        facts.application_uri = facts.alternative_names.iter().find_map(|name| match name {
+            AlternativeName::Uri(uri) => Some(uri.clone()),
+            _ => None,
+        });
+        Ok(facts)
+    }
+
+    fn read(&mut self, extension: &X509Extension<'_>) {
+        match extension.parsed_extension() {
+            ParsedExtension::BasicConstraints(constraints) => {
+                self.basic_constraints =
+                    Some(BasicConstraints { ca: constraints.ca, path_length: constraints.path_len_constraint });
+            }
+            ParsedExtension::KeyUsage(usage) => {
+                let set = |bit: &usize| usage.flags >> bit & 1 == 1;
+                let bits = (0..KeyUsage::ALL.len()).filter(set);
+                self.key_usages = Some(bits.map(|bit| KeyUsage::ALL[bit]).collect());
+            }
+            ParsedExtension::ExtendedKeyUsage(usage) => self.extended_key_usages = Some(purposes(usage)),
+            ParsedExtension::SubjectAlternativeName(names) => {
+                self.alternative_names = names.general_names.iter().map(alternative_name).collect();
+                if names.general_names.iter().any(|name| matches!(name, GeneralName::Invalid(..))) {
+                    self.not_understood("the subject alternative name is damaged".to_owned());
+                }
+            }
+            ParsedExtension::SubjectKeyIdentifier(id) => self.subject_key_id = Some(id.0.to_vec()),
+            ParsedExtension::AuthorityKeyIdentifier(authority) => {
+                self.authority_key_id = authority.key_identifier.as_ref().map(|id| id.0.to_vec());
+            }
+            // No policy is ever asked for, so that none is too many.
+            ParsedExtension::CertificatePolicies(_) => {}
+            ParsedExtension::NameConstraints(_) => {
+                // Whoever wrote them wanted them to hold, critical or not.
+                self.not_understood("name constraints are not supported".to_owned());
+            }
+            ParsedExtension::ParseError { .. } => {
+                self.not_understood(format!("the extension {} is damaged", extension.oid.to_id_string()));
+            }
+            _ if extension.critical => {
+                let oid = extension.oid.to_id_string();
+                self.not_understood(format!("the extension {oid} is critical and not understood"));
+            }
+            _ => {}
+        }
+    }
+
+    fn not_understood(&mut self, why: String) {
+        self.not_understood.get_or_insert(why);
+    }
+}
+
+fn purposes(usage: &x509_parser::prelude::ExtendedKeyUsage<'_>) -> Vec<ExtendedKeyUsage> {
+    let known = [
+        (usage.any, ExtendedKeyUsage::AnyExtendedKeyUsage),
+        (usage.server_auth, ExtendedKeyUsage::ServerAuth),
+        (usage.client_auth, ExtendedKeyUsage::ClientAuth),
+        (usage.code_signing, ExtendedKeyUsage::CodeSigning),
+        (usage.email_protection, ExtendedKeyUsage::EmailProtection),
+        (usage.time_stamping, ExtendedKeyUsage::TimeStamping),
+        (usage.ocsp_signing, ExtendedKeyUsage::OcspSigning),
+    ];
+    let known = known.into_iter().filter_map(|(is_set, purpose)| is_set.then_some(purpose));
+    known.chain(usage.other.iter().map(|oid| ExtendedKeyUsage::Other(oid.to_id_string()))).collect()
+}
+
+fn alternative_name(general_name: &GeneralName<'_>) -> AlternativeName {
+    match general_name {
+        GeneralName::URI(uri) => AlternativeName::Uri(name::printable(uri)),
+        GeneralName::DNSName(dns) => AlternativeName::Dns(name::printable(dns)),
+        GeneralName::RFC822Name(mail) => AlternativeName::Email(name::printable(mail)),
+        GeneralName::IPAddress(bytes) => match (<[u8; 4]>::try_from(*bytes), <[u8; 16]>::try_from(*bytes)) {
+            (Ok(v4), _) => AlternativeName::Ip(v4.into()),
+            (_, Ok(v6)) => AlternativeName::Ip(v6.into()),
+            _ => AlternativeName::Other(format!("IP:{}", hex::encode_upper(bytes))),
+        },
+        GeneralName::DirectoryName(directory) => AlternativeName::Other(format!("dirName:{}", name::full(directory))),
+        GeneralName::RegisteredID(oid) => AlternativeName::Other(format!("RID:{}", oid.to_id_string())),
+        GeneralName::OtherName(oid, _) => AlternativeName::Other(format!("otherName:{}", oid.to_id_string())),
+        GeneralName::X400Address(_) => AlternativeName::Other("X400".to_owned()),
+        GeneralName::EDIPartyName(_) => AlternativeName::Other("ediPartyName".to_owned()),
+        GeneralName::Invalid(tag, _) => AlternativeName::Other(format!("damaged [{}]", tag.0)),
+    }
+}
+
+/// Where `part`, which must lie within `whole`, lies within it.
+pub(super) fn range_within(whole: &[u8], part: &[u8]) -> Option<Range<usize>> {
+    let start = (part.as_ptr() as usize).checked_sub(whole.as_ptr() as usize)?;
+    let range = start..start.checked_add(part.len())?;
+    (whole.get(range.clone()) == Some(part)).then_some(range)
+}
+
+fn serial_number(raw: &[u8]) -> String {
+    match raw {
+        // The zero that keeps a DER integer positive is not part of the number.
+        [0, number @ ..] if !number.is_empty() => hex::encode_upper(number),
+        number => hex::encode_upper(number),
+    }
+}
+
+/// A number without the bytes before it that only keep its sign, of which a careless writer leaves too many.
+pub(super) fn significant(mut number: &[u8]) -> &[u8] {
+    while let [0, next, ..] | [0xff, next, ..] = number {
+        if (number[0] == 0) != (*next < 0x80) {
+            break;
+        }
+        number = &number[1..];
+    }
+    number
+}
+
+pub(super) fn date(time: ASN1Time) -> Result<DateTime<Utc>, PkiError> {
+    DateTime::from_timestamp(time.timestamp(), 0).ok_or(PkiError::NotACertificate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_compared_without_what_only_keeps_their_sign() {
+        assert_eq!(serial_number(&[0, 0x9a, 1]), "9A01");
+        assert_eq!(serial_number(&[0]), "00");
+        for (raw, expected) in [
+            (&[0, 0, 0x9a, 1][..], &[0, 0x9a, 1][..]),
+            (&[0, 0x12], &[0x12]),
+            (&[0xff, 0xff, 0x80], &[0x80]),
+            (&[0xff, 0x12], &[0xff, 0x12]),
+            (&[0, 0], &[0]),
+            (&[], &[]),
+        ] {
+            assert_eq!(significant(raw), expected, "{raw:02x?}");
+        }
+    }
+}

@@ -1,0 +1,44 @@
+//! Whether a certificate may be trusted: the steps of OPC 10000-4 §6.1.3, in its order, each with its status.
+//!
+//! | step | checked | in |
+//! |---|---|---|
+//! | 1 | structure: extensions that are critical and not understood, or damaged | `checks` |
+//! | 2, 3 | the chain, and every signature in it, also the one a root makes for itself | `chain` |
+//! | 4 | the security policy: keys and hashes | `checks` |
+//! | 5 | the trust list | `checks` |
+//! | 6 | validity, of the issuers too | `checks` |
+//! | 7, 8 | host name and application URI | `checks` |
+//! | 9 | usages, and that issuers are CAs | `checks` |
+//! | 10, 11 | revocation lists | `revocation` |
+//!
+//! Where the standard leaves a choice:
+//! - **What the peer sends** may complete a chain in either direction, above or below what is trusted, because clients
+//!   send their intermediates and the standard lets them; but some member of the chain must be in the trust list itself.
+//!   What was merely sent is never trusted, and revocation lists are never taken from the peer.
+//! - **A chain ends** in a self-signed certificate. [`TrustPolicy::allow_incomplete_chain`] also lets it end in a
+//!   trusted certificate whose issuer nobody has.
+//! - **Several chains**: issuers are tried from the trust list first, then from the issuers, then from what was sent.
+//!   The first chain without a flaw wins. If there is none, the flaw of the chain that came furthest through the steps
+//!   is told, because it is the one to mend; among equals, that of the chain tried first.
+//! - **Application URI**: the first URI of the certificate must be the announced one. OPC 10000-6 §6.2.2 allows one
+//!   only, and the first is what lists show to whoever decides about trust.
+//! - **CA:TRUE** in an application certificate is accepted where it is self-signed: much software makes such
+//!   certificates, and it stands in the trust list by itself. A CA's certificate that another CA issued is refused.
+//! - **A certificate that is revoked** is told as such even where a list for another member is missing: a missing list
+//!   can be excused, a revocation cannot.
+//! - **Only the key that issued a certificate** may sign the list that revokes it; a list by another key of the same
+//!   authority does not count.
+//! - **Name constraints** are not supported; a certificate with them is refused rather than misunderstood.
+
+mod chain;
+mod checks;
+mod lists;
+mod policy;
+mod rejection;
+mod revocation;
+#[cfg(test)]
+mod tests;
+
+pub use lists::TrustLists;
+pub use policy::{Presented, Role, TrustPolicy};
+pub use rejection::Rejection;

@@ -1,0 +1,79 @@
+use chrono::{DateTime, Utc};
+
+use crate::model::SecurityPolicy;
+use crate::pki::Certificate;
+
+/// What a peer shows of itself, and what it is compared with.
+#[derive(Debug, Clone, Copy)]
+pub struct Presented<'a> {
+    pub certificate: &'a Certificate,
+    /// What the peer sent besides, in any order.
+    pub chain: &'a [Certificate],
+    pub role: Role,
+    pub now: DateTime<Utc>,
+    /// The ApplicationUri of the peer's ApplicationDescription; `None` skips the check.
+    pub application_uri: Option<&'a str>,
+    /// The host of the URL that was connected to; `None` skips the check, as servers do for their clients.
+    pub host: Option<&'a str>,
+    /// The one of the secure channel; without one, what today's policies want.
+    pub security_policy: Option<SecurityPolicy>,
+}
+
+/// What the owner of a certificate is to us.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Role {
+    /// It connects to us: extended key usages, if any, must allow client authentication.
+    Client,
+    /// We connect to it: extended key usages, if any, must allow server authentication.
+    Server,
+    /// Not known yet: either of both is enough.
+    Either,
+}
+
+/// What is let pass although OPC 10000-4 §6.1.3 advises against it. Nothing is, by default.
+///
+/// Signatures, trust, the application URI, issuers that are no CAs and revocations cannot be excused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct TrustPolicy {
+    /// A certificate is accepted though no valid revocation list of its issuer is at hand.
+    pub allow_unknown_revocation: bool,
+    /// A revocation list counts although the date it promised the next one for is past, or it promised none.
+    pub allow_expired_crls: bool,
+    /// Certificates are accepted before and after their time, and those of issuers too.
+    pub allow_expired_certificates: bool,
+    /// SHA-1 is accepted under every security policy. MD5 never is.
+    pub allow_sha1: bool,
+    /// A chain may end in a certificate that is itself trusted, although its issuer is missing. Its own revocation can
+    /// then not be checked.
+    pub allow_incomplete_chain: bool,
+    /// The key usages, and extended key usages, of the application's certificate do not matter.
+    pub allow_any_usage: bool,
+}
+
+/// What a security policy (OPC 10000-7) wants of keys and signatures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Strength {
+    /// Of the application's key.
+    pub min_rsa_bits: u16,
+    /// Of the application's key; those of CAs may be longer.
+    pub max_rsa_bits: u16,
+    pub sha1: bool,
+}
+
+impl Strength {
+    pub fn of(policy: Option<SecurityPolicy>) -> Self {
+        match policy {
+            Some(SecurityPolicy::Basic128Rsa15 | SecurityPolicy::Basic256) => {
+                Self { min_rsa_bits: 1024, max_rsa_bits: 2048, sha1: true }
+            }
+            // Nothing is signed under "None", and a certificate that is shown there is no reason to want less.
+            None
+            | Some(
+                SecurityPolicy::None
+                | SecurityPolicy::Basic256Sha256
+                | SecurityPolicy::Aes128Sha256RsaOaep
+                | SecurityPolicy::Aes256Sha256RsaPss,
+            ) => Self { min_rsa_bits: 2048, max_rsa_bits: 4096, sha1: false },
+        }
+    }
+}
