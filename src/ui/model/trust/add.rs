@@ -32,6 +32,13 @@ pub struct AddFile {
     file: Option<TrustFile>,
 }
 
+impl AddFile {
+    /// How many certificates and CRLs are in it.
+    pub fn counts(&self) -> (usize, usize) {
+        self.file.as_ref().map_or((0, 0), |file| (file.bundle.certificates.len(), file.bundle.crls.len()))
+    }
+}
+
 /// Certificates and CRLs from files, and where they go; nothing is sent before somebody agrees.
 #[derive(Debug)]
 pub struct AddTrustForm {

@@ -25,7 +25,7 @@ mod watch;
 
 pub use add::{AddFile, AddTrustForm, MAX_TRUST_FILES, ReadTrustFile};
 pub use change::DeleteTrust;
-pub use details::{CertificateView, ChainNode, ChainState, CrlView, DetailsView, Field};
+pub use details::{CertificateView, ChainNode, ChainState, CrlLine, CrlView, DetailsView, Field};
 pub use entry::{Crl, Entry, Life, Moment, Refusal};
 pub use form::{Done, Link, Shows, TrustForm};
 pub use pane::{Pane, PaneKind, TrustColumn};
