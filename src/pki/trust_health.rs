@@ -1,7 +1,7 @@
 use chrono::{DateTime, Utc};
 use serde::Serialize;
 
-use super::{Certificate, Crl};
+use super::{Certificate, Crl, KeyUsage};
 
 /// What is wrong with CRLs and the authorities they are for, before a client is refused because of it.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
@@ -27,6 +27,8 @@ pub enum CrlIssuer {
     Held { thumbprint: String },
     /// It carries the name of this authority, which did not sign it: it is of no use.
     NotSignedBy { thumbprint: String },
+    /// This authority signed it, but its certificate does not allow it to: it is of no use.
+    MayNotSign { thumbprint: String },
     /// No authority of that name is held: it is of no use until one is.
     Missing,
 }
@@ -38,6 +40,8 @@ pub enum CrlDates {
     /// A newer one should have come: certificates of its issuer are refused until it does.
     Expired,
     NotYetValid,
+    /// It does not say until when it is valid: it is of no use.
+    NoEnd,
 }
 
 impl CrlHealth {
@@ -48,6 +52,8 @@ impl CrlHealth {
 }
 
 impl TrustHealth {
+    /// Says the same as [`TrustLists`](super::TrustLists) by default. Reads every CRL: blocks for large ones.
+    ///
     /// `authorities`: those in the trusted and issuers lists; other certificates among them are passed over.
     pub fn of<'a>(crls: impl IntoIterator<Item = &'a Crl>, authorities: &[&Certificate], now: DateTime<Utc>) -> Self {
         let crls: Vec<CrlHealth> = crls
@@ -56,7 +62,7 @@ impl TrustHealth {
             .collect();
         let without_crl = authorities
             .iter()
-            .filter(|authority| authority.is_ca() && authority.application_uri().is_none())
+            .filter(|authority| authority.is_authority())
             .map(|authority| authority.thumbprint_sha1())
             .filter(|own| {
                 !crls.iter().any(|crl| {
@@ -69,20 +75,94 @@ impl TrustHealth {
 }
 
 fn issuer(crl: &Crl, authorities: &[&Certificate]) -> CrlIssuer {
-    let name = crl.summary().issuer;
-    match authorities.iter().find(|authority| authority.is_ca() && authority.summary().issued_to == name) {
-        Some(authority) => CrlIssuer::Held { thumbprint: authority.thumbprint_sha1() },
-        None => CrlIssuer::Missing,
+    let mut found = CrlIssuer::Missing;
+    for authority in authorities.iter().filter(|authority| crl.is_of(authority)) {
+        let thumbprint = authority.thumbprint_sha1();
+        if !crl.verify_signed_by(authority) {
+            found = CrlIssuer::NotSignedBy { thumbprint };
+        } else if authority.key_usages().is_some_and(|usages| !usages.contains(&KeyUsage::CrlSign)) {
+            found = CrlIssuer::MayNotSign { thumbprint };
+        } else {
+            return CrlIssuer::Held { thumbprint };
+        }
     }
+    found
 }
 
 fn dates(crl: &Crl, now: DateTime<Utc>) -> CrlDates {
-    let summary = crl.summary();
-    if summary.this_update > now {
-        CrlDates::NotYetValid
-    } else if summary.next_update.is_some_and(|next| next < now) {
-        CrlDates::Expired
-    } else {
-        CrlDates::Current
+    match crl.next_update() {
+        _ if crl.this_update() > now => CrlDates::NotYetValid,
+        None => CrlDates::NoEnd,
+        Some(next) if next.timestamp() < now.timestamp() => CrlDates::Expired,
+        Some(_) => CrlDates::Current,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rcgen::{
+        BasicConstraints, CertificateParams, CertificateRevocationListParams, CertifiedIssuer, DnType, IsCa,
+        KeyIdMethod, KeyPair, KeyUsagePurpose, SerialNumber,
+    };
+
+    fn authority(name: &str, usages: &[KeyUsagePurpose]) -> (CertifiedIssuer<'static, KeyPair>, Certificate) {
+        let mut params = CertificateParams::default();
+        params.distinguished_name.push(DnType::CommonName, name);
+        params.is_ca = IsCa::Ca(BasicConstraints::Unconstrained);
+        params.key_usages = usages.to_vec();
+        let issuer = CertifiedIssuer::self_signed(params, KeyPair::generate().unwrap()).unwrap();
+        let certificate = Certificate::from_der(issuer.der()).unwrap();
+        (issuer, certificate)
+    }
+
+    fn crl(issuer: &CertifiedIssuer<'static, KeyPair>, from: i64, to: i64) -> Crl {
+        let date = |days: i64| rcgen::date_time_ymd(2030, 1, 1) + time::Duration::days(days);
+        let params = CertificateRevocationListParams {
+            this_update: date(from),
+            next_update: date(to),
+            crl_number: SerialNumber::from(1_u64),
+            issuing_distribution_point: None,
+            revoked_certs: Vec::new(),
+            key_identifier_method: KeyIdMethod::Sha256,
+        };
+        Crl::from_der(params.signed_by(issuer).unwrap().der()).unwrap()
+    }
+
+    fn now() -> DateTime<Utc> {
+        "2030-01-01T12:00:00Z".parse().unwrap()
+    }
+
+    const SIGNS_CRLS: [KeyUsagePurpose; 2] = [KeyUsagePurpose::KeyCertSign, KeyUsagePurpose::CrlSign];
+
+    #[test]
+    fn a_crl_is_usable_when_its_authority_is_held_and_the_day_is_right() {
+        let (signer, held) = authority("Plant CA", &SIGNS_CRLS);
+        let (_, other) = authority("Other CA", &SIGNS_CRLS);
+        let crls = [crl(&signer, 0, 30), crl(&signer, -30, 0), crl(&signer, 1, 30)];
+        let health = TrustHealth::of(&crls, &[&held, &other], now());
+        let dates: Vec<CrlDates> = health.crls.iter().map(|crl| crl.dates).collect();
+        assert_eq!(dates, [CrlDates::Current, CrlDates::Expired, CrlDates::NotYetValid]);
+        assert!(health.crls.iter().all(|crl| crl.issuer == CrlIssuer::Held { thumbprint: held.thumbprint_sha1() }));
+        assert_eq!(health.without_crl, [other.thumbprint_sha1()]);
+        assert_eq!(TrustHealth::of(&crls[1..], &[&held], now()).without_crl, [held.thumbprint_sha1()]);
+    }
+
+    #[test]
+    fn a_crl_of_nobody_or_of_a_namesake_is_found_out() {
+        let (signer, _) = authority("Plant CA", &SIGNS_CRLS);
+        let (_, namesake) = authority("Plant CA", &SIGNS_CRLS);
+        let (_, other) = authority("Other CA", &SIGNS_CRLS);
+        let crls = [crl(&signer, 0, 30)];
+        assert_eq!(TrustHealth::of(&crls, &[&other], now()).crls[0].issuer, CrlIssuer::Missing);
+        let health = TrustHealth::of(&crls, &[&namesake], now());
+        assert_eq!(health.crls[0].issuer, CrlIssuer::NotSignedBy { thumbprint: namesake.thumbprint_sha1() });
+        assert_eq!(health.without_crl, [namesake.thumbprint_sha1()]);
+    }
+
+    #[test]
+    fn an_application_needs_no_crl() {
+        let application = crate::pki::samples::certificate();
+        assert_eq!(TrustHealth::of(&[], &[application], now()), TrustHealth::default());
     }
 }

@@ -13,10 +13,11 @@ use tokio_util::sync::CancellationToken;
 
 use super::faults::Faults;
 use super::login::network;
+use super::opcua::Refusals;
 use super::state::{Listed, State};
 use super::store::{StoreError, replace_private_file};
 use crate::model::CertificateStatus;
-use crate::pki::Certificate;
+use crate::pki::{Certificate, Rejection};
 use crate::protocol::{Base64Bytes, RejectedClient};
 
 /// The client certificates that were refused, for a person to decide about (manual 2.7.3).
@@ -95,40 +96,6 @@ impl RejectedClients {
         Self { path, faults, list: Mutex::new(list), changed: Notify::new(), writing: Mutex::new(()) }
     }
 
-    /// Remembers a refusal. Quick, and waits for no disk. `sent`: the client's certificate, then its issuers.
-    pub fn record(&self, sent: &[Certificate], address: IpAddr, status: CertificateStatus, reason: &str) {
-        let Some((certificate, chain)) = sent.split_first() else { return };
-        let now = self.faults.now();
-        let reason: String = reason.chars().filter(|c| !c.is_control()).take(MAX_REASON_CHARS).collect();
-        let mut list = self.list.lock();
-        let index = match list.entries.iter().position(|entry| entry.certificate.0 == certificate.der()) {
-            Some(index) => index,
-            None => {
-                list.entries.push(Entry {
-                    certificate: Base64Bytes(certificate.der().to_vec()),
-                    chain: Vec::new(),
-                    thumbprint: certificate.thumbprint_sha1(),
-                    status,
-                    reason: String::new(),
-                    address: None,
-                    first_seen: now,
-                    last_seen: now,
-                    count: 0,
-                });
-                list.entries.len() - 1
-            }
-        };
-        let entry = &mut list.entries[index];
-        entry.chain = chain.iter().take(MAX_CHAIN).map(|c| Base64Bytes(c.der().to_vec())).collect();
-        entry.status = status;
-        entry.reason = reason;
-        entry.address = Some(address.to_canonical());
-        entry.last_seen = now;
-        entry.count = entry.count.saturating_add(1);
-        list.make_room(Some(index));
-        self.touch(&mut list);
-    }
-
     /// Another number after each change.
     pub fn stamp(&self) -> u64 {
         self.list.lock().stamp
@@ -160,6 +127,16 @@ impl RejectedClients {
             self.touch(&mut list);
         }
         self.write()
+    }
+
+    /// Forgets certificates; the disk hears of it soon.
+    pub fn forget(&self, thumbprints: &[String]) {
+        let mut list = self.list.lock();
+        let before = list.entries.len();
+        list.entries.retain(|entry| !thumbprints.contains(&entry.thumbprint));
+        if list.entries.len() < before {
+            self.touch(&mut list);
+        }
     }
 
     /// Forgets certificates, and writes that to the disk; if that fails, nothing is forgotten.
@@ -228,6 +205,49 @@ impl RejectedClients {
         list.stamp += 1;
         list.dirty = true;
         self.changed.notify_one();
+    }
+}
+
+impl Refusals for RejectedClients {
+    /// Quick, and waits for no disk.
+    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection) {
+        let Some((certificate, chain)) = sent.split_first() else { return };
+        let now = self.faults.now();
+        let at_fault = if rejection.depth > 0 { format!(" ({})", rejection.subject) } else { String::new() };
+        let reason: String = rejection
+            .reason
+            .chars()
+            .chain(at_fault.chars())
+            .filter(|c| !c.is_control())
+            .take(MAX_REASON_CHARS)
+            .collect();
+        let mut list = self.list.lock();
+        let index = match list.entries.iter().position(|entry| entry.certificate.0 == certificate.der()) {
+            Some(index) => index,
+            None => {
+                list.entries.push(Entry {
+                    certificate: Base64Bytes(certificate.der().to_vec()),
+                    chain: Vec::new(),
+                    thumbprint: certificate.thumbprint_sha1(),
+                    status: rejection.status,
+                    reason: String::new(),
+                    address: None,
+                    first_seen: now,
+                    last_seen: now,
+                    count: 0,
+                });
+                list.entries.len() - 1
+            }
+        };
+        let entry = &mut list.entries[index];
+        entry.chain = chain.iter().take(MAX_CHAIN).map(|c| Base64Bytes(c.der().to_vec())).collect();
+        entry.status = rejection.status;
+        entry.reason = reason;
+        entry.address = Some(address.to_canonical());
+        entry.last_seen = now;
+        entry.count = entry.count.saturating_add(1);
+        list.make_room(Some(index));
+        self.touch(&mut list);
     }
 }
 
@@ -302,4 +322,187 @@ fn read(path: &Path) -> io::Result<Vec<Entry>> {
         Err(error) => return Err(error),
     };
     Ok(serde_json::from_slice(&bytes)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::net::{Ipv4Addr, Ipv6Addr};
+    use std::sync::{Arc, LazyLock};
+    use std::time::Instant;
+
+    use crate::virtual_controller::{Identity, NewController, Surroundings};
+
+    const HOME: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 1));
+    const STRANGER: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 66));
+
+    fn state() -> State {
+        let identity = Identity {
+            serial: "R7A0000001".parse().unwrap(),
+            series: crate::model::ControllerSeries::Rc800,
+            firmware: crate::model::FirmwareVersion::new(8, 1, 0),
+            name: "rejected".parse().unwrap(),
+        };
+        let around = Surroundings { now: Utc::now(), bind: HOME, management_port: 7943 };
+        NewController::new(identity, String::new()).make(&around).unwrap()
+    }
+
+    fn open(folder: &Path) -> Arc<RejectedClients> {
+        Arc::new(RejectedClients::open(folder, Faults::default(), &state()))
+    }
+
+    /// Certificates are not asked whether their signature is right before they get here: any bytes do in its place.
+    fn certificate(number: u32) -> Certificate {
+        static SAMPLE: LazyLock<Vec<u8>> = LazyLock::new(|| {
+            let key = rcgen::KeyPair::generate().unwrap();
+            rcgen::CertificateParams::default().self_signed(&key).unwrap().der().to_vec()
+        });
+        let mut der = SAMPLE.clone();
+        let end = der.len();
+        der[end - 4..].copy_from_slice(&number.to_be_bytes());
+        Certificate::from_der(&der).unwrap()
+    }
+
+    fn untrusted() -> Rejection {
+        Rejection {
+            status: CertificateStatus::Untrusted,
+            subject: "CN=client".to_owned(),
+            depth: 0,
+            reason: "nobody trusts it\u{1b}[2J".to_owned(),
+        }
+    }
+
+    #[test]
+    fn a_certificate_has_one_entry_however_often_it_comes() {
+        let folder = tempfile::tempdir().unwrap();
+        let rejected = open(folder.path());
+        let stamp = rejected.stamp();
+        let chain = [certificate(1), certificate(2), certificate(3)];
+        rejected.record(&chain, HOME, &untrusted());
+        let issuer = Rejection { status: CertificateStatus::IssuerRevoked, depth: 1, ..untrusted() };
+        rejected.record(&chain[..1], STRANGER, &issuer);
+        rejected.record(&[], HOME, &untrusted());
+        assert_eq!(rejected.stamp(), stamp + 2);
+        let [entry] = &rejected.list()[..] else { panic!() };
+        assert_eq!((entry.count, entry.address.as_str()), (2, "10.0.0.66"));
+        assert_eq!((entry.status, entry.reason.as_str()), (issuer.status, "nobody trusts it[2J (CN=client)"));
+        assert!(entry.first_seen <= entry.last_seen);
+        assert_eq!(entry.summary.thumbprint, chain[0].thumbprint_sha1());
+    }
+
+    #[test]
+    fn a_flood_is_quick_and_does_not_push_out_others() {
+        let folder = tempfile::tempdir().unwrap();
+        let rejected = open(folder.path());
+        rejected.record(&[certificate(0)], HOME, &untrusted());
+        let certificates: Vec<[Certificate; 3]> =
+            (1..=10_000).map(|i| [certificate(i), certificate(i + 20_000), certificate(i + 40_000)]).collect();
+        let begun = Instant::now();
+        for chain in &certificates {
+            rejected.record(chain, STRANGER, &untrusted());
+        }
+        assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
+        let list = rejected.list();
+        assert_eq!(list.len(), MAX_ENTRIES);
+        assert_eq!(list.iter().filter(|entry| entry.address == HOME.to_string()).count(), 1);
+        assert_eq!(list[0].certificate.0, certificates[9_999][0].der());
+        assert!(serde_json::to_vec(&list).unwrap().len() < crate::protocol::MAX_RESPONSE_BYTES);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "recording does not wait for the disk");
+    }
+
+    #[test]
+    fn a_whole_network_of_ipv6_counts_as_one_stranger() {
+        let folder = tempfile::tempdir().unwrap();
+        let rejected = open(folder.path());
+        rejected.record(&[certificate(0)], HOME, &untrusted());
+        for host in 1..=MAX_ENTRIES as u16 * 2 {
+            let address = Ipv6Addr::new(0x2001, 0xdb8, 0, 0, 0, 0, 0, host);
+            rejected.record(&[certificate(host.into())], address.into(), &untrusted());
+        }
+        assert!(rejected.list().iter().any(|entry| entry.address == HOME.to_string()));
+    }
+
+    #[tokio::test]
+    async fn the_list_is_written_soon_but_not_for_every_refusal() {
+        let folder = tempfile::tempdir().unwrap();
+        let rejected = open(folder.path());
+        let off = CancellationToken::new();
+        let keeper = tokio::spawn(Arc::clone(&rejected).keep(off.clone()));
+        let path = folder.path().join(FILE);
+        rejected.record(&[certificate(0)], HOME, &untrusted());
+        let begun = Instant::now();
+        while !path.exists() {
+            assert!(begun.elapsed() < Duration::from_secs(3), "not written");
+            tokio::time::sleep(Duration::from_millis(5)).await;
+        }
+        for i in 1..50 {
+            rejected.record(&[certificate(i)], HOME, &untrusted());
+            tokio::time::sleep(Duration::from_millis(2)).await;
+        }
+        assert_eq!(open(folder.path()).list().len(), 1, "written again too soon");
+        off.cancel();
+        keeper.await.unwrap();
+        rejected.write_soon().await;
+        assert_eq!(open(folder.path()).list(), rejected.list());
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            assert_eq!(fs::metadata(&path).unwrap().permissions().mode() & 0o777, 0o600);
+        }
+    }
+
+    #[test]
+    fn a_full_disk_costs_the_file_but_not_the_list() {
+        let folder = tempfile::tempdir().unwrap();
+        let faults = Faults::default();
+        let rejected = RejectedClients::open(folder.path(), faults.clone(), &state());
+        let entry = |i: u32| {
+            let certificate = certificate(i);
+            Entry::moved(Base64Bytes(certificate.der().to_vec()), certificate.thumbprint_sha1(), Utc::now())
+        };
+        rejected.insert(vec![entry(1)]).unwrap();
+        faults.update(|switches| switches.disk_full = true);
+        let one = certificate(1).thumbprint_sha1();
+        rejected.remove(std::slice::from_ref(&one)).unwrap_err();
+        assert_eq!(rejected.list().len(), 1, "what the disk still holds is not forgotten");
+        faults.update(|switches| switches.disk_full = false);
+        rejected.remove(&[one]).unwrap();
+        assert_eq!(open(folder.path()).list(), []);
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing half written is left");
+    }
+
+    #[test]
+    fn a_damaged_file_is_put_aside() {
+        let folder = tempfile::tempdir().unwrap();
+        fs::write(folder.path().join(FILE), b"[{").unwrap();
+        assert_eq!(open(folder.path()).list(), []);
+        assert!(folder.path().join("rejected.damaged").exists());
+        assert!(!folder.path().join(FILE).exists());
+    }
+
+    #[test]
+    fn a_process_killed_between_two_files_leaves_a_certificate_in_one_list() {
+        let folder = tempfile::tempdir().unwrap();
+        let rejected = open(folder.path());
+        let moved = certificate(1);
+        let listed = |certificate: &Certificate, added| Listed {
+            file_name: "client.der".to_owned(),
+            certificate: Base64Bytes(certificate.der().to_vec()),
+            added,
+        };
+        let der = Base64Bytes(moved.der().to_vec());
+        rejected.insert(vec![Entry::moved(der, moved.thumbprint_sha1(), Utc::now())]).unwrap();
+        for i in [2, 3, 4] {
+            rejected.record(&[certificate(i)], HOME, &untrusted());
+        }
+        rejected.write().unwrap();
+        let (past, future) = (Utc::now() - chrono::TimeDelta::hours(1), Utc::now() + chrono::TimeDelta::hours(1));
+        // Moved here from the trusted list, but still there; trusted since; and refused again although it is trusted.
+        let trusted = vec![listed(&moved, past), listed(&certificate(2), future), listed(&certificate(3), past)];
+        let state = State { trusted, ..state() };
+        let left = RejectedClients::open(folder.path(), Faults::default(), &state).list();
+        let mut left: Vec<&[u8]> = left.iter().map(|entry| entry.certificate.0.as_slice()).collect();
+        left.sort_unstable();
+        assert_eq!(left, [certificate(3).der(), certificate(4).der()]);
+    }
 }

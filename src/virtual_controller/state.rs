@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 use super::secret_bytes::SecretBytes;
 use crate::model::activation::ActivationKeys;
 use crate::model::{
-    CertificateType, ClientList, ControllerName, ControllerSeries, CrlSummary, ErrorCode, FirmwareGeneration, FirmwareVersion,
-    ListLimits, MAX_USERS, Problem, SerialNumber, ServerCertificate, ServerSettings, UserName, default_common_name,
-    offered_key_lengths,
+    CertificateType, ClientList, ControllerName, ControllerSeries, CrlSummary, ErrorCode, FirmwareGeneration,
+    FirmwareVersion, ListLimits, MAX_USERS, Problem, SerialNumber, ServerCertificate, ServerSettings, UserName,
+    default_common_name, offered_key_lengths,
 };
 use crate::pki::{Certificate, PkiError, ServerNames};
 use crate::protocol::{Base64Bytes, ListedCertificate, ListedCrl};

@@ -170,11 +170,7 @@ impl Editor<'_> {
             check_file_name(&file_name)?;
             self.add_crl(file_name, der)?;
         }
-        let limit = self.state.limits().crls;
-        let (total, bytes) = (self.state.crls.len(), self.state.crls.iter().map(|held| held.crl.0.len()).sum::<usize>());
-        if total > limit {
-            return Err(Problem::with_detail(ErrorCode::TooManyCrls, format!("{total} > {limit}")));
-        }
+        let bytes: usize = self.state.crls.iter().map(|held| held.crl.0.len()).sum();
         if bytes > MAX_CRLS_BYTES {
             return Err(Problem::with_detail(ErrorCode::TooManyCrls, format!("{bytes} > {MAX_CRLS_BYTES} bytes")));
         }
@@ -182,9 +178,8 @@ impl Editor<'_> {
     }
 
     fn add_crl(&mut self, file_name: String, der: Base64Bytes) -> Result<(), Problem> {
-        let bad = |reason: &dyn std::fmt::Display| {
-            Problem::with_detail(ErrorCode::BadCrl, format!("{file_name}: {reason}"))
-        };
+        let bad =
+            |reason: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCrl, format!("{file_name}: {reason}"));
         if der.0.len() > MAX_SENT_CRL_BYTES {
             return Err(bad(&format_args!("larger than {MAX_SENT_CRL_BYTES} bytes")));
         }
@@ -208,9 +203,28 @@ impl Editor<'_> {
                 kept.push(held);
             }
         }
+        if kept.len() >= self.state.limits().crls {
+            let detail = format!("more than {}", self.state.limits().crls);
+            return Err(Problem::with_detail(ErrorCode::TooManyCrls, detail));
+        }
+        self.check_signature(&crl).map_err(|reason| bad(&reason))?;
         kept.push(HeldCrl { file_name, summary: crl.summary(), crl: der, added: self.now });
         self.state.crls = kept;
         Ok(())
+    }
+
+    /// An authority that is held must have signed its CRL: a forged one would only take the right one's place.
+    fn check_signature(&self, crl: &Crl) -> Result<(), &'static str> {
+        let held = self.state.trusted.iter().chain(&self.state.issuers);
+        let mut authorities = held
+            .filter_map(|listed| Certificate::from_der(&listed.certificate.0).ok())
+            .filter(|certificate| crl.is_of(certificate))
+            .peekable();
+        if authorities.peek().is_none() || authorities.any(|authority| crl.verify_signed_by(&authority)) {
+            Ok(())
+        } else {
+            Err("it is not signed by the authority whose name it carries")
+        }
     }
 
     fn remove_crls(&mut self, ids: &[String]) -> Result<(), Problem> {

@@ -130,11 +130,11 @@ impl TrustPlan {
                 };
                 items.push(Planned { file_name: file.file_name.clone(), shown_as, thing, fate });
             };
-            let with_application = file.bundle.certificates.iter().any(|c| !is_authority(c));
-            let with_authority = file.bundle.certificates.iter().any(is_authority);
+            let with_application = file.bundle.certificates.iter().any(|c| !c.is_authority());
+            let with_authority = file.bundle.certificates.iter().any(Certificate::is_authority);
             for certificate in &file.bundle.certificates {
                 let summary = certificate.summary();
-                let authority = is_authority(certificate);
+                let authority = certificate.is_authority();
                 let fate =
                     sorter.certificate(certificate, &summary.thumbprint, authority, with_application, with_authority);
                 let id = summary.thumbprint.clone();
@@ -312,12 +312,6 @@ impl Sorter<'_> {
         }
         Fate::Goes { to: Target::Crls, notes }
     }
-}
-
-/// A certificate with an application's URI is that application's, even if it says that it may sign others: so do the
-/// self-signed certificates of some OPC UA stacks.
-fn is_authority(certificate: &Certificate) -> bool {
-    certificate.is_ca() && certificate.application_uri().is_none()
 }
 
 /// The controller takes up to 255 bytes and no path.

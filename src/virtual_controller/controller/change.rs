@@ -3,13 +3,13 @@ use std::sync::Arc;
 
 use tokio::task::spawn_blocking;
 
-use super::plant::{OPCUA_FOLDER, Plant, opcua_config, trust_lists};
+use super::plant::{Plant, opcua_config, trust_lists};
 use super::{Controller, Standing};
-use crate::model::{ErrorCode, Problem, ServerStatus};
+use crate::model::{ErrorCode, Problem};
 use crate::protocol::{Changed, CutClient};
 use crate::virtual_controller::faults::DropPoint;
 use crate::virtual_controller::memory;
-use crate::virtual_controller::opcua::{Events, OpcUaServer, StartError};
+use crate::virtual_controller::opcua::{Clock, Events, OpcUaConfig, OpcUaServer, StartError};
 use crate::virtual_controller::state::{State, Surroundings};
 use crate::virtual_controller::store::StoreError;
 
@@ -18,12 +18,20 @@ use crate::virtual_controller::store::StoreError;
 pub(in super::super) enum Effect {
     /// It has to be stopped and started with the new configuration.
     Restart,
-    /// It takes over the list of trusted clients as it runs.
-    TrustedClients,
+    /// It takes over the trust lists as it runs, and ends connections that would not be let in any more.
+    Trust,
     /// Its certificate may be gone. Without one it stops for good; otherwise it does not notice.
     CertificateLost,
     /// It does not notice.
     Nothing,
+}
+
+/// A change that is in force.
+pub(super) struct Applied<T> {
+    pub changed: Changed,
+    pub value: T,
+    /// Whose connections were ended.
+    pub cut: Vec<CutClient>,
 }
 
 /// How a change, a start or a stop did not succeed.
@@ -107,40 +115,62 @@ impl Controller {
         edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
     ) -> Result<(Changed, T), Outcome> {
         let mut plant = self.server.lock().await;
+        let Applied { changed, value, .. } = self.apply(&mut plant, revision, effect, edit).await?;
+        drop(plant);
+        self.answer()?;
+        Ok((changed, value))
+    }
+
+    /// Whether the answer to a change that was applied reaches who asked for it.
+    pub(super) fn answer(&self) -> Result<(), Outcome> {
+        if self.faults.take_drop(DropPoint::AfterApply) { Err(Outcome::Dropped) } else { Ok(()) }
+    }
+
+    pub(super) fn check_revision(&self, revision: u64) -> Result<(), Problem> {
+        let now = self.state().revision;
+        if revision == now {
+            return Ok(());
+        }
+        Err(Problem::with_detail(ErrorCode::ChangedMeanwhile, format!("revision {revision}, now {now}")))
+    }
+
+    /// A change, by whoever has its turn.
+    pub(super) async fn apply<T: Send + 'static>(
+        &self,
+        plant: &mut Plant,
+        revision: u64,
+        effect: Effect,
+        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<Applied<T>, Outcome> {
         plant.admit()?;
         self.faults.admit_change()?;
+        self.check_revision(revision)?;
+        let effect = if plant.is_running() { effect } else { Effect::Nothing };
         let old = self.state();
-        if revision != old.revision {
-            let detail = format!("revision {revision}, now {}", old.revision);
-            return Err(Problem::with_detail(ErrorCode::ChangedMeanwhile, detail).into());
-        }
-
         let (store, around, copy) = (Arc::clone(&self.store), self.surroundings(), State::clone(&old));
-        let (new, value, staged) = blocking(move || {
+        let (new, value, lists, staged) = blocking(move || {
             let mut state = copy;
             let value = edit(&mut state, &around)?;
             state.revision += 1;
             state.check()?;
+            let lists = if effect == Effect::Trust { Some(trust_lists(&state)?) } else { None };
             let staged = store.stage(&state)?;
-            Ok::<_, Outcome>((state, value, staged))
+            Ok::<_, Outcome>((state, value, lists, staged))
         })
         .await?;
         if self.faults.take_drop(DropPoint::BeforeApply) {
             return Err(Outcome::Dropped);
         }
 
-        let effect = if plant.is_running() { effect } else { Effect::Nothing };
-        self.take_effect(&mut plant, effect, &old, &new).await?;
+        self.take_effect(plant, effect, &old, &new).await?;
         if let Err(error) = blocking(move || staged.commit()).await {
             match effect {
                 Effect::Restart => {
                     plant.stop().await;
-                    self.restore(&mut plant, &old).await;
+                    self.restore(plant, &old).await;
                 }
-                Effect::CertificateLost if !plant.is_running() => self.restore(&mut plant, &old).await,
-                Effect::CertificateLost => {}
-                Effect::TrustedClients => self.trust_again(&plant, &old),
-                Effect::Nothing => {}
+                Effect::CertificateLost if !plant.is_running() => self.restore(plant, &old).await,
+                Effect::CertificateLost | Effect::Trust | Effect::Nothing => {}
             }
             return Err(error.into());
         }
@@ -148,15 +178,15 @@ impl Controller {
         if effect == Effect::CertificateLost && !plant.is_running() {
             *self.standing.lock() = Standing::Stopped;
         }
-        let changed = self.changed();
-        drop(plant);
-        if self.faults.take_drop(DropPoint::AfterApply) {
-            return Err(Outcome::Dropped);
-        }
-        Ok((changed, value))
+        // Last, and it cannot fail: a connection that is ended cannot be given back.
+        let cut = match lists {
+            Some(lists) => plant.trust(lists).await,
+            None => Vec::new(),
+        };
+        Ok(Applied { changed: self.changed(), value, cut })
     }
 
-    async fn start_server_now(&self) -> Result<(), Problem> {
+    pub(super) async fn start_server_now(&self) -> Result<(), Problem> {
         let mut plant = self.server.lock().await;
         plant.admit()?;
         if plant.is_running() {
@@ -182,14 +212,14 @@ impl Controller {
     async fn take_effect(&self, plant: &mut Plant, effect: Effect, old: &State, new: &State) -> Result<(), Problem> {
         match effect {
             Effect::Restart => self.restart(plant, old, new).await,
-            Effect::TrustedClients => plant.trust(new).inspect_err(|_| self.trust_again(plant, old)),
             Effect::CertificateLost => {
                 if new.selected_certificate().is_none() {
                     plant.stop().await;
                 }
                 Ok(())
             }
-            Effect::Nothing => Ok(()),
+            // Once the change is in force.
+            Effect::Trust | Effect::Nothing => Ok(()),
         }
     }
 
@@ -228,7 +258,10 @@ impl Controller {
     }
 
     async fn run(&self, state: &State) -> Result<OpcUaServer, Problem> {
-        let mut config = opcua_config(state, &self.surroundings(), &self.folder)?;
+        let mut config = self.config(state).await?;
+        config.refusals = Some(Arc::clone(&self.rejected) as _);
+        let faults = self.faults.clone();
+        config.clock = Clock::new(move || faults.now());
         if state.settings.server_log {
             if self.log.is_full() {
                 return Err(ErrorCode::ServerLogFull.into());
@@ -243,7 +276,15 @@ impl Controller {
         })
     }
 
-    async fn switch_off(&self) {
+    /// Parses what may be megabytes of CRLs: off the async threads.
+    async fn config(&self, state: &State) -> Result<OpcUaConfig, Problem> {
+        let (state, around, folder) = (state.clone(), self.surroundings(), self.folder.clone());
+        spawn_blocking(move || opcua_config(&state, &around, &folder))
+            .await
+            .map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?
+    }
+
+    pub(super) async fn switch_off(&self) {
         let mut plant = self.server.lock().await;
         plant.off = true;
         if plant.server.is_some() {
@@ -259,12 +300,12 @@ fn fault() -> Problem {
     Problem::with_detail(ErrorCode::ServerError, "a fault switch is on")
 }
 
-fn finished<T>(joined: Result<Result<T, Outcome>, tokio::task::JoinError>) -> Result<T, Outcome> {
+pub(super) fn finished<T>(joined: Result<Result<T, Outcome>, tokio::task::JoinError>) -> Result<T, Outcome> {
     joined.unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error).into()))
 }
 
 /// Runs on a thread that may wait. A panic there is the controller's mistake, not the end of it.
-async fn blocking<T: Send + 'static, E: From<StoreError> + Send + 'static>(
+pub(super) async fn blocking<T: Send + 'static, E: From<StoreError> + Send + 'static>(
     work: impl FnOnce() -> Result<T, E> + Send + 'static,
 ) -> Result<T, E> {
     spawn_blocking(work).await.unwrap_or_else(|error| {
