@@ -227,9 +227,11 @@ pub const fn chain_state(state: ChainState) -> T {
 pub const fn crl_health(health: &CrlHealth) -> T {
     match (&health.issuer, health.dates) {
         (CrlIssuer::NotSignedBy { .. }, _) => T::CrlWrongKey,
+        (CrlIssuer::MayNotSign { .. }, _) => T::CrlMayNotSign,
         (CrlIssuer::Missing, _) => T::CrlNoIssuer,
         (CrlIssuer::Held { .. }, CrlDates::Expired) => T::CrlExpired,
         (CrlIssuer::Held { .. }, CrlDates::NotYetValid) => T::CrlNotYet,
+        (CrlIssuer::Held { .. }, CrlDates::NoEnd) => T::CrlNoEnd,
         (CrlIssuer::Held { .. }, CrlDates::Current) => T::CrlGood,
     }
 }

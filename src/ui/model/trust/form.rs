@@ -133,7 +133,7 @@ impl TrustForm {
                         let health = held.health.crls.get(at).cloned();
                         let covers = health.as_ref().and_then(|health| match &health.issuer {
                             CrlIssuer::Held { thumbprint } => name_of(thumbprint),
-                            CrlIssuer::NotSignedBy { .. } | CrlIssuer::Missing => None,
+                            _ => None,
                         });
                         Entry::crl(listed, health, covers, zone, clock)
                     });
