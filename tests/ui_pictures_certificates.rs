@@ -11,7 +11,7 @@ use opcua_configurator::model::{
     CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Problem, SelfSignedRequest,
     ServerSettings, Subject, Validity,
 };
-use opcua_configurator::pki::{Finding, PrivateKey, ServerNames, self_signed};
+use opcua_configurator::pki::{Certificate, Finding, Issuers, PrivateKey, ServerNames, self_signed};
 use opcua_configurator::protocol::{Base64Bytes, HeldCertificate, HeldCertificates, Revisioned};
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
 
@@ -153,8 +153,47 @@ fn user_specified() {
     picture(&mut window, "user_specified_not_a_pair");
 }
 
+#[test]
+fn the_chain_before_an_import() {
+    let mut window = open(&[CURRENT]);
+    choose(&mut window, &["Certificate", "Create and save", "CA signed…"]);
+    click(&mut window, "Import…");
+    let issuers =
+        Issuers { chain: vec![ca("Plant CA", Some("Works root"), 2024), ca("Works root", None, 2020)], complete: true };
+    end(&mut window, vec![checked_with(vec![], Some(issuers.clone()))]);
+    picture(&mut window, "import_chain");
+    click(&mut window, "Cancel");
+    chinese(&mut window);
+    click(&mut window, "导入…");
+    let issuers = Issuers { chain: issuers.chain[..1].to_vec(), complete: false };
+    end(&mut window, vec![checked_with(vec![], Some(issuers))]);
+    picture(&mut window, "import_chain_incomplete_chinese");
+}
+
+/// A certificate of an authority, valid for five years, whose visible parts are the same in every picture.
+fn ca(name: &str, by: Option<&str>, from: i32) -> Certificate {
+    let params = |name: &str| {
+        let mut params = rcgen::CertificateParams::default();
+        params.distinguished_name.push(rcgen::DnType::CommonName, name);
+        params.not_before = rcgen::date_time_ymd(from, 3, 1);
+        params.not_after = rcgen::date_time_ymd(from + 5, 3, 1);
+        params
+    };
+    let key = rcgen::KeyPair::generate().unwrap();
+    let made = match by {
+        None => params(name).self_signed(&key).unwrap(),
+        Some(by) => params(name).signed_by(&key, &rcgen::Issuer::new(params(by), &key)).unwrap(),
+    };
+    Certificate::from_der(made.der()).unwrap()
+}
+
 fn checked(findings: Vec<Finding>) -> Result<Outcome, Problem> {
-    Ok(Outcome::Checked { summary: CertificateSummary { issued_by: "Plant CA".into(), ..summary() }, findings })
+    checked_with(findings, None)
+}
+
+fn checked_with(findings: Vec<Finding>, issuers: Option<Issuers>) -> Result<Outcome, Problem> {
+    let summary = CertificateSummary { issued_by: "Plant CA".into(), ..summary() };
+    Ok(Outcome::Checked { summary, findings, issuers })
 }
 
 fn summary() -> CertificateSummary {

@@ -16,6 +16,7 @@ use common::window::{self, SIZE, choose, is_enabled, shows, type_into, wait_unti
 use egui_kittest::kittest::Queryable as _;
 use opcua_configurator::model::ErrorCode;
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
+use opcua_configurator::ui::model::RowState;
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::{FleetFirmware, demo_keys};
 use opcua_configurator::workspace::{Configuration, Workspace};
@@ -220,4 +221,84 @@ fn a_desktop_without_a_file_dialog_says_what_to_do_instead() {
     desk.click("OK");
     desk.wait_for("2 done");
     assert!(desk.activated(0) && desk.activated(1));
+}
+
+#[test]
+fn fifty_are_activated_from_one_file_with_five_bad_lines_one_cable_pulled_and_a_cancel() {
+    const COUNT: usize = 50;
+    const UNREACHABLE: usize = 44;
+    let mut desk = Desk::legacy(COUNT);
+    let file: String = (0..COUNT)
+        .map(|index| match index {
+            3 => String::new(),
+            11 => desk.line(index).replacen('-', "!", 1),
+            19 => desk.line(index).replacen(',', ";", 1),
+            27 => desk.line(index) + &desk.line(index),
+            // Another controller's keys: only the controller can know.
+            35 => {
+                let keys = demo_keys(&"R7A9999999".parse().unwrap());
+                format!("{},{},{}\n", desk.plant.controller(index).serial(), keys.licence, keys.activation)
+            }
+            _ => desk.line(index),
+        })
+        .collect();
+    fs::write(desk.file(), format!("OPCUA.Activation.Ver.1.0\r\n{file}")).unwrap();
+    desk.runtime.block_on(desk.plant.controller(UNREACHABLE).shutdown());
+    for index in (0..COUNT).filter(|index| *index != UNREACHABLE) {
+        desk.plant.controller(index).faults().update(|faults| faults.latency = Duration::from_millis(40));
+    }
+    desk.window.state_mut().model.options.parallelism = 4;
+
+    let open = |desk: &mut Desk| {
+        choose(&mut desk.window, &["Server settings", "Activation…"]);
+        desk.click("Choose…");
+        desk.wait_for("Keys found for 46 of 50 controllers");
+    };
+    desk.click("Tick all");
+    open(&mut desk);
+    for part in ["Line 12: ", "Line 20: ", "Line 29: ", "Not in the file"] {
+        assert!(shows(&desk.window, part), "no {part:?} in the preview");
+    }
+    desk.click("Apply");
+    desk.click("OK");
+
+    // In mid-batch: asked first, and what is done stays done.
+    let finished = |desk: &Desk| desk.window.state().model.job.as_ref().map_or(0, |job| job.finished);
+    wait_until(&mut desk.window, PATIENCE, |window| {
+        window.state().model.job.as_ref().is_some_and(|job| job.finished >= 8)
+    });
+    desk.click("Cancel");
+    assert!(shows(&desk.window, "Stop after the step in hand?"));
+    desk.click("Stop");
+    desk.wait_for("Stopped");
+    assert!(finished(&desk) == COUNT && shows(&desk.window, "not started"));
+    let states: Vec<RowState> =
+        desk.window.state().model.job.as_ref().unwrap().rows.iter().map(|row| row.state.clone()).collect();
+    assert!(states.iter().filter(|state| **state == RowState::NotStarted).count() >= COUNT - 30);
+    for (index, state) in states.iter().enumerate() {
+        assert_eq!(*state == RowState::Done, desk.activated(index), "what is said of controller {index} is so");
+    }
+    desk.click("Close");
+
+    // And simply done again, with all that are wrong named.
+    open(&mut desk);
+    desk.click("Apply");
+    desk.click("OK");
+    desk.wait_for("Completed");
+    assert!(shows(&desk.window, "44 done, 6 failed"));
+    let failed = |desk: &Desk, index: usize| {
+        desk.window.state().model.job.as_ref().unwrap().rows[index].state.problem().map(|problem| problem.code)
+    };
+    for index in 0..COUNT {
+        let expected = match index {
+            3 | 11 | 19 | 27 => Some(ErrorCode::NotInFile),
+            35 => Some(ErrorCode::WrongKeys),
+            UNREACHABLE => Some(ErrorCode::Unreachable),
+            _ => None,
+        };
+        assert_eq!(failed(&desk, index), expected, "controller {index}");
+        assert_eq!(desk.activated(index), expected.is_none(), "controller {index}");
+    }
+    desk.click("Close");
+    assert!(desk.window.state().model.dialogs.is_empty());
 }

@@ -4,56 +4,70 @@ use async_trait::async_trait;
 
 use super::{Confirmation, JobController, Operation, Outcome, Run, Step, preflight};
 use crate::model::{ControllerInfo, ErrorCode, Problem, SerialNumber};
-use crate::pki::{Certificate, Csr, MAX_CERTIFICATE_FILE_BYTES};
+use crate::pki::{Certificate, Csr, Issuers, MAX_CERTIFICATE_FILE_BYTES, issuers_of, read_certificates};
 use crate::protocol::{Base64Bytes, ImportCaSigned};
-use crate::workspace::{CertificateFiles, read_import_file};
+use crate::workspace::{CertificateFiles, certificate_files_beside, read_import_file};
 
 /// Where the certificate from the CA is.
 #[derive(Debug, Clone)]
 pub enum CaCertificateSource {
     /// The only `.der` in each controller's `CASigned` folder.
     Folder(CertificateFiles),
-    /// This file, DER or PEM, whatever its name. For one controller only.
+    /// This file, DER or PEM, whatever its name; issuers may stand beside the certificate. For one controller only.
     File(PathBuf),
 }
 
 impl CaCertificateSource {
-    /// Finds and reads the certificate for a controller. Blocks for one small file.
-    pub fn read(&self, serial: &SerialNumber) -> Result<Certificate, Problem> {
-        match self {
-            Self::Folder(files) => read(&files.find_ca_signed(serial)?),
-            Self::File(path) => read(path),
-        }
+    /// Finds and reads the file for a controller: what the CA issued, and what it sent with it. Blocks for one small
+    /// file.
+    pub fn read(&self, serial: &SerialNumber) -> Result<Vec<Certificate>, Problem> {
+        read(&self.path(serial)?)
     }
 
     /// Reads the certificate if it is the same whatever the controller: a wrong file is found out before any is asked.
-    pub fn read_chosen(&self) -> Result<Option<Certificate>, Problem> {
+    pub fn read_chosen(&self) -> Result<Option<Vec<Certificate>>, Problem> {
         match self {
             Self::Folder(_) => Ok(None),
             Self::File(path) => read(path).map(Some),
         }
     }
+
+    fn path(&self, serial: &SerialNumber) -> Result<PathBuf, Problem> {
+        match self {
+            Self::Folder(files) => files.find_ca_signed(serial),
+            Self::File(path) => Ok(path.clone()),
+        }
+    }
 }
 
-fn read(path: &Path) -> Result<Certificate, Problem> {
+fn read(path: &Path) -> Result<Vec<Certificate>, Problem> {
     let bytes = read_import_file(path, MAX_CERTIFICATE_FILE_BYTES)?;
-    Certificate::from_any(&bytes)
+    read_certificates(&bytes)
         .map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", path.display())))
 }
 
-/// The certificate, if it is for the CSR the controller holds.
+/// The certificate of the file that is for the CSR the controller holds, and its issuers as far as they are in the file
+/// or in files beside it.
 async fn read_for_csr(
     source: &CaCertificateSource,
     run: &mut Run<'_>,
     info: &ControllerInfo,
-) -> Result<Certificate, Problem> {
-    let certificate = source.read(&info.serial)?;
+) -> Result<(Certificate, Issuers), Problem> {
+    let (source, serial) = (source.clone(), info.serial.clone());
+    let (certificates, beside) = run
+        .off_thread(move || {
+            let path = source.path(&serial)?;
+            let beside = certificate_files_beside(&path);
+            Ok((read(&path)?, beside.iter().filter_map(|bytes| read_certificates(bytes).ok()).flatten().collect()))
+        })
+        .await?;
     let held = run.session.certificates().await?;
-    let csr = held.value.csr.ok_or(ErrorCode::NoCsr)?;
-    if !Csr::from_der(&csr.0)?.matches(&certificate) {
-        return Err(ErrorCode::CsrMismatch.into());
-    }
-    Ok(certificate)
+    let csr = Csr::from_der(&held.value.csr.ok_or(ErrorCode::NoCsr)?.0)?;
+    let issued = certificates.iter().find(|certificate| csr.matches(certificate)).cloned();
+    let issued = issued.ok_or(ErrorCode::CsrMismatch)?;
+    let known: Vec<Certificate> = certificates.into_iter().chain::<Vec<_>>(beside).collect();
+    let issuers = issuers_of(&issued, &known);
+    Ok((issued, issuers))
 }
 
 /// Imports what a CA issued for the CSR the controller holds, and selects it (manual 2.7.1.5).
@@ -83,7 +97,7 @@ impl Operation for ImportCaCertificate {
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
-        let certificate = read_for_csr(&self.source, run, &info).await?;
+        let (certificate, _) = read_for_csr(&self.source, run, &info).await?;
         let findings = preflight::admit(run, &info, &certificate, self.accept_warnings).await?;
         run.begin(Step::Apply)?;
         let change = ImportCaSigned { revision: info.revision, certificate: Base64Bytes(certificate.der().to_vec()) };
@@ -105,8 +119,8 @@ impl Operation for CheckCaCertificate {
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
-        let certificate = read_for_csr(&self.0, run, &info).await?;
+        let (certificate, issuers) = read_for_csr(&self.0, run, &info).await?;
         let findings = preflight::examine(run, &info, &certificate).await?;
-        Ok(Outcome::Checked { summary: certificate.summary(), findings })
+        Ok(Outcome::Checked { summary: certificate.summary(), findings, issuers: Some(issuers) })
     }
 }

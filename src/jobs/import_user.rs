@@ -147,6 +147,6 @@ impl Operation for CheckUserCertificate {
         let (_, certificate) = run.on_a_core(move || files.read(password.as_ref())).await??;
         let info = run.session.info().await?;
         let findings = preflight::examine(run, &info, &certificate).await?;
-        Ok(Outcome::Checked { summary: certificate.summary(), findings })
+        Ok(Outcome::Checked { summary: certificate.summary(), findings, issuers: None })
     }
 }

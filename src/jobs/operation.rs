@@ -6,7 +6,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::{JobController, TrustChange, TrustSnapshot};
 use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, UserName};
-use crate::pki::Finding;
+use crate::pki::{Finding, Issuers};
 use crate::protocol::{HeldCertificates, LogChunk, Revisioned};
 use crate::session::ControllerSession;
 use crate::workspace::{SavedCertificate, SavedCsr};
@@ -92,6 +92,8 @@ pub enum Outcome {
     Checked {
         summary: CertificateSummary,
         findings: Vec<Finding>,
+        /// Of a certificate from a CA.
+        issuers: Option<Issuers>,
     },
     Certificates(Revisioned<HeldCertificates>),
     /// A server certificate was saved on the PC.

@@ -119,6 +119,19 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ),
     ),
     (
+        ErrorCode::AnswerLost,
+        text(
+            "The change was applied, but its answer was lost",
+            "The connection broke after the change was sent. Read again, the controller shows that it was changed.",
+            "Compare the row with what was wanted. Repeat the operation if something was to be saved on this computer.",
+        ),
+        text(
+            "更改已生效，但未收到应答",
+            "发送更改后连接中断。重新读取后确认控制器已更改。",
+            "请核对该行的信息。若需要在本机保存文件，请重新执行该操作。",
+        ),
+    ),
+    (
         ErrorCode::NotAController,
         text(
             "What answers at this address is not a controller",
@@ -930,6 +943,37 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "无法打开文件选择对话框",
             "当前桌面环境未提供文件选择功能（缺少 xdg-desktop-portal）。",
             "请在输入框中直接输入文件路径。",
+        ),
+    ),
+    (
+        ErrorCode::FolderNotOpened,
+        text(
+            "The folder cannot be opened",
+            "This desktop has no program for it, or the folder is not there.",
+            "Copy the path and open it by hand.",
+        ),
+        text("无法打开文件夹", "桌面环境没有可用的文件管理器，或文件夹不存在。", "请复制路径后手动打开。"),
+    ),
+    (
+        ErrorCode::FileTooLarge,
+        text(
+            "The file is too large",
+            "No file this program reads is that large.",
+            "Check whether it is the right file.",
+        ),
+        text("文件过大", "本程序可读取的文件都没有这么大。", "请检查文件是否正确。"),
+    ),
+    (
+        ErrorCode::FileNotRecognised,
+        text(
+            "The file is of no known kind",
+            "It is neither a certificate, key, CSR or CRL, nor an activation file, connection list or settings export.",
+            "Check whether it is the right file and whether it is whole.",
+        ),
+        text(
+            "无法识别文件类型",
+            "该文件不是证书、私钥、CSR、CRL、激活文件、连接列表或设置导出文件。",
+            "请检查文件是否正确、完整。",
         ),
     ),
     (

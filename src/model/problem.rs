@@ -33,6 +33,7 @@ pub enum ErrorCode {
     Unreachable,
     Timeout,
     ConnectionLost,
+    AnswerLost,
     NotAController,
     ProtocolVersion,
     FingerprintChanged,
@@ -115,6 +116,9 @@ pub enum ErrorCode {
     KeyringUnavailable,
     NoDisplay,
     NoFilePicker,
+    FolderNotOpened,
+    FileTooLarge,
+    FileNotRecognised,
     Cancelled,
     Internal,
 }
@@ -149,6 +153,7 @@ impl ErrorCode {
             Unreachable
                 | Timeout
                 | ConnectionLost
+                | AnswerLost
                 | NotAController
                 | ProtocolVersion
                 | FingerprintChanged
@@ -166,6 +171,9 @@ impl ErrorCode {
                 | ConfigurationDamaged
                 | KeyringUnavailable
                 | NoFilePicker
+                | FolderNotOpened
+                | FileTooLarge
+                | FileNotRecognised
                 | Cancelled
         )
     }
@@ -239,8 +247,9 @@ mod tests {
         match code {
             NotActivated | NoCertificate | InvalidParameter | PortConflict | ServerError | ServerLogOn
             | ServerLogFull => 7,
-            Unreachable | Timeout | ConnectionLost | NotAController | ProtocolVersion | FingerprintChanged
-            | FingerprintUnknown | WrongPassword | PasswordMissing | LockedOut | SessionExpired => 11,
+            Unreachable | Timeout | ConnectionLost | AnswerLost | NotAController | ProtocolVersion
+            | FingerprintChanged | FingerprintUnknown | WrongPassword | PasswordMissing | LockedOut
+            | SessionExpired => 12,
             FirmwareNotSupported
             | FirmwareTooNew
             | FirmwareTooOld
@@ -283,14 +292,16 @@ mod tests {
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
             | BadPassphrase => 7,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
-            | NoDisplay | NoFilePicker | Cancelled | Internal => 9,
+            | NoDisplay | NoFilePicker | FolderNotOpened | FileTooLarge | FileNotRecognised | Cancelled | Internal => {
+                12
+            }
         }
     }
 
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 11 + 20 + 14 + 14 + 4 + 1 + 7 + 9;
+        let all = 7 + 12 + 20 + 14 + 14 + 4 + 1 + 7 + 12;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

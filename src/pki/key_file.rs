@@ -102,7 +102,7 @@ fn decrypt(der: &[u8], password: Option<&str>) -> Result<PrivateKey, PkiError> {
     })
 }
 
-const PVK: &[u8] = &[0x1e, 0xf1, 0xb5, 0xb0];
+pub(super) const PVK: &[u8] = &[0x1e, 0xf1, 0xb5, 0xb0];
 
 #[cfg(test)]
 mod tests {

@@ -13,6 +13,8 @@
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
 //! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
 //! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
+//! | `issuers` | [`issuers_of`]: who issued a certificate, as far as the issuers are at hand |
+//! | `kind` | [`recognise`]: what a file is, by its content |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
@@ -36,8 +38,10 @@ mod error;
 mod facts;
 mod fingerprint;
 mod identity;
+mod issuers;
 mod key;
 mod key_file;
+mod kind;
 mod name;
 mod pem;
 mod pkcs12;
@@ -59,8 +63,10 @@ pub use error::PkiError;
 pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use identity::{TlsIdentity, tls_identity};
+pub use issuers::{Issuers, MAX_CHAIN, issuers_of, read_certificates};
 pub use key::PrivateKey;
 pub use key_file::{MAX_KEY_FILE_BYTES, read_key_file, read_pair};
+pub use kind::{PkiKind, recognise};
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
 pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_key, pkcs12_write, pkcs12_write_key};
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};

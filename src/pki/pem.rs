@@ -22,6 +22,15 @@ pub(super) fn is_pem(bytes: &[u8]) -> bool {
 
 /// The DER of the only certificate in a PEM text. Other text around it is passed over, a private key is not.
 pub(super) fn single_certificate(text: &[u8]) -> Result<Vec<u8>, PkiError> {
+    match certificates(text)?.as_slice() {
+        [] => Err(PkiError::NoCertificate),
+        [der] => Ok(der.to_vec()),
+        several => Err(PkiError::SeveralCertificates(several.len())),
+    }
+}
+
+/// The DER of every certificate in a PEM text, in order; otherwise as [`single_certificate`].
+pub(super) fn certificates(text: &[u8]) -> Result<Vec<Vec<u8>>, PkiError> {
     let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
     if has_private_key(text) {
         return Err(PkiError::PrivateKeyInside);
@@ -30,15 +39,11 @@ pub(super) fn single_certificate(text: &[u8]) -> Result<Vec<u8>, PkiError> {
     let mut rest = text;
     while let Some((item, after)) = rustls_pemfile::read_one_from_slice(rest).map_err(|_| PkiError::BadPem)? {
         if let Item::X509Certificate(der) = item {
-            certificates.push(der);
+            certificates.push(der.to_vec());
         }
         rest = after;
     }
-    match certificates.as_slice() {
-        [] => Err(PkiError::NoCertificate),
-        [der] => Ok(der.to_vec()),
-        several => Err(PkiError::SeveralCertificates(several.len())),
-    }
+    Ok(certificates)
 }
 
 /// The DER of the only certificate signing request in a PEM text.
@@ -137,6 +142,13 @@ fn armour(label: &str, der: &[u8]) -> String {
     text
 }
 
+/// What stands after each `BEGIN`, in order.
+pub(super) fn labels(text: &[u8]) -> impl Iterator<Item = &[u8]> {
+    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
+    text.split(|byte| matches!(byte, b'\n' | b'\r'))
+        .filter_map(|line| line.trim_ascii().strip_prefix(BEGIN)?.strip_suffix(b"-----"))
+}
+
 /// Of any kind, also those the parser does not know, such as encrypted ones.
 fn has_private_key(text: &[u8]) -> bool {
     text.split(|byte| matches!(byte, b'\n' | b'\r'))
@@ -145,7 +157,7 @@ fn has_private_key(text: &[u8]) -> bool {
 }
 
 const BEGIN: &[u8] = b"-----BEGIN ";
-const PRIVATE_KEY: &[u8] = b"PRIVATE KEY";
+pub(super) const PRIVATE_KEY: &[u8] = b"PRIVATE KEY";
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 #[cfg(test)]

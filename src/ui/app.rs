@@ -6,7 +6,7 @@ use egui::ThemePreference;
 
 use super::backend::{Backend, Command};
 use super::model::{Message, Model, reduce};
-use super::{dialogs, fonts, keys, theme, views};
+use super::{dialogs, drops, fonts, keys, theme, views};
 use crate::workspace::ThemeChoice;
 
 /// What the window remembers of itself is saved when nothing changed for so long.
@@ -55,6 +55,7 @@ impl<B: Backend> App<B> {
         self.take_in(&mut messages, ui.ctx());
         self.apply_theme(ui.ctx());
 
+        drops::read(ui.ctx(), &self.model, &mut messages);
         keys::read(ui.ctx(), &self.model, &mut messages);
         views::window(ui, &self.model, &mut messages);
         // A dialog's form is the one thing a view may write to.
@@ -63,6 +64,7 @@ impl<B: Backend> App<B> {
         self.dialogs_shown = open.len();
         dialogs::show(ui, &mut open, opened, &self.model, &mut messages);
         self.model.dialogs = open;
+        drops::overlay(ui.ctx(), &self.model);
         self.remember_size(ui.ctx(), &mut messages);
 
         if !messages.is_empty() {

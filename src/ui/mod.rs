@@ -10,7 +10,8 @@
 //! | [`app`](App) | one frame |
 //! | [`backend`] | jobs, saving |
 //! | [`command`] | what can be asked for: text, tooltip, key, and why it is disabled |
-//! | [`picker`] | the desktop's dialog for choosing a file |
+//! | [`picker`] | the desktop's dialog for choosing a file, and its file manager |
+//! | `drops` | files dropped onto the window |
 //! | [`model`] | rows, dialogs and their forms, the running job, the reducer |
 //! | `views`, `dialogs`, `widgets` | what is drawn |
 //! | `texts` | every word, in English and Chinese |
@@ -20,6 +21,8 @@ mod app;
 pub mod backend;
 pub mod command;
 mod dialogs;
+mod drops;
+mod file_manager;
 mod fonts;
 mod keys;
 pub mod model;

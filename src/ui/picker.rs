@@ -2,9 +2,10 @@
 //!
 //! Not every desktop has one, so every dialog of ours that takes a file has a field for its path as well.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use super::file_manager;
 use crate::model::{ErrorCode, Problem};
 
 /// What is looked for: which files are offered first.
@@ -14,6 +15,9 @@ pub enum FileKind {
     /// Certificates, chains of them, CRLs.
     Trust,
     Crl,
+    Certificate,
+    Key,
+    Pkcs12,
 }
 
 impl FileKind {
@@ -22,6 +26,9 @@ impl FileKind {
             Self::Csv => &["csv"],
             Self::Trust => &["der", "cer", "crt", "pem", "p7b", "p7c", "crl"],
             Self::Crl => &["crl", "der", "pem", "p7b", "p7c"],
+            Self::Certificate => &["der", "cer", "crt", "pem"],
+            Self::Key => &["key", "pem", "der", "p8", "pk8"],
+            Self::Pkcs12 => &["pfx", "p12"],
         }
     }
 }
@@ -36,6 +43,9 @@ pub type PickedSeveral = Box<dyn FnOnce(Result<Vec<PathBuf>, Problem>) + Send>;
 pub trait FilePicker: Send + Sync {
     fn pick(&self, kind: FileKind, title: String, done: Picked);
     fn pick_several(&self, kind: FileKind, title: String, done: PickedSeveral);
+
+    /// Shows a folder in the desktop's file manager. Blocks for a moment.
+    fn open_folder(&self, folder: &Path) -> Result<(), Problem>;
 }
 
 /// The desktop's own dialog: its portal on Linux, the system's elsewhere.
@@ -75,6 +85,10 @@ impl FilePicker for SystemPicker {
     fn pick_several(&self, kind: FileKind, title: String, done: PickedSeveral) {
         ask(kind, title, done, rfd::FileDialog::pick_files, Option::unwrap_or_default);
     }
+
+    fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
+        file_manager::open(folder)
+    }
 }
 
 /// Waits for a person, so it needs a thread of its own.
@@ -98,6 +112,7 @@ fn ask<C: 'static, T: Send + 'static>(
     if let Err(error) = std::thread::Builder::new().name("file picker".into()).spawn(ask) {
         tracing::warn!(%error, "no thread for the file dialog");
     }
+
 }
 
 /// For tests: the person always chooses this.
@@ -111,5 +126,9 @@ impl FilePicker for FixedPicker {
 
     fn pick_several(&self, _kind: FileKind, _title: String, done: PickedSeveral) {
         done(self.0.clone().map(|chosen| chosen.into_iter().collect()));
+    }
+
+    fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
+        Err(Problem::with_detail(ErrorCode::FolderNotOpened, folder.display()))
     }
 }

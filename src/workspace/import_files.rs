@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::CertificateFiles;
 use crate::model::{ErrorCode, Problem, SerialNumber};
+use crate::pki::MAX_CERTIFICATE_FILE_BYTES;
 
 impl CertificateFiles {
     /// The only `.der` in `CASigned`.
@@ -34,6 +35,10 @@ pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, Problem> {
         };
         Problem::with_detail(code, format!("{}: {e}", path.display()))
     };
+    // A pipe would be waited for, without end.
+    if !fs::metadata(path).map_err(unreadable)?.is_file() {
+        return Err(Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: not a file", path.display())));
+    }
     let file = File::open(path).map_err(unreadable)?;
     let mut bytes = Vec::new();
     file.take(max as u64 + 1).read_to_end(&mut bytes).map_err(unreadable)?;
@@ -43,6 +48,26 @@ pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, Problem> {
     }
     Ok(bytes)
 }
+
+/// The contents of the other certificate files in the folder of one, of at most [`MAX_BESIDE`]. One that cannot be read
+/// is passed over: nobody asked for it. Blocks.
+pub fn certificate_files_beside(path: &Path) -> Vec<Vec<u8>> {
+    let Some(files) = path.parent().and_then(|folder| fs::read_dir(folder).ok()) else { return Vec::new() };
+    let is_certificate = |file: &PathBuf| {
+        let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+        file != path && CERTIFICATE_EXTENSIONS.iter().any(|known| extension.eq_ignore_ascii_case(known))
+    };
+    let mut files: Vec<PathBuf> =
+        files.take(MAX_LISTED).filter_map(|entry| Some(entry.ok()?.path())).filter(is_certificate).collect();
+    files.sort();
+    let read = |file: &PathBuf| read_import_file(file, MAX_CERTIFICATE_FILE_BYTES).ok();
+    files.iter().take(MAX_BESIDE).filter_map(read).collect()
+}
+
+const CERTIFICATE_EXTENSIONS: [&str; 4] = ["der", "cer", "crt", "pem"];
+const MAX_BESIDE: usize = 50;
+/// A folder such as that of downloads may hold any number of other files.
+const MAX_LISTED: usize = 10_000;
 
 /// The only file with this extension in a folder, with a name as the manual wants it (6.2). Other files do not matter.
 fn single(folder: &Path, extension: &str) -> Result<PathBuf, Problem> {
@@ -120,6 +145,19 @@ mod tests {
         assert_eq!(files.find_user_pfx(&serial).unwrap_err().code, ErrorCode::FileNotFound);
         fs::write(folder.join("eee.pfx"), "x").unwrap();
         assert_eq!(files.find_user_pfx(&serial), Ok(folder.join("eee.pfx")));
+    }
+
+    #[test]
+    fn certificates_beside_one_are_found_by_their_extension() {
+        let root = tempfile::tempdir().unwrap();
+        for name in ["own.der", "Root.CER", "sub.pem", "key.key", "notes.txt"] {
+            fs::write(root.path().join(name), name).unwrap();
+        }
+        fs::create_dir(root.path().join("folder.pem")).unwrap();
+        fs::write(root.path().join("large.crt"), vec![0; MAX_CERTIFICATE_FILE_BYTES + 1]).unwrap();
+        let found = certificate_files_beside(&root.path().join("own.der"));
+        assert_eq!(found, [b"Root.CER".to_vec(), b"sub.pem".to_vec()]);
+        assert!(certificate_files_beside(&root.path().join("missing/own.der")).is_empty());
     }
 
     #[test]

@@ -21,6 +21,7 @@ mod configuration;
 mod connection_list;
 mod import_files;
 mod passwords;
+mod recognise;
 mod settings_files;
 
 use std::fs::{self, File, TryLockError};
@@ -39,8 +40,9 @@ pub use connection_list::{
     CONNECTION_LIST_COLUMNS, ConnectionList, ConnectionListError, MAX_CONNECTION_LIST_BYTES, MAX_CONNECTIONS,
     NewConnection, PlannedConnection, Skipped,
 };
-pub use import_files::read_import_file;
+pub use import_files::{certificate_files_beside, read_import_file};
 pub use passwords::{KeyringPasswords, MemoryPasswords, Passwords};
+pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
 pub use settings_files::SettingsFiles;
 
 use crate::model::{ErrorCode, Problem};
@@ -146,6 +148,11 @@ impl Workspace {
 
     pub fn certificate_files(&self) -> CertificateFiles {
         CertificateFiles::new(self.root.clone())
+    }
+
+    /// Makes a folder of the workspace, so that something can be put into it. Folders elsewhere are left alone.
+    pub fn make_folder(&self, folder: &Path) -> Result<(), WorkspaceError> {
+        if folder.starts_with(&self.root) { atomic::create_folder(folder) } else { Ok(()) }
     }
 
     /// Takes the right to write the configuration: the window for as long as it is open, a command for one change.

@@ -2,7 +2,7 @@ use std::fs::{self, File};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use super::{WorkspaceError, write_atomic};
+use super::{WorkspaceError, read_import_file, write_atomic};
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::protocol::{MAX_EXPORT_BYTES, SettingsExport};
 
@@ -11,13 +11,20 @@ use crate::protocol::{MAX_EXPORT_BYTES, SettingsExport};
 #[derive(Debug, Clone)]
 pub struct SettingsFiles {
     root: PathBuf,
+    /// Loaded instead of the controller's own.
+    chosen: Option<PathBuf>,
 }
 
 const FILE: &str = "option.json";
 
 impl SettingsFiles {
     pub(super) fn new(root: PathBuf) -> Self {
-        Self { root }
+        Self { root, chosen: None }
+    }
+
+    /// Loads this file, whatever its name; one that was exported by another controller is refused as ever.
+    pub fn of_file(self, file: PathBuf) -> Self {
+        Self { chosen: Some(file), ..self }
     }
 
     pub fn path(&self, serial: &SerialNumber) -> PathBuf {
@@ -39,6 +46,9 @@ impl SettingsFiles {
     /// The controller's export, whole, but of whom and whether it opens is still to be seen. An export under another
     /// name is not looked for, but said to be there (manual 2.6.5).
     pub fn load(&self, serial: &SerialNumber) -> Result<SettingsExport, Problem> {
+        if let Some(file) = &self.chosen {
+            return Ok(SettingsExport::from_json(&read_import_file(file, MAX_EXPORT_BYTES)?)?);
+        }
         let path = self.path(serial);
         match read(&path) {
             Ok(bytes) => Ok(SettingsExport::from_json(&bytes)?),

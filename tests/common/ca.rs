@@ -7,14 +7,22 @@ use rcgen::{
 };
 use time::{Duration, OffsetDateTime};
 
-pub struct Ca(Issuer<'static, KeyPair>);
+pub struct Ca(Issuer<'static, KeyPair>, Vec<u8>);
 
 impl Ca {
     pub fn new() -> Self {
         let mut params = CertificateParams::default();
         params.distinguished_name.push(DnType::CommonName, "Plant CA");
         params.is_ca = IsCa::Ca(rcgen::BasicConstraints::Unconstrained);
-        Self(Issuer::new(params, KeyPair::generate().unwrap()))
+        let key = KeyPair::generate().unwrap();
+        let certificate = params.self_signed(&key).unwrap().der().to_vec();
+        Self(Issuer::new(params, key), certificate)
+    }
+
+    /// Its own certificate, in DER.
+    #[allow(dead_code, reason = "not every story hands it out")]
+    pub fn certificate(&self) -> &[u8] {
+        &self.1
     }
 
     /// What a careful CA makes of a request: valid from an hour ago for a year, and otherwise as asked.

@@ -53,6 +53,7 @@ pub fn job(window: &W) -> JobId {
         | Command::Enroll { job, .. }
         | Command::ReadFile { job, .. }
         | Command::PickFile { job, .. }
+        | Command::Recognise { job, .. }
         | Command::LookAtExport { job, .. } => Some(*job),
         _ => None,
     };

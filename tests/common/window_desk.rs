@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::Operation;
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
-use opcua_configurator::ui::picker::FixedPicker;
+use opcua_configurator::ui::picker::{FilePicker, FixedPicker};
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
 
@@ -38,11 +38,11 @@ impl Desk {
     }
 
     /// `picker` gets the desk's folder.
-    pub fn start<F: Future<Output = Plant>>(
+    pub fn start<F: Future<Output = Plant>, P: FilePicker + 'static>(
         plant: impl FnOnce() -> F,
         list: impl FnOnce(&Plant) -> Configuration,
         starter: Option<Arc<dyn VirtualFleetStarter>>,
-        picker: impl FnOnce(&Path) -> FixedPicker,
+        picker: impl FnOnce(&Path) -> P,
     ) -> Self {
         let runtime = tokio::runtime::Runtime::new().unwrap();
         let plant = runtime.block_on(plant());

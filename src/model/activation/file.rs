@@ -6,6 +6,9 @@ use crate::model::SerialNumber;
 /// What the first line of an activation file says, and nothing else.
 pub const FIRST_LINE: &str = "OPCUA.Activation.Ver.1.0";
 
+/// What it starts with in every version.
+pub const FIRST_LINE_START: &str = "OPCUA.Activation.";
+
 /// A larger file is not one: ten thousand controllers take half of it.
 pub const MAX_ACTIVATION_FILE_BYTES: usize = 1024 * 1024;
 

@@ -12,7 +12,7 @@ use secrecy::SecretString;
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
 use super::model::trust::ReadTrustFile;
-use super::model::{ExportFound, JobId, Task};
+use super::model::{DroppedFile, ExportFound, JobId, Task};
 use super::picker::FileKind;
 use crate::jobs::{Enrolled, JobController, JobEvent, Summary, WatchEvent};
 use crate::model::{Address, ControllerInfo, Problem};
@@ -45,6 +45,8 @@ pub enum Command {
     LookAtExport {
         job: JobId,
         of: Box<ControllerInfo>,
+        /// Instead of the one in the workspace.
+        file: Option<PathBuf>,
     },
     /// Stops a job after the step in hand.
     Cancel(JobId),
@@ -78,6 +80,13 @@ pub enum Command {
         job: JobId,
         controller: Box<JobController>,
     },
+    /// Finds out what files are, by their content; ends with [`Event::Recognised`].
+    Recognise {
+        job: JobId,
+        paths: Vec<PathBuf>,
+    },
+    /// Shows a folder in the desktop's file manager.
+    OpenFolder(PathBuf),
     StartVirtualControllers,
     Save(Box<Configuration>),
     Quit,
@@ -111,6 +120,11 @@ pub enum Event {
         job: JobId,
         result: Result<(PathBuf, FileContents), Problem>,
     },
+    /// In the order they were asked for.
+    Recognised {
+        job: JobId,
+        files: Vec<DroppedFile>,
+    },
     ExportSeen {
         job: JobId,
         result: Result<ExportFound, Problem>,
@@ -133,6 +147,7 @@ pub enum Event {
     /// A password works, but only until the program ends.
     PasswordNotKept(Problem),
     SaveFailed(Problem),
+    FolderNotOpened(Problem),
 }
 
 /// What is in a file. There may be keys in it, so `Debug` tells its length only.

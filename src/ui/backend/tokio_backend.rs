@@ -12,7 +12,7 @@ use super::{Backend, Command, Event, FileContents, VirtualFleetStarter, trust_fi
 use crate::jobs::{self, JobContext, JobController};
 use crate::model::{ControllerInfo, ErrorCode, Problem};
 use crate::session::Connector;
-use crate::ui::model::{ExportFound, JobId, Task};
+use crate::ui::model::{DroppedFile, ExportFound, JobId, Task};
 use crate::ui::picker::FilePicker;
 use crate::workspace::{self, Configuration, Passwords, SettingsFiles, Workspace, WorkspaceLock};
 
@@ -200,8 +200,9 @@ impl Backend for TokioBackend {
                     }
                 });
             }
-            Command::LookAtExport { job, of } => {
+            Command::LookAtExport { job, of, file } => {
                 let files = self.workspace.settings_files();
+                let files = file.map_or(files.clone(), |file| files.of_file(file));
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
                         emit(Event::ExportSeen { job, result: look_at_export(&files, &of) });
@@ -246,6 +247,28 @@ impl Backend for TokioBackend {
                     let on_event = move |event| emit(Event::TrustSeen { job, event });
                     jobs::watch_trust(*controller, context, cancel, on_event).await;
                 });
+            }
+            Command::Recognise { job, paths } => {
+                if let Some(runtime) = &self.runtime {
+                    runtime.spawn_blocking(move || {
+                        let files = paths.into_iter().map(|path| {
+                            let found = workspace::recognise_file(&path);
+                            DroppedFile { path, found }
+                        });
+                        emit(Event::Recognised { job, files: files.collect() });
+                    });
+                }
+            }
+            Command::OpenFolder(folder) => {
+                let (picker, workspace) = (self.picker.clone(), self.workspace.clone());
+                if let Some(runtime) = &self.runtime {
+                    runtime.spawn_blocking(move || {
+                        let made = workspace.make_folder(&folder).map_err(Problem::from);
+                        if let Err(problem) = made.and_then(|()| picker.open_folder(&folder)) {
+                            emit(Event::FolderNotOpened(problem));
+                        }
+                    });
+                }
             }
             Command::StartVirtualControllers => self.start_virtual(),
             Command::Save(configuration) => {

@@ -1,9 +1,9 @@
 use egui::{Frame, Label, RichText, Stroke, Ui};
 
-use crate::ui::model::{CaSignedForm, Message, Model};
+use crate::ui::model::{CaSignedForm, Message, Model, PathField};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, path_line, text_field};
+use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, path_field, path_line};
 
 /// Request and import of a certificate that a CA signs (manual 2.7.1.5).
 pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
@@ -16,7 +16,7 @@ pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Ve
         card(ui, text(T::CsrCard), |ui| {
             ui.add(Label::new(text(T::CsrText)).wrap());
             let (folder, real) = model.folder_of(&signed.rows, |files, serial| files.csr_folder(serial), "CSR");
-            path_line(ui, &folder, real, model.language);
+            path_line(ui, &folder, real, model.language, messages);
             fine_print(ui, text(T::ConfirmInvalidatesCaSigned));
             let button = egui::Button::new(text(T::CreateCsr));
             if ui.add_enabled(!signed.checks.running, button).clicked() {
@@ -28,12 +28,12 @@ pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Ve
             ui.add(Label::new(text(if single { T::ImportFromFolder } else { T::ImportTextMany })).wrap());
             let (folder, real) =
                 model.folder_of(&signed.rows, |files, serial| files.ca_signed_folder(serial), "CASigned");
-            path_line(ui, &folder, real, model.language);
+            path_line(ui, &folder, real, model.language, messages);
             if single {
                 form(ui, "ca signed", |ui| {
-                    labelled(ui, text(T::CertificateFile), |ui| {
-                        Some(text_field(ui, &mut signed.file, text(T::FolderFileHint)))
-                    });
+                    let (label, hint) = (text(T::CertificateFile), text(T::FolderFileHint));
+                    let (file, field) = (&mut signed.file, PathField::CaCertificate);
+                    path_field(ui, label, file, hint, field, model.language, messages);
                 });
             }
             if signed.checks.running {

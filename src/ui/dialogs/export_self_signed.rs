@@ -1,13 +1,13 @@
 use egui::{Label, Ui};
 
 use crate::model::FileFormat;
-use crate::ui::model::{ExportForm, Model};
+use crate::ui::model::{ExportForm, Message, Model};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme;
 use crate::ui::widgets::{Answer, Buttons, choices, dialog, form, labelled, path_line};
 
 /// Saves the self-signed certificates on this computer (manual 2.7.1.3).
-pub fn show(ui: &Ui, export: &mut ExportForm, model: &Model) -> Answer {
+pub fn show(ui: &Ui, export: &mut ExportForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Export), None)), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, T::ExportSelfSignedTitle, &export.names);
@@ -22,7 +22,7 @@ pub fn show(ui: &Ui, export: &mut ExportForm, model: &Model) -> Answer {
             labelled(ui, text(T::GoesTo), |ui| {
                 let (folder, real) =
                     model.folder_of(&export.rows, |files, serial| files.self_signed_folder(serial), "SelfSigned");
-                path_line(ui, &folder, real, model.language);
+                path_line(ui, &folder, real, model.language, messages);
                 None
             });
         });

@@ -1,7 +1,7 @@
 use egui::{Frame, Label, RichText, Stroke, Ui};
 
 use crate::model::Problem;
-use crate::pki::{Finding, Severity};
+use crate::pki::{Finding, Issuers, Severity};
 use crate::ui::model::{Checked, ImportReview, Model};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
@@ -55,6 +55,9 @@ fn one(ui: &mut Ui, name: &str, found: &Result<Checked, Problem>, model: &Model)
             }
             Ok(checked) => {
                 fine_print(ui, &texts::stored_certificate(language, &checked.summary, model.zone));
+                if let Some(issuers) = &checked.issuers {
+                    chain(ui, issuers, model);
+                }
                 if checked.findings.is_empty() {
                     word(ui, T::FindingNone.text(language), palette.ok);
                 }
@@ -64,6 +67,24 @@ fn one(ui: &mut Ui, name: &str, found: &Result<Checked, Problem>, model: &Model)
             }
         }
     });
+}
+
+/// The issuers from the certificate's own upwards, as far as they are at hand.
+fn chain(ui: &mut Ui, issuers: &Issuers, model: &Model) {
+    let (language, palette) = (model.language, palette(ui));
+    for (depth, issuer) in issuers.chain.iter().enumerate() {
+        let summary = issuer.summary();
+        ui.horizontal_wrapped(|ui| {
+            ui.add_space(theme::SPACE_LARGE * (depth as f32 + 1.0));
+            fine_print(ui, &texts::issuer(language, &summary, model.zone));
+            if summary.not_after < model.now {
+                word(ui, T::Expired.text(language), palette.error);
+            }
+        });
+    }
+    if !issuers.complete {
+        fine_print(ui, T::IssuerNotHere.text(language));
+    }
 }
 
 fn finding(ui: &mut Ui, finding: &Finding, model: &Model) {

@@ -6,6 +6,7 @@ mod add_controller;
 mod ca_signed;
 mod confirm;
 mod connection_list;
+mod drop;
 mod error;
 mod export_self_signed;
 mod file;
@@ -82,16 +83,17 @@ fn one(
         Dialog::Activation(form) => activation::show(ui, form, focus, model, messages),
         Dialog::ConnectionList(form) => connection_list::show(ui, form, focus, model, messages),
         Dialog::TypeSelect(form) => type_select::show(ui, form, model),
-        Dialog::ExportSelfSigned(form) => export_self_signed::show(ui, form, model),
+        Dialog::ExportSelfSigned(form) => export_self_signed::show(ui, form, model, messages),
         Dialog::CaSigned(form) => ca_signed::show(ui, form, model, messages),
-        Dialog::UserSpecified(form) => user_specified::show(ui, form, focus, model),
+        Dialog::UserSpecified(form) => user_specified::show(ui, form, focus, model, messages),
         Dialog::ImportReview(review) => import_review::show(ui, review, model),
         Dialog::ServerLog(log) => server_log::show(ui, log, model, messages),
         Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
         Dialog::Trust(form) => trust::show(ui, form, on_top, model, messages),
-        Dialog::AddTrust(form) => trust::add(ui, form, on_top, focus, model, messages),
+        Dialog::AddTrust(form) => trust::add(ui, form, focus, model, messages),
         Dialog::DeleteTrust(asked) => trust::delete(ui, asked, model),
         Dialog::TrustDetails(view) => trust::details(ui, view, model),
+        Dialog::Drop(form) => drop::show(ui, form, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

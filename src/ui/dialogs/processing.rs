@@ -29,7 +29,7 @@ pub fn show(ui: &Ui, view: &mut ProcessingView, model: &Model, messages: &mut Ve
         cancelling(ui, job, model, messages);
         list(ui, view, job, model);
         if ended {
-            saved(ui, job, model);
+            saved(ui, job, model, messages);
             trust_changed(ui, job, model, messages);
         }
         if let Some(problem) = view.selected.and_then(|at| job.rows.get(at)).and_then(|row| row.state.problem()) {
@@ -67,7 +67,7 @@ fn bar(ui: &mut Ui, job: &Job, model: &Model) {
 }
 
 /// The folder of what was saved: the controller's own, or for several the one that holds theirs.
-fn saved(ui: &mut Ui, job: &Job, model: &Model) {
+fn saved(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {
     let mut files = job.rows.iter().filter_map(|row| row.saved.as_deref());
     let Some(first) = files.next() else { return };
     let folder = match (files.next(), first.parent()) {
@@ -76,7 +76,7 @@ fn saved(ui: &mut Ui, job: &Job, model: &Model) {
     };
     ui.add_space(theme::SPACE);
     ui.label(RichText::new(T::SavedIn.text(model.language)).size(theme::SMALL_TEXT).color(palette(ui).weak));
-    path_line(ui, folder, true, model.language);
+    path_line(ui, folder, true, model.language, messages);
 }
 
 /// Who was disconnected by a change of whom the controllers trust, and the way back.

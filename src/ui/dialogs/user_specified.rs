@@ -1,12 +1,12 @@
 use egui::{RichText, Ui};
 
-use crate::ui::model::{Model, UserFiles, UserSpecifiedForm};
+use crate::ui::model::{Message, Model, PathField, UserFiles, UserSpecifiedForm};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, form, labelled, mistake, path_line, secret_field, text_field};
+use crate::ui::widgets::{Answer, Buttons, dialog, form, labelled, mistake, path_field, path_line, secret_field};
 
 /// Import of key and certificate made with another tool (manual 2.7.1.4).
-pub fn show(ui: &Ui, user: &mut UserSpecifiedForm, focus: bool, model: &Model) -> Answer {
+pub fn show(ui: &Ui, user: &mut UserSpecifiedForm, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
     let text = |key: T| key.text(model.language);
     let why = match user.kind {
         _ if user.checks.running => Some(T::Checking),
@@ -17,18 +17,15 @@ pub fn show(ui: &Ui, user: &mut UserSpecifiedForm, focus: bool, model: &Model) -
     let buttons = Buttons { submit: Some((text(T::ImportAsk), why.map(text))), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, T::UserSpecifiedTitle, std::slice::from_ref(&user.name));
     dialog(ui, "user specified", &title, theme::DIALOG_WIDE, buttons, |ui| {
-        form(ui, "user specified", |ui| fields(ui, user, focus, model));
+        form(ui, "user specified", |ui| fields(ui, user, focus, model, messages));
         if user.checks.running {
             ui.label(RichText::new(text(T::Checking)).color(palette(ui).weak));
         }
     })
 }
 
-fn fields(ui: &mut Ui, user: &mut UserSpecifiedForm, focus: bool, model: &Model) {
+fn fields(ui: &mut Ui, user: &mut UserSpecifiedForm, focus: bool, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
-    let path = |ui: &mut Ui, label: T, path: &mut String| {
-        labelled(ui, text(label), |ui| Some(text_field(ui, path, text(T::FolderFileHint))));
-    };
     labelled(ui, text(T::UserKind), |ui| {
         let pfx = ui.radio_value(&mut user.kind, UserFiles::Pfx, text(T::UserKindPfx));
         if focus {
@@ -40,17 +37,20 @@ fn fields(ui: &mut Ui, user: &mut UserSpecifiedForm, focus: bool, model: &Model)
     labelled(ui, text(T::Folder), |ui| {
         let (folder, real) =
             model.folder_of(&[user.row], |files, serial| files.user_specified_folder(serial), "UserSpecified");
-        path_line(ui, &folder, real, model.language);
+        path_line(ui, &folder, real, model.language, messages);
         None
     });
+    let mut path = |ui: &mut Ui, label: T, path: &mut String, field: PathField| {
+        path_field(ui, text(label), path, text(T::FolderFileHint), field, model.language, messages);
+    };
     let (label, hint) = match user.kind {
         UserFiles::Pfx => {
-            path(ui, T::PfxFile, &mut user.pfx);
+            path(ui, T::PfxFile, &mut user.pfx, PathField::UserPfx);
             (T::UserFilePassword, "")
         }
         UserFiles::Pair => {
-            path(ui, T::CertificateFile, &mut user.certificate);
-            path(ui, T::KeyFile, &mut user.key);
+            path(ui, T::CertificateFile, &mut user.certificate, PathField::UserCertificate);
+            path(ui, T::KeyFile, &mut user.key, PathField::UserKey);
             if user.source(model).is_none() {
                 ui.label("");
                 mistake(ui, text(T::UserFilesRule));

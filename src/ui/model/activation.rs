@@ -1,13 +1,16 @@
 //! Activation by keys (manual 2.6.3): typed in for one controller, from a file for many.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use super::{FileForm, Model, RowId, Typed};
+use super::files::first_path;
+use super::{Dialog, FileForm, Model, RowId, Typed};
 use crate::jobs::{Activate, KeySource};
 use crate::model::activation::{
     self, ActivationFile, ActivationKey, ActivationKeys, KeyError, LicenceKey, MAX_ACTIVATION_FILE_BYTES, Plan,
 };
 use crate::model::{ErrorCode, FirmwareGeneration, Problem};
+use crate::ui::backend::Command;
 use crate::ui::picker::FileKind;
 use crate::ui::texts::TextKey;
 
@@ -37,12 +40,16 @@ pub struct ActivationPreview {
 
 impl ActivationForm {
     pub fn new(rows: Vec<RowId>, model: &Model) -> Self {
-        let keys = if rows.len() == 1 {
-            KeysForm::Typed { licence: Typed::default(), activation: Typed::default() }
-        } else {
-            KeysForm::File { file: FileForm::new(FileKind::Csv, MAX_ACTIVATION_FILE_BYTES), preview: None }
-        };
-        Self { names: model.rows.names(&rows), rows, keys }
+        if rows.len() == 1 {
+            let keys = KeysForm::Typed { licence: Typed::default(), activation: Typed::default() };
+            return Self { names: model.rows.names(&rows), rows, keys };
+        }
+        Self::of_file(rows, String::new(), model)
+    }
+
+    fn of_file(rows: Vec<RowId>, path: String, model: &Model) -> Self {
+        let file = FileForm { path, ..FileForm::new(FileKind::Csv, MAX_ACTIVATION_FILE_BYTES) };
+        Self { names: model.rows.names(&rows), rows, keys: KeysForm::File { file, preview: None } }
     }
 
     /// Keys that are complete are shown as the licence certificate writes them, however they were pasted.
@@ -118,6 +125,13 @@ pub fn key_error<K: std::str::FromStr<Err = KeyError>>(typed: &Typed) -> Option<
 }
 
 impl Model {
+    /// For the ticked controllers, also when there is one only.
+    pub(super) fn open_activation_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        let form = ActivationForm::of_file(self.rows.ticked(), first_path(&paths), self);
+        self.dialogs.push(Dialog::Activation(form));
+        self.read_typed()
+    }
+
     /// Whether a ticked controller is known to be activated as a controller option instead.
     pub fn ticked_has_current_firmware(&self) -> bool {
         let current = |info: &crate::model::ControllerInfo| info.firmware.generation() == FirmwareGeneration::Current;

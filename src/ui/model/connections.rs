@@ -1,5 +1,8 @@
 //! Controllers from a connection list (manual 2.5.3).
 
+use std::path::PathBuf;
+
+use super::files::first_path;
 use super::{FileForm, Model};
 use crate::model::{ControllerSeries, Problem};
 use crate::ui::backend::Command;
@@ -71,6 +74,14 @@ impl ConnectionListForm {
 impl Model {
     pub(super) fn open_connection_list(&mut self) -> Vec<Command> {
         self.dialogs.push(super::Dialog::ConnectionList(ConnectionListForm::new(self)));
+        self.read_typed()
+    }
+
+    pub(super) fn open_connection_list_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        let mut form = ConnectionListForm::new(self);
+        form.file.path = first_path(&paths);
+        form.looking = false;
+        self.dialogs.push(super::Dialog::ConnectionList(form));
         self.read_typed()
     }
 

@@ -2,8 +2,8 @@ use std::collections::BTreeSet;
 
 use super::trust::{AddTrustForm, DeleteTrust, DetailsView, TrustForm};
 use super::{
-    ActivationForm, CaSignedForm, ConnectionListForm, ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose,
-    RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
+    ActivationForm, CaSignedForm, ConnectionListForm, DropForm, ExportForm, FileForm, ImportReview, KeysForm, LogView,
+    Purpose, RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -36,6 +36,7 @@ pub enum Dialog {
     AddTrust(AddTrustForm),
     DeleteTrust(DeleteTrust),
     TrustDetails(Box<DetailsView>),
+    Drop(DropForm),
     Backup { on: bool },
     Options,
     Error(Problem),

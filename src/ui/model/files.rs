@@ -8,6 +8,35 @@ use crate::ui::backend::{Command, FileContents};
 use crate::ui::picker::FileKind;
 use crate::ui::texts::TextKey;
 
+/// A field for the path of a file that is read later, by the operation itself.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PathField {
+    CaCertificate,
+    UserPfx,
+    UserCertificate,
+    UserKey,
+}
+
+impl PathField {
+    const fn kind(self) -> FileKind {
+        match self {
+            Self::CaCertificate | Self::UserCertificate => FileKind::Certificate,
+            Self::UserPfx => FileKind::Pkcs12,
+            Self::UserKey => FileKind::Key,
+        }
+    }
+
+    fn of(self, dialog: &mut Dialog) -> Option<&mut String> {
+        match (self, dialog) {
+            (Self::CaCertificate, Dialog::CaSigned(form)) => Some(&mut form.file),
+            (Self::UserPfx, Dialog::UserSpecified(form)) => Some(&mut form.pfx),
+            (Self::UserCertificate, Dialog::UserSpecified(form)) => Some(&mut form.certificate),
+            (Self::UserKey, Dialog::UserSpecified(form)) => Some(&mut form.key),
+            _ => None,
+        }
+    }
+}
+
 /// A file to be read.
 #[derive(Debug)]
 pub struct FileForm {
@@ -51,6 +80,11 @@ impl FileForm {
     }
 }
 
+/// As a field shows it.
+pub(super) fn first_path(paths: &[PathBuf]) -> String {
+    paths.first().map(|path| path.display().to_string()).unwrap_or_default()
+}
+
 impl Model {
     pub(super) fn choose_file(&mut self) -> Vec<Command> {
         let job = self.next_job();
@@ -64,7 +98,31 @@ impl Model {
         vec![Command::PickFile { job, kind: file.kind, title }]
     }
 
+    pub(super) fn browse(&mut self, field: PathField) -> Vec<Command> {
+        // One dialog of the desktop is enough.
+        if self.browsing.is_some() {
+            return vec![];
+        }
+        let job = self.next_job();
+        self.browsing = Some((job, field));
+        let title = TextKey::ChooseFileTitle.text(self.language).to_owned();
+        vec![Command::PickFile { job, kind: field.kind(), title }]
+    }
+
     pub(super) fn file_picked(&mut self, job: JobId, result: Result<Option<PathBuf>, Problem>) -> Vec<Command> {
+        if let Some((_, field)) = self.browsing.take_if(|(browsing, _)| *browsing == job) {
+            match result {
+                Ok(None) => {}
+                Ok(Some(path)) => {
+                    // Its dialog may be closed by now.
+                    if let Some(text) = self.dialogs.iter_mut().find_map(|dialog| field.of(dialog)) {
+                        *text = path.display().to_string();
+                    }
+                }
+                Err(problem) => self.show_problem(problem),
+            }
+            return vec![];
+        }
         let read = self.next_job();
         let mut files = self.dialogs.iter_mut().filter_map(Dialog::file);
         // Its dialog may be closed by now.

@@ -6,13 +6,14 @@ use std::sync::Arc;
 
 use secrecy::SecretString;
 
+use super::files::first_path;
 use super::{Dialog, Model, Purpose, RowId, Task, Typed};
 use crate::jobs::{
     CaCertificateSource, CheckCaCertificate, CheckUserCertificate, ImportCaCertificate, ImportUserCertificate,
     Operation, Outcome, UserCertificateFiles,
 };
 use crate::model::{CertificateSummary, Problem};
-use crate::pki::{Finding, Severity};
+use crate::pki::{Finding, Issuers, Severity};
 use crate::ui::backend::Command;
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
@@ -70,6 +71,8 @@ fn ca_source(file: Option<&PathBuf>, workspace: &Workspace) -> CaCertificateSour
 pub struct Checked {
     pub summary: CertificateSummary,
     pub findings: Vec<Finding>,
+    /// Of a certificate from a CA.
+    pub issuers: Option<Issuers>,
 }
 
 impl Checked {
@@ -193,6 +196,42 @@ impl Model {
         }));
     }
 
+    pub(super) fn open_ca_signed_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_ca_signed(self.rows.ticked());
+        if let Some(Dialog::CaSigned(form)) = self.dialogs.last_mut() {
+            form.file = first_path(&paths);
+        }
+        vec![]
+    }
+
+    pub(super) fn open_user_pfx(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_user_of(|form| form.pfx = first_path(&paths))
+    }
+
+    pub(super) fn open_user_certificate(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_user_of(|form| (form.kind, form.certificate) = (UserFiles::Pair, first_path(&paths)))
+    }
+
+    pub(super) fn open_user_key(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_user_of(|form| (form.kind, form.key) = (UserFiles::Pair, first_path(&paths)))
+    }
+
+    /// The certificate first.
+    pub(super) fn open_user_pair(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_user_of(|form| {
+            let (certificate, key) = paths.split_at(paths.len().min(1));
+            (form.kind, form.certificate, form.key) = (UserFiles::Pair, first_path(certificate), first_path(key));
+        })
+    }
+
+    fn open_user_of(&mut self, fill: impl FnOnce(&mut UserSpecifiedForm)) -> Vec<Command> {
+        self.open_user_specified(&self.rows.ticked());
+        if let Some(Dialog::UserSpecified(form)) = self.dialogs.last_mut() {
+            fill(form);
+        }
+        vec![]
+    }
+
     pub(super) fn check_ca_signed(&mut self, mut form: CaSignedForm) -> Vec<Command> {
         let wanted = (!form.checks.running).then(|| (form.source(), form.rows.clone()));
         form.checks.running = true;
@@ -228,7 +267,7 @@ impl Model {
     pub(super) fn checked(&mut self, row: RowId, result: Result<Outcome, Problem>) {
         let Some((checks, _)) = self.checking() else { return };
         let found = match result {
-            Ok(Outcome::Checked { summary, findings }) => Ok(Checked { summary, findings }),
+            Ok(Outcome::Checked { summary, findings, issuers }) => Ok(Checked { summary, findings, issuers }),
             Ok(_) => return,
             Err(problem) => Err(problem),
         };

@@ -27,17 +27,33 @@ pub enum Task {
     ListUsers,
     AddUser(jobs::AddUser),
     RemoveUsers(jobs::RemoveUsers),
-    SelfSigned { fields: SelfSignedFields, backup: bool },
+    SelfSigned {
+        fields: SelfSignedFields,
+        backup: bool,
+    },
     Activate(jobs::Activate),
     // server certificates
     ListCertificates,
     SelectType(CertificateType),
     ExportSelfSigned(FileFormat),
-    CreateCsr { fields: CsrFields, format: FileFormat, backup: bool },
+    CreateCsr {
+        fields: CsrFields,
+        format: FileFormat,
+        backup: bool,
+    },
     Check(ImportSource),
-    Import { source: ImportSource, accept_warnings: bool },
-    ExportSettings { passphrase: Option<SecretString> },
-    ImportSettings { passphrase: Option<SecretString> },
+    Import {
+        source: ImportSource,
+        accept_warnings: bool,
+    },
+    ExportSettings {
+        passphrase: Option<SecretString>,
+    },
+    ImportSettings {
+        passphrase: Option<SecretString>,
+        /// Instead of the one in the workspace.
+        file: Option<PathBuf>,
+    },
     ReadLog,
     DeleteLog,
     Trust(TrustTask),
@@ -75,8 +91,12 @@ impl Task {
             Self::ExportSettings { passphrase } => {
                 Arc::new(jobs::ExportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
             }
-            Self::ImportSettings { passphrase } => {
-                Arc::new(jobs::ImportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
+            Self::ImportSettings { passphrase, file } => {
+                let files = match file {
+                    Some(file) => workspace.settings_files().of_file(file.clone()),
+                    None => workspace.settings_files(),
+                };
+                Arc::new(jobs::ImportSettings { files, passphrase: passphrase.clone() })
             }
             Self::Trust(task) => task.operation(),
             Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),

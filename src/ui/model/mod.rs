@@ -4,6 +4,7 @@ mod activation;
 mod certificates;
 mod connections;
 mod dialog;
+mod dropped;
 mod files;
 mod forms;
 mod identity;
@@ -20,6 +21,7 @@ pub mod trust;
 mod tests;
 
 use std::collections::BTreeMap;
+use std::path::PathBuf;
 
 use chrono::{DateTime, Utc};
 
@@ -30,7 +32,8 @@ pub use dialog::{
     AddController, AddStage, AddUserForm, Dialog, Identity, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm,
     Typed, UsersForm,
 };
-pub use files::FileForm;
+pub use dropped::{Choice, DropForm, DroppedFile, Hover, MAX_DROPPED};
+pub use files::{FileForm, PathField};
 pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, UserFiles, UserSpecifiedForm};
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
@@ -61,11 +64,17 @@ pub struct Model {
     pub job: Option<Job>,
     /// What the status bar says until the next thing happens.
     pub status: Option<String>,
+    /// Files held over the window.
+    pub hover: Option<Hover>,
     pub virtual_available: bool,
     pub virtual_starting: bool,
     /// Something the window remembers has changed since it was last saved.
     pub unsaved: bool,
     last_job: u64,
+    /// Files that were dropped are looked at.
+    dropping: Option<JobId>,
+    /// The desktop's dialog finds a file for this field.
+    browsing: Option<(JobId, PathField)>,
 }
 
 /// What can happen: an engineer did something, or the backend reports.
@@ -98,6 +107,14 @@ pub enum Message {
     NewUser,
     /// Let the desktop's dialog find the file the dialog on top asks for.
     ChooseFile,
+    /// Let the desktop's dialog find the file for a field of the dialog on top.
+    Browse(PathField),
+    /// Show a folder in the desktop's file manager.
+    OpenFolder(PathBuf),
+    /// These files are held over the window.
+    Hovered(Vec<PathBuf>),
+    /// These files were dropped onto the window.
+    Dropped(Vec<PathBuf>),
     /// Read the file whose path is typed into the dialog on top.
     ReadFile,
     /// Leave the controller out whose identity is asked for.
@@ -141,10 +158,13 @@ impl Model {
             dialogs: Vec::new(),
             job: None,
             status: None,
+            hover: None,
             virtual_available: false,
             virtual_starting: false,
             unsaved: false,
             last_job: 0,
+            dropping: None,
+            browsing: None,
         }
     }
 

@@ -37,6 +37,10 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::DeleteUsers => commands = model.delete_users(),
         Message::NewUser => model.new_user(),
         Message::ChooseFile => commands = model.choose_file(),
+        Message::Browse(field) => commands = model.browse(field),
+        Message::OpenFolder(folder) => commands.push(Command::OpenFolder(folder)),
+        Message::Hovered(paths) => commands = model.hovered(paths),
+        Message::Dropped(paths) => commands = model.drop_files(paths),
         Message::ReadFile => commands = model.read_typed(),
         Message::SkipIdentity => commands = model.skip_identity(),
         Message::NewCsr => commands = model.new_csr(),
@@ -212,12 +216,13 @@ impl Model {
                 self.trust_seen(job, event);
                 vec![]
             }
+            Event::Recognised { job, files } => self.recognised(job, files),
             Event::ExportSeen { job, result } => {
                 self.export_seen(job, result);
                 vec![]
             }
             Event::VirtualStarted(result) => self.virtual_started(result),
-            Event::PasswordNotKept(problem) | Event::SaveFailed(problem) => {
+            Event::PasswordNotKept(problem) | Event::SaveFailed(problem) | Event::FolderNotOpened(problem) => {
                 // Once is enough for the same trouble.
                 let shown = self.dialogs.iter().any(|d| matches!(d, Dialog::Error(p) if p.code == problem.code));
                 if !shown {

@@ -162,6 +162,7 @@ impl Model {
             }
             Dialog::AddTrust(form) => self.submit_add_trust(form),
             Dialog::DeleteTrust(asked) => self.delete_trust(asked),
+            Dialog::Drop(form) if form.offers() => self.submit_dropped(form),
             Dialog::Backup { on } => {
                 self.options.backup = on;
                 self.save()

@@ -26,6 +26,8 @@ pub struct TransferForm {
     /// With `<serial>` in it when it is not that of one known controller.
     pub path: PathBuf,
     pub path_of_one: bool,
+    /// An import from this file, not from the controller's own.
+    pub file: Option<PathBuf>,
     /// Empty: the connection password protects the file.
     pub passphrase: Typed,
     pub show_passphrase: bool,
@@ -60,6 +62,7 @@ impl TransferForm {
             names: model.rows.names(&rows),
             path: one.map_or_else(|| files.any_path(), |info| files.path(&info.serial)),
             path_of_one: one.is_some(),
+            file: None,
             rows,
             passphrase: Typed::default(),
             show_passphrase: false,
@@ -90,7 +93,7 @@ impl TransferForm {
         let passphrase = (!self.passphrase.0.is_empty()).then(|| SecretString::from(self.passphrase.0.clone()));
         Some(match self.transfer {
             Transfer::Export => Task::ExportSettings { passphrase },
-            Transfer::Import => Task::ImportSettings { passphrase },
+            Transfer::Import => Task::ImportSettings { passphrase, file: self.file.clone() },
         })
     }
 }
@@ -104,13 +107,26 @@ fn one_info<'a>(rows: &[RowId], model: &'a Model) -> Option<&'a ControllerInfo> 
 
 impl Model {
     pub(super) fn open_transfer(&mut self, transfer: Transfer, rows: Vec<RowId>) -> Vec<Command> {
-        let mut form = TransferForm::new(transfer, rows, self);
-        let known = one_info(&form.rows, self).filter(|_| transfer == Transfer::Import).cloned();
+        self.open_transfer_form(TransferForm::new(transfer, rows, self))
+    }
+
+    /// For the one ticked controller.
+    pub(super) fn open_import_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        let mut form = TransferForm::new(Transfer::Import, self.rows.ticked(), self);
+        form.file = paths.into_iter().next();
+        if let Some(file) = &form.file {
+            (form.path, form.path_of_one) = (file.clone(), true);
+        }
+        self.open_transfer_form(form)
+    }
+
+    fn open_transfer_form(&mut self, mut form: TransferForm) -> Vec<Command> {
+        let known = one_info(&form.rows, self).filter(|_| form.transfer == Transfer::Import).cloned();
         let commands = match known {
             Some(info) => {
                 let job = self.next_job();
                 form.preview = Preview::Reading(job);
-                vec![Command::LookAtExport { job, of: Box::new(info) }]
+                vec![Command::LookAtExport { job, of: Box::new(info), file: form.file.clone() }]
             }
             None => vec![],
         };

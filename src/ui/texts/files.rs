@@ -1,8 +1,10 @@
-//! What is wrong with the lines of a file.
+//! What files are, and what is wrong with their lines.
 
+use super::TextKey as T;
 use crate::model::Language;
 use crate::model::activation::{KeyError, LineMistake, Mistake};
-use crate::workspace::Skipped;
+use crate::pki::PkiKind;
+use crate::workspace::{Recognised, Skipped};
 
 pub fn line(language: Language, line: impl std::fmt::Display) -> String {
     match language {
@@ -90,5 +92,64 @@ pub fn skipped(language: Language, why: &Skipped) -> String {
             Skipped::NameTwice(line) => format!("名称与第 {line} 行重复"),
             Skipped::AddressTwice(line) => format!("地址与第 {line} 行重复"),
         },
+    }
+}
+
+/// What a file is, by its content.
+pub const fn recognised(kind: Recognised) -> T {
+    match kind {
+        Recognised::Activation => T::KindActivation,
+        Recognised::ConnectionList => T::KindConnectionList,
+        Recognised::SettingsExport => T::KindSettingsExport,
+        Recognised::Pki(PkiKind::Certificate) => T::KindCertificate,
+        Recognised::Pki(PkiKind::Chain) => T::KindChain,
+        Recognised::Pki(PkiKind::Bundle) => T::KindBundle,
+        Recognised::Pki(PkiKind::Crl) => T::DropCrl,
+        Recognised::Pki(PkiKind::Csr) => T::KindCsr,
+        Recognised::Pki(PkiKind::Key) => T::KindKey,
+        Recognised::Pki(PkiKind::KeyAndCertificate) => T::KindKeyAndCertificate,
+        Recognised::Pki(PkiKind::Pkcs12) => T::KindPkcs12,
+    }
+}
+
+/// Over files that are held over the window.
+pub fn drop_title(language: Language, count: usize) -> String {
+    match (language, count) {
+        (Language::En, 1) => "Drop the file here".to_owned(),
+        (Language::En, _) => format!("Drop {count} files here"),
+        (Language::Zh, 1) => "将文件拖放到此处".to_owned(),
+        (Language::Zh, _) => format!("将 {count} 个文件拖放到此处"),
+    }
+}
+
+pub fn drop_opens(language: Language, dialog: &str) -> String {
+    match language {
+        Language::En => format!("Opens: {dialog}"),
+        Language::Zh => format!("将打开：{dialog}"),
+    }
+}
+
+/// Where a file would go, and why it cannot.
+pub fn drop_disabled(language: Language, dialog: &str, why: &str) -> String {
+    match language {
+        Language::En => format!("{dialog}: {why}"),
+        Language::Zh => format!("{dialog}：{why}"),
+    }
+}
+
+pub fn more(language: Language, count: usize) -> String {
+    match language {
+        Language::En => format!("and {count} more"),
+        Language::Zh => format!("以及另外 {count} 个"),
+    }
+}
+
+/// Which of several files a dialog takes.
+pub fn only_these(language: Language, names: &[String]) -> String {
+    let named = names.iter().take(3).map(String::as_str).collect::<Vec<_>>();
+    let rest = if names.len() > 3 { format!(", {}", more(language, names.len() - 3)) } else { String::new() };
+    match language {
+        Language::En => format!("Only {}{rest}", named.join(", ")),
+        Language::Zh => format!("仅 {}{}", named.join("、"), rest.replace(", ", "，")),
     }
 }

@@ -311,6 +311,33 @@ texts! {
     ChooseFile: "Choose…", "选择…";
     ChooseFileTitle: "Choose a file", "选择文件";
     ReadFile: "Read file", "读取文件";
+    Browse: "Browse…", "选择…";
+    OpenFolder: "Open folder", "打开文件夹";
+
+    // files dropped onto the window
+    DropTitle: "Dropped files", "拖放的文件";
+    DropChoose: "Use as", "用途";
+    DropOpen: "Open", "打开";
+    DropUnseen: "Drop them to see what they are", "松开后显示文件类型";
+    DropAsks: "Several dialogs take this; you choose after dropping", "有多种用途，松开后选择";
+    DropNothing: "Nothing here can be used", "没有可用的文件";
+    DropDialogOpen: "A dialog is open: close it first, then drop the files again", "有对话框已打开：请先关闭对话框，然后重新拖放文件";
+    DropTooMany: "Too many files: drop at most 100 at once", "文件过多：一次最多拖放 100 个";
+    DropOneFile: "One file at a time: drop only that one", "一次仅限一个文件，请只拖放一个";
+    WhySplitKey: "The file holds certificate and private key together: save them as two files, or as one .pfx", "文件同时包含证书和私钥：请分别保存为两个文件，或保存为一个 .pfx 文件";
+    DropCrl: "Certificate revocation list (CRL)", "证书吊销列表 (CRL)";
+    DropAuthority: "Certificate authority", "证书颁发机构";
+    KindActivation: "Activation file", "激活文件";
+    KindConnectionList: "Connection list", "连接列表";
+    KindSettingsExport: "Settings export", "设置导出文件";
+    KindCertificate: "Certificate", "证书";
+    KindChain: "Several certificates (PEM)", "多个证书 (PEM)";
+    KindBundle: "Collection of certificates or CRLs (PKCS#7 or PEM)", "证书或 CRL 集合 (PKCS#7 或 PEM)";
+    KindCsr: "Certificate signing request (CSR)", "证书签名请求 (CSR)";
+    KindKey: "Private key", "私钥";
+    KindKeyAndCertificate: "Certificate and private key in one PEM file", "证书和私钥合一的 PEM 文件";
+    KindPkcs12: "Certificate with encrypted key (PKCS#12)", "带加密密钥的证书 (PKCS#12)";
+
     // certificate files
     ExportSelfSignedTitle: "Export self-signed certificate", "导出自签名证书";
     Export: "Export", "导出";
@@ -348,6 +375,7 @@ texts! {
     ImportRefused: "Not imported", "不导入";
     FindingNone: "Nothing found that clients could complain about", "未发现客户端可能提示的问题";
     Warning: "Warning", "警告";
+    IssuerNotHere: "The next issuer is neither in the file nor in files beside it; clients need it to trust the controller", "文件及其所在文件夹中均没有上一级颁发者的证书；客户端需要该证书才能信任控制器";
     SerialFolder: "serial number", "控制器序列号";
 
     // type select
@@ -440,6 +468,7 @@ texts! {
     TrustLeaveOutRule: "Leave out the files that cannot be used first", "请先移除无法使用的文件";
     TrustLeaveOut: "Leave out", "移除";
     TrustTooMany: "At most 100 files at once", "一次最多 100 个文件";
+    TrustDropHere: "Drop to see where they go; nothing is sent yet", "松开后显示添加位置，此时尚未发送";
     TrustReadFile: "Read file", "读取文件";
     TrustGoesTo: "Goes to", "添加到";
     TrustWhereGoes: "What goes where", "添加位置";

@@ -232,6 +232,18 @@ pub fn stored_certificate(language: Language, summary: &CertificateSummary, zone
     }
 }
 
+/// One certificate of a chain, above the one it issued.
+pub fn issuer(language: Language, summary: &CertificateSummary, zone: Zone) -> String {
+    let CertificateSummary { issued_to, issued_by, not_before, not_after, .. } = summary;
+    let (from, until) = (zone.date(*not_before), zone.date(*not_after));
+    match (language, issued_to == issued_by) {
+        (Language::En, true) => format!("{issued_to}, root, valid from {from} until {until}"),
+        (Language::En, false) => format!("{issued_to}, by {issued_by}, valid from {from} until {until}"),
+        (Language::Zh, true) => format!("{issued_to}，根证书，有效期 {from} 至 {until}"),
+        (Language::Zh, false) => format!("{issued_to}，颁发者 {issued_by}，有效期 {from} 至 {until}"),
+    }
+}
+
 pub fn stored_in(language: Language, count: usize, all: usize) -> String {
     match language {
         Language::En => format!("Stored in {count} of {}", controllers(language, all)),

@@ -3,6 +3,7 @@ use std::path::Path;
 use egui::{Grid, Response, RichText, TextEdit, Ui, vec2};
 
 use crate::model::Language;
+use crate::ui::model::{Message, PathField};
 use crate::ui::texts::TextKey as T;
 use crate::ui::theme::{self, palette};
 
@@ -57,18 +58,52 @@ pub fn secret_field(ui: &mut Ui, text: &mut String, shown: &mut bool, hint: &str
     .inner
 }
 
-/// A path in full, and a button that copies it.
-pub fn path_line(ui: &mut Ui, path: &Path, copy: bool, language: Language) {
-    let path = path.display().to_string();
+/// A folder's path in full, and buttons that copy it and show it in the desktop's file manager. `real`: it is that of
+/// one controller.
+pub fn path_line(ui: &mut Ui, folder: &Path, real: bool, language: Language, messages: &mut Vec<Message>) {
+    let path = folder.display().to_string();
     let (size, center) = (vec2(ui.available_width(), theme::BUTTON_HEIGHT), egui::Align::Center);
     ui.allocate_ui_with_layout(size, egui::Layout::right_to_left(center), |ui| {
-        if copy && ui.button(T::Copy.text(language)).clicked() {
-            ui.ctx().copy_text(path.clone());
+        if real {
+            if ui.button(T::Copy.text(language)).clicked() {
+                ui.ctx().copy_text(path.clone());
+            }
+            if ui.button(T::OpenFolder.text(language)).clicked() {
+                messages.push(Message::OpenFolder(folder.to_owned()));
+            }
         }
         ui.with_layout(egui::Layout::left_to_right(center), |ui| {
             let shown = RichText::new(path).size(theme::SMALL_TEXT).monospace();
             ui.add(egui::Label::new(shown).wrap().selectable(true));
         });
+    });
+}
+
+/// A field for the path of a file, and a button that lets the desktop's dialog find it. Fills a form's row.
+pub fn path_field(
+    ui: &mut Ui,
+    label: &str,
+    path: &mut String,
+    hint: &str,
+    field: PathField,
+    language: Language,
+    messages: &mut Vec<Message>,
+) {
+    labelled(ui, label, |ui| {
+        let response = ui.horizontal(|ui| {
+            let room = 92.0;
+            let edit = TextEdit::singleline(path)
+                .hint_text(hint.to_owned())
+                .desired_width(ui.available_width() - room)
+                .margin(theme::SEARCH_MARGIN);
+            let response = ui.add(edit);
+            let button = egui::Button::new(T::Browse.text(language));
+            if ui.add(button.min_size(vec2(room - theme::SPACE, theme::BUTTON_HEIGHT))).clicked() {
+                messages.push(Message::Browse(field));
+            }
+            response
+        });
+        Some(response.inner)
     });
 }
 

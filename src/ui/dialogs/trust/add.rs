@@ -12,19 +12,11 @@ use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, list_title, note, 
 pub fn show(
     ui: &Ui,
     form: &mut AddTrustForm,
-    on_top: bool,
     focus: bool,
     model: &Model,
     messages: &mut Vec<Message>,
 ) -> Answer {
     let text = |key: T| key.text(model.language);
-    if on_top {
-        let dropped: Vec<_> =
-            ui.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
-        if !dropped.is_empty() {
-            messages.push(Message::Trust(TrustAction::Dropped(dropped)));
-        }
-    }
     let (submit, why) = if form.reads_file() {
         (T::TrustReadFile, form.reading.map(|_| text(T::Reading)))
     } else {

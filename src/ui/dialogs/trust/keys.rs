@@ -20,11 +20,6 @@ pub fn read(ctx: &Context, form: &mut TrustForm, messages: &mut Vec<Message>) {
     if ctx.input_mut(|input| input.consume_shortcut(&FIND)) {
         ctx.memory_mut(|memory| memory.request_focus(filter_id()));
     }
-    let dropped: Vec<_> =
-        ctx.input(|input| input.raw.dropped_files.iter().map(|file| file.path().to_owned()).collect());
-    if !dropped.is_empty() {
-        messages.push(Message::Trust(TrustAction::Dropped(dropped)));
-    }
     if ctx.text_edit_focused() {
         // Into the list.
         if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::ArrowDown)) {

@@ -91,7 +91,10 @@ fn the_file_is_looked_at_before_an_import() {
     let [Dialog::Transfer(_), Dialog::Confirm { confirmation, .. }] = &model.dialogs[..] else { panic!("not asked") };
     assert!(confirmation.stops_server && confirmation.replaces_settings);
     let commands = reduce(&mut model, Message::Submit);
-    assert!(matches!(&commands[..], [Command::Run { task: Task::ImportSettings { passphrase: Some(_) }, .. }]));
+    assert!(matches!(
+        &commands[..],
+        [Command::Run { task: Task::ImportSettings { passphrase: Some(_), file: None }, .. }]
+    ));
 }
 
 #[test]

@@ -218,6 +218,41 @@ impl Model {
         self.read_trust_files(paths)
     }
 
+    /// Whether files that are dropped are for the dialog on top.
+    pub(in crate::ui::model) fn takes_trust_files(&self) -> bool {
+        match self.dialogs.last() {
+            Some(Dialog::Trust(form)) => form.is_ready(),
+            Some(Dialog::AddTrust(form)) => form.reading.is_none(),
+            _ => false,
+        }
+    }
+
+    /// Files dropped onto the window, of which the client lists are one of the possible goals.
+    pub(in crate::ui::model) fn open_clients_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_trust_of(Shows::Clients, paths)
+    }
+
+    pub(in crate::ui::model) fn open_crls_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        self.open_trust_of(Shows::Crls, paths)
+    }
+
+    fn open_trust_of(&mut self, shows: Shows, paths: Vec<PathBuf>) -> Vec<Command> {
+        let ticked = self.rows.ticked();
+        let mut commands = self.open_trust(shows, ticked);
+        match self.dialogs.last_mut() {
+            // What the controller holds decides what becomes of them.
+            Some(Dialog::Trust(form)) => form.pending = paths,
+            Some(Dialog::AddTrust(form)) => {
+                if shows == Shows::Clients {
+                    form.destination = Destination::ByKind;
+                }
+                commands.extend(self.read_trust_files(paths));
+            }
+            _ => {}
+        }
+        commands
+    }
+
     fn read_trust_files(&mut self, mut paths: Vec<PathBuf>) -> Vec<Command> {
         let job = self.next_job();
         let Some(form) = self.adding_trust().filter(|form| form.reading.is_none()) else { return vec![] };

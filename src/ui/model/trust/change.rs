@@ -15,7 +15,6 @@ pub struct DeleteTrust {
     pub from: PaneKind,
     /// Id, and what it is called.
     pub what: Vec<(String, String)>,
-    row: RowId,
     revision: Option<u64>,
 }
 
@@ -31,7 +30,6 @@ impl Model {
             TrustAction::Reconnect => return self.reconnect(),
             TrustAction::ChooseFiles => return self.choose_trust_files(),
             TrustAction::ReadTyped => return self.read_typed_trust(),
-            TrustAction::Dropped(paths) => return self.dropped_trust(paths),
             TrustAction::LeaveOut(index) => self.leave_out(index),
             TrustAction::Replan => self.replan(),
         }
@@ -54,7 +52,7 @@ impl Model {
             return;
         }
         let revision = form.held.as_ref().map(|held| held.revision);
-        let asked = DeleteTrust { name: form.name.clone(), from: kind, what, row: form.row, revision };
+        let asked = DeleteTrust { name: form.name.clone(), from: kind, what, revision };
         self.dialogs.push(Dialog::DeleteTrust(asked));
     }
 

@@ -1,3 +1,5 @@
+use std::path::PathBuf;
+
 use chrono::{DateTime, Duration, Utc};
 
 use super::{Entry, Pane, PaneKind};
@@ -64,6 +66,8 @@ pub struct TrustForm {
     /// What takes changes back, the last one at the end.
     pub(super) undo: Vec<TrustUndo>,
     pub(super) watch: Option<JobId>,
+    /// Files to be added once the lists are known.
+    pub(super) pending: Vec<PathBuf>,
     zone: Zone,
     /// When `held` was read.
     read_at: DateTime<Utc>,
@@ -96,6 +100,7 @@ impl TrustForm {
             doing: None,
             undo: Vec::new(),
             watch: None,
+            pending: Vec::new(),
             zone,
             read_at: now,
             refreshed: now,

@@ -52,8 +52,6 @@ pub enum TrustAction {
     ChooseFiles,
     /// Read the file whose path is typed.
     ReadTyped,
-    /// Files were dropped onto the dialog.
-    Dropped(Vec<std::path::PathBuf>),
     /// Leave a file out again.
     LeaveOut(usize),
     /// Another destination was chosen.

@@ -32,10 +32,15 @@ impl Model {
         form.fill(held, now);
         form.link = Link::Live;
         let before = form.watch.replace(job);
+        let pending = std::mem::take(&mut form.pending);
         let row = form.row;
         let Some(controller) = self.rows.get(row).map(|row| JobController::from(&row.entry)) else { return vec![] };
-        let stop = before.map(Command::Cancel);
-        stop.into_iter().chain([Command::WatchTrust { job, controller: Box::new(controller) }]).collect()
+        let mut commands: Vec<Command> = before.map(Command::Cancel).into_iter().collect();
+        commands.push(Command::WatchTrust { job, controller: Box::new(controller) });
+        if !pending.is_empty() {
+            commands.extend(self.dropped_trust(pending));
+        }
+        commands
     }
 
     pub(in crate::ui::model) fn trust_seen(&mut self, job: JobId, event: WatchEvent) {
