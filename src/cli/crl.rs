@@ -10,6 +10,7 @@ use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, Outcome, RemoveCrls};
 use crate::model::Problem;
+use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
 use crate::protocol::ListedCrl;
 
 #[derive(Debug, Subcommand)]
@@ -28,20 +29,34 @@ const CRLS: Presentation = Presentation {
         let Outcome::TrustLists(held) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
-        let json: Vec<_> = held
-            .crls
-            .iter()
-            .map(|crl| json!({ "file_name": crl.file_name, "crl": crl.summary, "added": crl.added }))
+        let with_health = || held.crls.iter().zip(&held.health.crls);
+        let json: Vec<_> = with_health()
+            .map(|(crl, health)| {
+                json!({ "file_name": crl.file_name, "crl": crl.summary, "added": crl.added, "health": health })
+            })
             .collect();
-        let lines: Vec<String> = held.crls.iter().map(line).collect();
-        Shown { json: json!({ "revision": held.revision, "crls": json }), cells: vec![lines.join("; ")] }
+        let lines: Vec<String> = with_health().map(|(crl, health)| line(crl, health)).collect();
+        let json = json!({ "revision": held.revision, "crls": json, "without_crl": held.health.without_crl });
+        Shown { json, cells: vec![lines.join("; ")] }
     },
 };
 
-fn line(crl: &ListedCrl) -> String {
+fn line(crl: &ListedCrl, health: &CrlHealth) -> String {
     let summary = &crl.summary;
     let until = summary.next_update.map_or("-".to_owned(), |next| next.format("%Y-%m-%d").to_string());
-    format!("{} {}: {} revoked, next by {until}", summary.id, summary.issuer, summary.entries)
+    let issuer = match health.issuer {
+        CrlIssuer::Held { .. } => "",
+        CrlIssuer::NotSignedBy { .. } => ", NOT SIGNED BY ITS ISSUER",
+        CrlIssuer::MayNotSign { .. } => ", ITS ISSUER MAY NOT SIGN IT",
+        CrlIssuer::Missing => ", ISSUER MISSING",
+    };
+    let dates = match health.dates {
+        CrlDates::Current => "",
+        CrlDates::Expired => ", EXPIRED",
+        CrlDates::NotYetValid => ", NOT YET VALID",
+        CrlDates::NoEnd => ", WITHOUT END",
+    };
+    format!("{} {}: {} revoked, next by {until}{issuer}{dates}", summary.id, summary.issuer, summary.entries)
 }
 
 pub fn run(settled: &Settled, command: CrlCommand) -> Result<Ending, Problem> {

@@ -110,6 +110,7 @@ const fn skipped(reason: SkipReason) -> &'static str {
     match reason {
         SkipReason::Repeated => "left out: there twice",
         SkipReason::AlreadyHeld => "left out: already held",
+        SkipReason::Outdated => "left out: there is a newer one",
         SkipReason::NotAskedFor => "left out: not what was asked for",
     }
 }

@@ -25,7 +25,7 @@ pub struct CrlHealth {
 pub enum CrlIssuer {
     /// An authority in the trusted or issuers list signed it.
     Held { thumbprint: String },
-    /// It carries the name of this authority, which did not sign it: it is of no use.
+    /// It carries the name of this authority, but is signed with another key: it is of no use.
     NotSignedBy { thumbprint: String },
     /// This authority signed it, but its certificate does not allow it to: it is of no use.
     MayNotSign { thumbprint: String },
@@ -76,7 +76,8 @@ impl TrustHealth {
 
 fn issuer(crl: &Crl, authorities: &[&Certificate]) -> CrlIssuer {
     let mut found = CrlIssuer::Missing;
-    for authority in authorities.iter().filter(|authority| crl.is_of(authority)) {
+    let same_name = |authority: &&&Certificate| crl.issuer_folded() == authority.facts().subject_folded;
+    for authority in authorities.iter().filter(same_name) {
         let thumbprint = authority.thumbprint_sha1();
         if !crl.verify_signed_by(authority) {
             found = CrlIssuer::NotSignedBy { thumbprint };

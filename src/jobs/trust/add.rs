@@ -40,8 +40,14 @@ impl Operation for AddTrust {
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
         let before = TrustSnapshot::read(run.session).await?;
-        let plan = TrustPlan::for_controller(&self.files, self.destination, &before);
-        plan.check()?;
-        apply(run, before, plan.steps(), self.based_on).await
+        let (files, destination) = (Arc::clone(&self.files), self.destination);
+        let (before, steps) = run
+            .off_thread(move || {
+                let plan = TrustPlan::for_controller(&files, destination, &before);
+                plan.check()?;
+                Ok((before, plan.steps()))
+            })
+            .await?;
+        apply(run, before, steps, self.based_on).await
     }
 }

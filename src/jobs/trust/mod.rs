@@ -16,6 +16,8 @@ mod change;
 mod plan;
 mod relist;
 mod remove;
+#[cfg(test)]
+mod samples;
 mod snapshot;
 mod undo;
 mod watch;
