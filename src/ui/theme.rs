@@ -91,6 +91,8 @@ pub const LOG_HEIGHT: f32 = 520.0;
 pub const LOG_MARGIN: f32 = 260.0;
 /// The lists of whom a controller trusts: margin within, least height, and the width from which they lie side by side.
 pub const TRUST_MARGIN: Margin = Margin::symmetric(10, 8);
+/// What their dialog leaves of the window for itself and its surroundings.
+pub const TRUST_ROOM: Vec2 = vec2(72.0, 168.0);
 pub const TRUST_MIN_HEIGHT: f32 = 140.0;
 pub const TRUST_SIDE_BY_SIDE: f32 = 1050.0;
 pub const LABEL_WIDTH: f32 = 150.0;

@@ -489,6 +489,7 @@ texts! {
     TrustNoteNotYet: "not valid yet", "尚未生效";
     TrustSkipRepeated: "is in the files twice", "文件中重复";
     TrustSkipHeld: "is in the controller already", "控制器中已有";
+    TrustSkipOutdated: "is older than the one in the controller", "比控制器中的旧";
     TrustSkipNotAsked: "is not what was asked for", "不是要添加的类型";
     TrustOnCurrent: "Firmware 8.0.0 and later", "固件 8.0.0 及以上";
     TrustOnLegacy: "Firmware before 8.0.0", "8.0.0 之前的固件";

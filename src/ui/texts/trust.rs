@@ -201,6 +201,7 @@ pub const fn skipped_thing(reason: SkipReason) -> T {
     match reason {
         SkipReason::Repeated => T::TrustSkipRepeated,
         SkipReason::AlreadyHeld => T::TrustSkipHeld,
+        SkipReason::Outdated => T::TrustSkipOutdated,
         SkipReason::NotAskedFor => T::TrustSkipNotAsked,
     }
 }

@@ -29,13 +29,13 @@ pub fn show(ui: &Ui, form: &mut TrustForm, on_top: bool, model: &Model, messages
     let title = if form.shows == Shows::Crls { T::CrlTitle } else { T::TrustTitle };
     let title = texts::title_for(model.language, title, std::slice::from_ref(&form.name));
     let room = ui.ctx().content_rect().size();
-    dialog(ui, "trust", &title, room.x, buttons, |ui| {
+    dialog(ui, "trust", &title, room.x - theme::TRUST_ROOM.x, buttons, |ui| {
         if form.held.is_none() {
             ui.label(RichText::new(text(T::Reading)).color(palette(ui).weak));
             return;
         }
         let top = ui.cursor().top();
-        let height = room.y - theme::DIALOG_MARGIN;
+        let height = room.y - theme::TRUST_ROOM.y;
         tools(ui, form, model, messages);
         remarks(ui, form, model);
         let used = ui.cursor().top() - top + strip::HEIGHT + theme::SPACE;
@@ -152,12 +152,23 @@ fn lists(ui: &mut Ui, form: &mut TrustForm, height: f32, model: &Model, messages
         pane::show(ui, form, form.focus, vec2(width, height), model, messages);
         return;
     }
-    let each = (width - theme::SPACE * (count - 1) as f32) / count as f32;
+    let shares: f32 = form.panes.iter().map(|pane| share(pane.kind)).sum();
+    let room = width - theme::SPACE * (count - 1) as f32;
     ui.horizontal_top(|ui| {
         for index in 0..count {
-            pane::show(ui, form, index, vec2(each, height), model, messages);
+            let width = (room * share(form.panes[index].kind) / shares).floor();
+            pane::show(ui, form, index, vec2(width, height), model, messages);
         }
     });
+}
+
+/// Of the width. Why a client was refused takes the most words.
+const fn share(kind: PaneKind) -> f32 {
+    match kind {
+        PaneKind::Rejected => 1.3,
+        PaneKind::Trusted => 1.1,
+        PaneKind::Issuers | PaneKind::Crls => 1.0,
+    }
 }
 
 /// One tab a list, with how full it is.

@@ -126,6 +126,7 @@ fn table(
     messages: &mut Vec<Message>,
 ) {
     let palette = palette(ui);
+    let has_focus = form.focus == index;
     let pane = &mut form.panes[index];
     let columns = pane.kind.columns();
     let mut clicked = None;
@@ -169,7 +170,7 @@ fn table(
             })
             .body(|body| {
                 body.rows(theme::ROW_HEIGHT, pane.shown(), |mut row| {
-                    clicked = draw(&mut row, pane, columns, model, palette).or(clicked);
+                    clicked = draw(&mut row, pane, columns, has_focus, model, palette).or(clicked);
                 });
             });
     });
@@ -203,7 +204,8 @@ fn tick_all(ui: &mut Ui, pane: &mut Pane, model: &Model) {
 const fn width(column: TrustColumn) -> f32 {
     use TrustColumn as C;
     match column {
-        C::IssuedTo | C::IssuedBy | C::Issuer => 150.0,
+        C::IssuedTo | C::IssuedBy => 140.0,
+        C::Issuer => 220.0,
         C::FileName => 130.0,
         C::SerialNumber => 140.0,
         C::ValidFrom => 95.0,
@@ -229,6 +231,7 @@ fn draw(
     row: &mut TableRow<'_, '_>,
     pane: &Pane,
     columns: &[TrustColumn],
+    has_focus: bool,
     model: &Model,
     palette: &Palette,
 ) -> Option<(usize, Click)> {
@@ -243,7 +246,7 @@ fn draw(
         if pane.cursor() == Some(position) {
             let rect = ui.max_rect();
             let bar = egui::Rect::from_min_size(rect.left_top(), vec2(3.0, theme::ROW_HEIGHT));
-            ui.painter().rect_filled(bar, 0.0, palette.accent);
+            ui.painter().rect_filled(bar, 0.0, if has_focus { palette.accent } else { palette.line });
         }
         ui.add_space(10.0);
         let mut on = ticked;
