@@ -74,7 +74,8 @@ pub fn many(count: usize, clock: DateTime<Utc>) -> TrustSnapshot {
 }
 
 pub fn thumbprint(n: usize) -> String {
-    format!("{:040X}", (n as u128 + 1) * 0x1F3D_5B79_86A4_C2E1_0F2D_4B69)
+    let part = |k: u64| (n as u64 + k).wrapping_mul(0x9E37_79B9_7F4A_7C15).rotate_left(17) as u32;
+    (1..6).map(|k| format!("{:08X}", part(k))).collect()
 }
 
 pub fn listed(n: usize, to: &str, by: &str, file: &str, days: i64, clock: DateTime<Utc>) -> ListedCertificate {
@@ -128,7 +129,7 @@ fn summary(n: usize, to: &str, by: &str, days: i64, clock: DateTime<Utc>) -> Cer
     CertificateSummary {
         issued_to: to.to_owned(),
         issued_by: by.to_owned(),
-        serial_number: format!("{:016X}", (n as u64 + 3) * 0x0F1E_2D3C_4B5A),
+        serial_number: format!("{:016X}", (n as u64 + 3).wrapping_mul(0x4F1E_2D3C_4B5A_6987)),
         not_before: clock - Duration::days(200),
         not_after: clock + Duration::days(days),
         thumbprint: thumbprint(n),

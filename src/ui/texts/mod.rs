@@ -523,12 +523,12 @@ texts! {
     CrlSignature: "Signature", "签名算法";
     CrlGood: "in use", "有效";
     CrlUnusable: "cannot be used", "无法使用";
-    CrlExpired: "expired: get a new one", "已过期，请获取新的 CRL";
+    CrlExpired: "expired, get a new one", "已过期，请获取新的 CRL";
     CrlNotYet: "not valid yet", "尚未生效";
-    CrlNoIssuer: "its issuer is in no list: no use yet", "颁发者不在列表中，暂不起作用";
-    CrlWrongKey: "not signed by the issuer of this name: no use", "不是该颁发者签名，不起作用";
-    CrlMayNotSign: "its issuer may not sign CRLs: no use", "颁发者无权签发 CRL，不起作用";
-    CrlNoEnd: "does not say until when it is valid: no use", "未注明有效期限，不起作用";
+    CrlNoIssuer: "its issuer is in no list, no use yet", "颁发者不在列表中，暂不起作用";
+    CrlWrongKey: "not signed by the issuer of this name, no use", "不是该颁发者签名，不起作用";
+    CrlMayNotSign: "its issuer may not sign CRLs, no use", "颁发者无权签发 CRL，不起作用";
+    CrlNoEnd: "does not say until when it is valid, no use", "未注明有效期限，不起作用";
     CrlDeleteTitle: "Delete CRLs", "删除 CRL";
     CrlDeleteText: "The certificates they revoke count as valid again, or as unchecked. Clients that are not let in without them are disconnected at once. The deletion can be taken back until the dialog is closed.", "其中吊销的证书将重新有效或无法检查。缺少 CRL 而不再允许的客户端将立即断开。关闭对话框之前可以撤销删除。";
     CrlRevoked: "Revoked certificates", "被吊销的证书";

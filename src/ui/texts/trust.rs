@@ -60,12 +60,13 @@ pub fn how_full(language: Language, count: usize, limit: Option<usize>) -> Strin
     }
 }
 
-pub fn list_ticked(language: Language, count: usize, hidden: usize) -> String {
+/// "3 of 50, 1 ticked".
+pub fn full_and_ticked(language: Language, full: &str, count: usize, hidden: usize) -> String {
     match (language, hidden) {
-        (Language::En, 0) => format!("{count} ticked"),
-        (Language::En, _) => format!("{count} ticked, {hidden} hidden"),
-        (Language::Zh, 0) => format!("已勾选 {count} 项"),
-        (Language::Zh, _) => format!("已勾选 {count} 项，{hidden} 项未显示"),
+        (Language::En, 0) => format!("{full}, {count} ticked"),
+        (Language::En, _) => format!("{full}, {count} ticked, {hidden} of them hidden"),
+        (Language::Zh, 0) => format!("{full}，已勾选 {count} 项"),
+        (Language::Zh, _) => format!("{full}，已勾选 {count} 项，其中 {hidden} 项未显示"),
     }
 }
 
@@ -240,7 +241,7 @@ pub const fn crl_health(health: &CrlHealth) -> T {
 /// Which authority a CRL is good for.
 pub fn covers(language: Language, health: T, authority: &str) -> String {
     match language {
-        Language::En => format!("{}: covers {authority}", health.text(language)),
-        Language::Zh => format!("{}，适用于 {authority}", health.text(language)),
+        Language::En => format!("{} (covers {authority})", health.text(language)),
+        Language::Zh => format!("{}（适用于 {authority}）", health.text(language)),
     }
 }

@@ -114,7 +114,7 @@ fn files(ui: &mut Ui, form: &AddTrustForm, model: &Model, messages: &mut Vec<Mes
         ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
             ui.push_id(index, |ui| {
                 let name = format!("{}: {}", T::TrustLeaveOut.text(language), file.name);
-                let button = Button::new(RichText::new(T::TrustLeaveOut.text(language)).size(theme::SMALL_TEXT)).frame(false);
+                let button = Button::new(RichText::new(T::TrustLeaveOut.text(language)).size(theme::SMALL_TEXT).color(palette.accent)).frame(false);
                 if ui.add(button).accessible_name(name).clicked() {
                     messages.push(Message::Trust(TrustAction::LeaveOut(index)));
                 }
@@ -205,6 +205,7 @@ fn items(ui: &mut Ui, items: &[Planned], model: &Model) {
                 let size = vec2(ui.available_width(), ITEM);
                 ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
                     ui.set_min_size(size);
+                    ui.spacing_mut().interact_size.y = 17.0;
                     one(ui, item, model);
                 });
             }
@@ -233,7 +234,7 @@ fn one(ui: &mut Ui, item: &Planned, model: &Model) {
     };
     crate::ui::widgets::chip(ui, to.text(language), color);
     ui.with_layout(Layout::top_down(Align::Min), |ui| {
-        ui.add_space(3.0);
+        ui.add_space(2.0);
         ui.horizontal(|ui| {
             word(ui, kind.text(language), palette.weak);
             ui.add(Label::new(RichText::new(name).strong()).truncate());

@@ -1,7 +1,7 @@
 use egui::{Frame, Grid, Label, RichText, Stroke, Ui, vec2};
 
 use crate::ui::model::Model;
-use crate::ui::model::trust::{CertificateView, ChainNode, ChainState, CrlView, DetailsView, Field};
+use crate::ui::model::trust::{CertificateView, ChainNode, ChainState, CrlView, DetailsView, Field, PaneKind};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, cell, dialog, fine_print, list, list_title, note, word};
@@ -43,6 +43,7 @@ fn certificate(ui: &mut Ui, view: &CertificateView, model: &Model) {
 
 fn fields(ui: &mut Ui, fields: &[Field], model: &Model) {
     let weak = palette(ui).weak;
+    ui.spacing_mut().interact_size.y = 18.0;
     Grid::new("fields").num_columns(2).spacing(vec2(12.0, 4.0)).min_col_width(theme::LABEL_WIDTH).show(ui, |ui| {
         for field in fields {
             ui.with_layout(egui::Layout::left_to_right(egui::Align::TOP), |ui| {
@@ -51,7 +52,11 @@ fn fields(ui: &mut Ui, fields: &[Field], model: &Model) {
             ui.vertical(|ui| {
                 ui.set_width(ui.available_width());
                 for line in &field.lines {
-                    let line = RichText::new(line);
+                    let line = if field.label == T::KeyLength {
+                        RichText::new(texts::bits(model.language, line))
+                    } else {
+                        RichText::new(line)
+                    };
                     let line = if field.monospace { line.monospace().size(theme::SMALL_TEXT) } else { line };
                     ui.add(Label::new(line).wrap().selectable(true));
                 }
@@ -75,7 +80,11 @@ fn chain(ui: &mut Ui, nodes: &[ChainNode], model: &Model) {
                 ui.add_space(STEP * depth as f32);
                 let (rect, _) = ui.allocate_exact_size(vec2(12.0, theme::DENSE_HEIGHT), egui::Sense::hover());
                 let bad = node.states.iter().any(|state| *state != ChainState::OnlySent);
-                let color = if bad { palette.error } else { palette.ok };
+                let color = match (bad, node.list) {
+                    (true, _) => palette.error,
+                    (false, Some(PaneKind::Trusted | PaneKind::Issuers)) => palette.ok,
+                    (false, _) => palette.off,
+                };
                 if depth > 0 {
                     let corner = egui::pos2(rect.left() - STEP + 6.0, rect.center().y);
                     let line = Stroke::new(1.0, palette.weak);

@@ -17,7 +17,7 @@ use crate::ui::model::trust::{Link, PaneKind, Shows, TrustAction, TrustForm};
 use crate::ui::model::{Message, Model};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, chip, dialog, note, primary};
+use crate::ui::widgets::{Answer, Buttons, chip, dialog, note};
 
 /// Trusted, rejected and issuers side by side, or the CRLs. In a narrow window one list at a time.
 pub fn show(ui: &Ui, form: &mut TrustForm, on_top: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
@@ -38,9 +38,10 @@ pub fn show(ui: &Ui, form: &mut TrustForm, on_top: bool, model: &Model, messages
         let height = room.y - theme::TRUST_ROOM.y;
         tools(ui, form, model, messages);
         remarks(ui, form, model);
-        let used = ui.cursor().top() - top + strip::HEIGHT + theme::SPACE;
+        let strip_height = if room.y < theme::TRUST_LOW_WINDOW { strip::LOW } else { strip::HIGH };
+        let used = ui.cursor().top() - top + strip_height + theme::SPACE;
         lists(ui, form, (height - used).max(theme::TRUST_MIN_HEIGHT), model, messages);
-        strip::show(ui, form, model, messages);
+        strip::show(ui, form, strip_height, model, messages);
     })
 }
 
@@ -147,9 +148,7 @@ fn lists(ui: &mut Ui, form: &mut TrustForm, height: f32, model: &Model, messages
     let count = form.panes.len();
     let width = ui.available_width();
     if count > 1 && width < theme::TRUST_SIDE_BY_SIDE {
-        tabs(ui, form, model);
-        let height = (height - theme::BUTTON_HEIGHT - theme::SPACE).max(theme::TRUST_MIN_HEIGHT);
-        pane::show(ui, form, form.focus, vec2(width, height), model, messages);
+        pane::show(ui, form, form.focus, vec2(width, height), true, model, messages);
         return;
     }
     let shares: f32 = form.panes.iter().map(|pane| share(pane.kind)).sum();
@@ -157,7 +156,7 @@ fn lists(ui: &mut Ui, form: &mut TrustForm, height: f32, model: &Model, messages
     ui.horizontal_top(|ui| {
         for index in 0..count {
             let width = (room * share(form.panes[index].kind) / shares).floor();
-            pane::show(ui, form, index, vec2(width, height), model, messages);
+            pane::show(ui, form, index, vec2(width, height), false, model, messages);
         }
     });
 }
@@ -169,29 +168,6 @@ const fn share(kind: PaneKind) -> f32 {
         PaneKind::Trusted => 1.1,
         PaneKind::Issuers | PaneKind::Crls => 1.0,
     }
-}
-
-/// One tab a list, with how full it is.
-fn tabs(ui: &mut Ui, form: &mut TrustForm, model: &Model) {
-    ui.horizontal(|ui| {
-        for index in 0..form.panes.len() {
-            let pane = &form.panes[index];
-            let mut said = format!(
-                "{}  {}",
-                texts::pane(pane.kind).text(model.language),
-                texts::how_full(model.language, pane.len(), pane.limit)
-            );
-            if pane.new_ones() > 0 {
-                said = format!("{said}  ({})", texts::new_clients(model.language, pane.new_ones()));
-            }
-            let selected = form.focus == index;
-            let button = if selected { primary(ui, &said) } else { egui::Button::new(said) };
-            if ui.add(button).clicked() {
-                form.focus = index;
-            }
-        }
-    });
-    ui.add_space(theme::SPACE / 2.0);
 }
 
 /// What the buttons of a list ask for.

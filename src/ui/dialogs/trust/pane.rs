@@ -8,12 +8,14 @@ use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, Palette, palette};
 use crate::ui::widgets::{chip, sort_heading, word};
 
-/// One list: how full it is, what can be done with it, and its lines. Only the lines in sight are laid out.
+/// One list: how full it is, what can be done with it, and its lines. Only the lines in sight are laid out. `alone`:
+/// there is no room for the others, which can be changed to.
 pub fn show(
     ui: &mut Ui,
     form: &mut TrustForm,
     index: usize,
     size: Vec2,
+    alone: bool,
     model: &Model,
     messages: &mut Vec<Message>,
 ) {
@@ -31,7 +33,7 @@ pub fn show(
                     ui.set_min_size(inner);
                     ui.set_max_size(inner);
                     let top = ui.cursor().top();
-                    head(ui, form, index, model, messages);
+                    head(ui, form, index, alone, model, messages);
                     ui.add_space(theme::SPACE / 2.0);
                     let height = inner.y - (ui.cursor().top() - top);
                     if form.panes[index].shown() == 0 {
@@ -45,28 +47,67 @@ pub fn show(
     });
 }
 
-fn head(ui: &mut Ui, form: &mut TrustForm, index: usize, model: &Model, messages: &mut Vec<Message>) {
+fn head(
+    ui: &mut Ui,
+    form: &mut TrustForm,
+    index: usize,
+    alone: bool,
+    model: &Model,
+    messages: &mut Vec<Message>,
+) {
+    let size = vec2(ui.available_width(), theme::BUTTON_HEIGHT);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.spacing_mut().button_padding.x = theme::SPACE;
+        buttons(ui, form, index, model, messages);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            if alone {
+                tabs(ui, form, model);
+            } else {
+                title(ui, &form.panes[index], model);
+            }
+        });
+    });
+}
+
+fn title(ui: &mut Ui, pane: &Pane, model: &Model) {
     let (language, palette) = (model.language, palette(ui));
-    let pane = &form.panes[index];
-    ui.allocate_ui_with_layout(
-        vec2(ui.available_width(), theme::BUTTON_HEIGHT),
-        Layout::right_to_left(Align::Center),
-        |ui| {
-            buttons(ui, form, index, model, messages);
-            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                ui.label(RichText::new(texts::pane(pane.kind).text(language)).strong());
-                let full = texts::how_full(language, pane.len(), pane.limit);
-                let color = if pane.is_full() && pane.len() > 0 { palette.error } else { palette.weak };
-                ui.add(Label::new(RichText::new(full).color(color)).truncate());
-                if pane.new_ones() > 0 {
-                    chip(ui, &texts::new_clients(language, pane.new_ones()), palette.warning);
-                }
-            });
-        },
-    );
-    if pane.ticked_count() > 0 {
-        let said = texts::list_ticked(language, pane.ticked_count(), pane.ticked_hidden());
-        ui.label(RichText::new(said).size(theme::SMALL_TEXT).color(palette.weak));
+    ui.label(RichText::new(texts::pane(pane.kind).text(language)).strong());
+    if pane.new_ones() > 0 {
+        chip(ui, &texts::new_clients(language, pane.new_ones()), palette.warning);
+    }
+    let color = if pane.is_full() && !pane.is_empty() { palette.error } else { palette.weak };
+    let said = fullness(pane, model);
+    ui.add(Label::new(RichText::new(&said).size(theme::HEADER_TEXT).color(color)).truncate()).on_hover_text(said);
+}
+
+/// How many there are, of how many that fit, and how many are ticked.
+fn fullness(pane: &Pane, model: &Model) -> String {
+    // There is no such list.
+    if pane.limit == Some(0) {
+        return String::new();
+    }
+    let full = texts::how_full(model.language, pane.len(), pane.limit);
+    match pane.ticked_count() {
+        0 => full,
+        ticked => texts::full_and_ticked(model.language, &full, ticked, pane.ticked_hidden()),
+    }
+}
+
+/// One tab a list.
+fn tabs(ui: &mut Ui, form: &mut TrustForm, model: &Model) {
+    for index in 0..form.panes.len() {
+        let pane = &form.panes[index];
+        let mut said = format!("{}  {}", texts::pane(pane.kind).text(model.language), fullness(pane, model));
+        if pane.new_ones() > 0 {
+            said = format!("{said} ({})", texts::new_clients(model.language, pane.new_ones()));
+        }
+        let selected = form.focus == index;
+        let name = texts::pane(pane.kind).text(model.language);
+        let text = RichText::new(said.trim_end());
+        let button = Button::selectable(selected, if selected { text.strong() } else { text });
+        if ui.add(button).accessible_name(name).clicked() {
+            form.focus = index;
+        }
     }
 }
 

@@ -6,16 +6,17 @@ use crate::ui::model::{Message, Model};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, Palette, palette};
 
-/// Of the frame and its lines.
-pub const HEIGHT: f32 = 104.0;
+/// Of the frame and its lines; in a low window the lines scroll.
+pub const HIGH: f32 = 104.0;
+pub const LOW: f32 = 66.0;
 
 /// Everything about the line the cursor is on, without scrolling sideways.
-pub fn show(ui: &mut Ui, form: &TrustForm, model: &Model, messages: &mut Vec<Message>) {
+pub fn show(ui: &mut Ui, form: &TrustForm, height: f32, model: &Model, messages: &mut Vec<Message>) {
     let palette = palette(ui);
     ui.add_space(theme::SPACE);
     let frame = Frame::new().fill(palette.stripe).stroke(Stroke::new(1.0, palette.line)).corner_radius(8);
     frame.inner_margin(theme::TRUST_MARGIN).show(ui, |ui| {
-        let size = vec2(ui.available_width(), HEIGHT - theme::TRUST_MARGIN.sum().y - 2.0);
+        let size = vec2(ui.available_width(), height - theme::TRUST_MARGIN.sum().y - 2.0);
         ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Min), |ui| {
             ui.set_min_size(size);
             let entry = form.focused().and_then(|pane| pane.cursor_entry());
@@ -30,7 +31,9 @@ pub fn show(ui: &mut Ui, form: &TrustForm, model: &Model, messages: &mut Vec<Mes
             }
             ui.with_layout(Layout::top_down(Align::Min), |ui| {
                 ui.spacing_mut().item_spacing.y = 3.0;
-                lines(ui, entry, model, palette);
+                egui::ScrollArea::vertical().id_salt(&entry.id).auto_shrink(false).show(ui, |ui| {
+                    lines(ui, entry, model, palette);
+                });
             });
         });
     });
