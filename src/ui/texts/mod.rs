@@ -419,7 +419,7 @@ texts! {
     TrustIssuers: "Issuers", "发行人";
     TrustFilter: "Filter by name, issuer, address or number", "按名称、颁发者、地址或编号筛选";
     TrustNothingFound: "Nothing matches the filter", "没有匹配的项";
-    TrustTrustedEmpty: "No client is let in by its certificate yet. Add the certificate of a client, or let a client try to connect: it then appears under Rejected.", "尚未信任任何客户端证书。请添加客户端证书，或让客户端尝试连接，其证书将显示在[拒绝]中。";
+    TrustTrustedEmpty: "Nobody is let in by a certificate yet. Add the certificate of a client, or let a client try to connect: it then appears under Rejected.", "尚未信任任何客户端证书。请添加客户端证书，或让客户端尝试连接，其证书将显示在[拒绝]中。";
     TrustRejectedEmpty: "No client was refused. One that tries to connect and is not let in appears here by itself.", "没有被拒绝的客户端。尝试连接但未被允许的客户端会自动显示在此处。";
     TrustIssuersEmpty: "No authorities. Add the certificates of those that issued the certificates of clients, where these do not send them along.", "没有发行人证书。若客户端不随附证书链，请在此添加签发客户端证书的机构的证书。";
     TrustIssuersLegacy: "Firmware before 8.0.0 has no list of issuers. There, add authorities to Trusted.", "8.0.0 之前的固件没有发行人列表，请将机构证书添加到[信任]。";
