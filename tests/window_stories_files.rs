@@ -18,7 +18,7 @@ use common::window::{choose, is_enabled, shows, wait_until};
 use egui_kittest::kittest::Queryable as _;
 use opcua_configurator::model::{ErrorCode, Problem, SerialNumber};
 use opcua_configurator::pki::{Certificate, Csr};
-use opcua_configurator::ui::picker::{FileKind, FilePicker, FixedPicker, Picked};
+use opcua_configurator::ui::picker::{FileKind, FilePicker, FixedPicker, Picked, PickedSeveral};
 use opcua_configurator::virtual_controller::FleetFirmware;
 use parking_lot::Mutex;
 use plant::Plant;
@@ -34,6 +34,10 @@ struct Desktop {
 impl FilePicker for Desktop {
     fn pick(&self, kind: FileKind, _title: String, done: Picked) {
         done(Ok(Some(self.folder.join(format!("{kind:?}")))));
+    }
+
+    fn pick_several(&self, kind: FileKind, _title: String, done: PickedSeveral) {
+        done(Ok(vec![self.folder.join(format!("{kind:?}"))]));
     }
 
     fn open_folder(&self, folder: &Path) -> Result<(), Problem> {

@@ -145,7 +145,7 @@ impl CertificateStatus {
     const fn chinese(self) -> &'static str {
         match self {
             Self::CertificateInvalid => "证书已损坏或签名错误，请重新申请证书。",
-            Self::ChainIncomplete => "缺少签发该证书的 CA 证书，请将其添加到颁发者列表或信任列表。",
+            Self::ChainIncomplete => "缺少签发该证书的 CA 证书，请将其添加到发行人列表或信任列表。",
             Self::SecurityChecksFailed => "证书被拒绝，对方未说明原因。",
             Self::PolicyCheckFailed => "密钥或签名强度不足，或与安全策略要求的类型不符，请重新创建证书。",
             Self::Untrusted => "该证书尚未受信任，请将其或签发它的 CA 添加到信任列表。",

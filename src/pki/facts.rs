@@ -73,6 +73,22 @@ pub enum ExtendedKeyUsage {
     Other(String),
 }
 
+impl ExtendedKeyUsage {
+    /// As RFC 5280 writes it; of others, the object identifier.
+    pub fn as_str(&self) -> &str {
+        match self {
+            Self::AnyExtendedKeyUsage => "anyExtendedKeyUsage",
+            Self::ServerAuth => "serverAuth",
+            Self::ClientAuth => "clientAuth",
+            Self::CodeSigning => "codeSigning",
+            Self::EmailProtection => "emailProtection",
+            Self::TimeStamping => "timeStamping",
+            Self::OcspSigning => "OCSPSigning",
+            Self::Other(identifier) => identifier,
+        }
+    }
+}
+
 /// One entry of a subject alternative name, without control characters.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]

@@ -133,7 +133,7 @@ impl UiCommand {
     /// Why it cannot be done now; what a disabled item says on hover.
     pub fn why_disabled(self, model: &Model) -> Option<T> {
         match self {
-            Self::ClientLists | Self::Crl | Self::CertificateAuthority => Some(T::WhyLater),
+            Self::CertificateAuthority => Some(T::WhyLater),
             Self::DeleteControllers
             | Self::Start
             | Self::Stop
@@ -144,6 +144,8 @@ impl UiCommand {
             | Self::CaSigned
             | Self::ExportSelfSigned
             | Self::TypeSelect
+            | Self::ClientLists
+            | Self::Crl
             | Self::Verify => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
             Self::UserSpecified => match model.rows.ticked()[..] {
                 [] => Some(T::WhyTick),

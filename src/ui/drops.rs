@@ -44,6 +44,9 @@ pub fn overlay(ctx: &Context, model: &Model) {
                 ui.label(RichText::new(texts::drop_title(model.language, hover.paths.len())).heading().strong());
                 ui.add_space(theme::SPACE);
                 match &hover.found {
+                    None if hover.taken => {
+                        ui.label(RichText::new(text(T::TrustDropHere)).color(palette.accent));
+                    }
                     None if hover.paths.iter().all(|path| path.as_os_str().is_empty()) => {
                         ui.label(RichText::new(text(T::DropUnseen)).color(palette.weak));
                     }

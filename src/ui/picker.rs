@@ -12,6 +12,9 @@ use crate::model::{ErrorCode, Problem};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
     Csv,
+    /// Certificates, chains of them, CRLs.
+    Trust,
+    Crl,
     Certificate,
     Key,
     Pkcs12,
@@ -21,6 +24,8 @@ impl FileKind {
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Csv => &["csv"],
+            Self::Trust => &["der", "cer", "crt", "pem", "p7b", "p7c", "crl"],
+            Self::Crl => &["crl", "der", "pem", "p7b", "p7c"],
             Self::Certificate => &["der", "cer", "crt", "pem"],
             Self::Key => &["key", "pem", "der", "p8", "pk8"],
             Self::Pkcs12 => &["pfx", "p12"],
@@ -31,9 +36,13 @@ impl FileKind {
 /// Told once what was chosen: `None` if nothing was.
 pub type Picked = Box<dyn FnOnce(Result<Option<PathBuf>, Problem>) + Send>;
 
+/// Told once which files were chosen: none if nothing was.
+pub type PickedSeveral = Box<dyn FnOnce(Result<Vec<PathBuf>, Problem>) + Send>;
+
 /// Lets a person choose a file. Returns at once.
 pub trait FilePicker: Send + Sync {
     fn pick(&self, kind: FileKind, title: String, done: Picked);
+    fn pick_several(&self, kind: FileKind, title: String, done: PickedSeveral);
 
     /// Shows a folder in the desktop's file manager. Blocks for a moment.
     fn open_folder(&self, folder: &Path) -> Result<(), Problem>;
@@ -48,17 +57,19 @@ pub struct SystemPicker;
 const TOO_SOON: Duration = Duration::from_millis(300);
 
 /// Whoever waits is told even if the thread cannot be started or panics.
-struct Tell(Option<Picked>);
+struct Tell<T>(Option<Done<T>>);
 
-impl Tell {
-    fn tell(mut self, result: Result<Option<PathBuf>, Problem>) {
+type Done<T> = Box<dyn FnOnce(Result<T, Problem>) + Send>;
+
+impl<T> Tell<T> {
+    fn tell(mut self, result: Result<T, Problem>) {
         if let Some(done) = self.0.take() {
             done(result);
         }
     }
 }
 
-impl Drop for Tell {
+impl<T> Drop for Tell<T> {
     fn drop(&mut self) {
         if let Some(done) = self.0.take() {
             done(Err(ErrorCode::NoFilePicker.into()));
@@ -68,24 +79,38 @@ impl Drop for Tell {
 
 impl FilePicker for SystemPicker {
     fn pick(&self, kind: FileKind, title: String, done: Picked) {
-        let tell = Tell(Some(done));
-        let ask = move || {
-            let started = Instant::now();
-            let dialog = rfd::FileDialog::new().set_title(title);
-            let dialog = dialog.add_filter(kind.extensions().join(", "), kind.extensions()).add_filter("*", &["*"]);
-            tell.tell(match dialog.pick_file() {
-                None if started.elapsed() < TOO_SOON => Err(ErrorCode::NoFilePicker.into()),
-                chosen => Ok(chosen),
-            });
-        };
-        // Waits for a person, so it needs a thread of its own.
-        if let Err(error) = std::thread::Builder::new().name("file picker".into()).spawn(ask) {
-            tracing::warn!(%error, "no thread for the file dialog");
-        }
+        ask(kind, title, done, rfd::FileDialog::pick_file, |chosen| chosen);
+    }
+
+    fn pick_several(&self, kind: FileKind, title: String, done: PickedSeveral) {
+        ask(kind, title, done, rfd::FileDialog::pick_files, Option::unwrap_or_default);
     }
 
     fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
         file_manager::open(folder)
+    }
+}
+
+/// Waits for a person, so it needs a thread of its own.
+fn ask<C: 'static, T: Send + 'static>(
+    kind: FileKind,
+    title: String,
+    done: Done<T>,
+    open: fn(rfd::FileDialog) -> Option<C>,
+    chosen: fn(Option<C>) -> T,
+) {
+    let tell = Tell(Some(done));
+    let ask = move || {
+        let started = Instant::now();
+        let dialog = rfd::FileDialog::new().set_title(title);
+        let dialog = dialog.add_filter(kind.extensions().join(", "), kind.extensions()).add_filter("*", &["*"]);
+        tell.tell(match open(dialog) {
+            None if started.elapsed() < TOO_SOON => Err(ErrorCode::NoFilePicker.into()),
+            answer => Ok(chosen(answer)),
+        });
+    };
+    if let Err(error) = std::thread::Builder::new().name("file picker".into()).spawn(ask) {
+        tracing::warn!(%error, "no thread for the file dialog");
     }
 }
 
@@ -96,6 +121,10 @@ pub struct FixedPicker(pub Result<Option<PathBuf>, Problem>);
 impl FilePicker for FixedPicker {
     fn pick(&self, _kind: FileKind, _title: String, done: Picked) {
         done(self.0.clone());
+    }
+
+    fn pick_several(&self, _kind: FileKind, _title: String, done: PickedSeveral) {
+        done(self.0.clone().map(|chosen| chosen.into_iter().collect()));
     }
 
     fn open_folder(&self, folder: &Path) -> Result<(), Problem> {

@@ -89,6 +89,14 @@ pub const DIALOG_MARGIN: f32 = 120.0;
 pub const DIALOG_LOG: f32 = 980.0;
 pub const LOG_HEIGHT: f32 = 520.0;
 pub const LOG_MARGIN: f32 = 260.0;
+/// The lists of whom a controller trusts: margin within, least height, and the width from which they lie side by side.
+pub const TRUST_MARGIN: Margin = Margin::symmetric(10, 8);
+/// What their dialog leaves of the window for itself and its surroundings.
+pub const TRUST_ROOM: Vec2 = vec2(72.0, 168.0);
+/// Below this height of the window, the line the cursor is on is told in fewer words.
+pub const TRUST_LOW_WINDOW: f32 = 640.0;
+pub const TRUST_MIN_HEIGHT: f32 = 140.0;
+pub const TRUST_SIDE_BY_SIDE: f32 = 1050.0;
 pub const LABEL_WIDTH: f32 = 150.0;
 pub const LIST_HEIGHT: f32 = 10.0 * LIST_ROW;
 pub const LIST_ROW: f32 = 26.0;

@@ -1,6 +1,7 @@
 //! Where the work is done that a frame may not wait for.
 
 mod tokio_backend;
+mod trust_files;
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -10,9 +11,10 @@ use secrecy::SecretString;
 
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
+use super::model::trust::ReadTrustFile;
 use super::model::{DroppedFile, ExportFound, JobId, Task};
 use super::picker::FileKind;
-use crate::jobs::{Enrolled, JobController, JobEvent, Summary};
+use crate::jobs::{Enrolled, JobController, JobEvent, Summary, WatchEvent};
 use crate::model::{Address, ControllerInfo, Problem};
 use crate::pki::Fingerprint;
 use crate::workspace::{Configuration, ControllerEntry};
@@ -62,6 +64,22 @@ pub enum Command {
         path: PathBuf,
         most: usize,
     },
+    /// Lets a person choose files; ends with [`Event::FilesPicked`].
+    PickFiles {
+        job: JobId,
+        kind: FileKind,
+        title: String,
+    },
+    /// Reads files with certificates and CRLs; ends with [`Event::TrustFilesRead`].
+    ReadTrustFiles {
+        job: JobId,
+        paths: Vec<PathBuf>,
+    },
+    /// Reports the lists of a controller with [`Event::TrustSeen`] until it is cancelled.
+    WatchTrust {
+        job: JobId,
+        controller: Box<JobController>,
+    },
     /// Finds out what files are, by their content; ends with [`Event::Recognised`].
     Recognise {
         job: JobId,
@@ -110,6 +128,20 @@ pub enum Event {
     ExportSeen {
         job: JobId,
         result: Result<ExportFound, Problem>,
+    },
+    /// Empty: nothing was chosen.
+    FilesPicked {
+        job: JobId,
+        result: Result<Vec<PathBuf>, Problem>,
+    },
+    /// In the order they were asked for.
+    TrustFilesRead {
+        job: JobId,
+        files: Vec<ReadTrustFile>,
+    },
+    TrustSeen {
+        job: JobId,
+        event: WatchEvent,
     },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
     /// A password works, but only until the program ends.

@@ -8,7 +8,7 @@ use secrecy::SecretString;
 use tokio::runtime::Runtime;
 use tokio_util::sync::CancellationToken;
 
-use super::{Backend, Command, Event, FileContents, VirtualFleetStarter};
+use super::{Backend, Command, Event, FileContents, VirtualFleetStarter, trust_files};
 use crate::jobs::{self, JobContext, JobController};
 use crate::model::{ControllerInfo, ErrorCode, Problem};
 use crate::session::Connector;
@@ -229,6 +229,24 @@ impl Backend for TokioBackend {
                         emit(Event::FileRead { job, result: result.map(|bytes| (path, FileContents(bytes))) });
                     });
                 }
+            }
+            Command::PickFiles { job, kind, title } => {
+                self.picker.pick_several(kind, title, Box::new(move |result| emit(Event::FilesPicked { job, result })));
+            }
+            Command::ReadTrustFiles { job, paths } => {
+                if let Some(runtime) = &self.runtime {
+                    runtime.spawn_blocking(move || {
+                        let files = paths.into_iter().map(trust_files::read).collect();
+                        emit(Event::TrustFilesRead { job, files });
+                    });
+                }
+            }
+            Command::WatchTrust { job, controller } => {
+                let cancel = self.token(job);
+                self.spawn(async move {
+                    let on_event = move |event| emit(Event::TrustSeen { job, event });
+                    jobs::watch_trust(*controller, context, cancel, on_event).await;
+                });
             }
             Command::Recognise { job, paths } => {
                 if let Some(runtime) = &self.runtime {

@@ -18,6 +18,7 @@ mod self_signed;
 mod server_log;
 mod settings;
 mod transfer;
+mod trust;
 mod type_select;
 mod user_specified;
 mod users;
@@ -34,7 +35,7 @@ pub fn show(ui: &Ui, open: &mut [Dialog], opened: bool, model: &Model, messages:
     let enter = top > 0 && enter_confirms(ui);
     for (index, dialog) in open.iter_mut().enumerate() {
         let on_top = index + 1 == top;
-        let answer = one(ui, dialog, on_top && opened, model, messages);
+        let answer = one(ui, dialog, on_top, on_top && opened, model, messages);
         match answer {
             _ if !on_top => {}
             Answer::Close => messages.push(Message::Close),
@@ -62,7 +63,7 @@ fn enter_submits(dialog: &Dialog, model: &Model) -> bool {
     }
 }
 
-fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
+fn one(ui: &Ui, dialog: &mut Dialog, on_top: bool, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
     match dialog {
         Dialog::AddController(form) => add_controller::show(ui, form, focus, model, messages),
         Dialog::Delete { names, .. } => confirm::delete(ui, names, model),
@@ -83,6 +84,10 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::ServerLog(log) => server_log::show(ui, log, model, messages),
         Dialog::Verify(view) => verify::show(ui, view, model, messages),
         Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
+        Dialog::Trust(form) => trust::show(ui, form, on_top, model, messages),
+        Dialog::AddTrust(form) => trust::add(ui, form, focus, model, messages),
+        Dialog::DeleteTrust(asked) => trust::delete(ui, asked, model),
+        Dialog::TrustDetails(view) => trust::details(ui, view, model),
         Dialog::Drop(form) => drop::show(ui, form, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),

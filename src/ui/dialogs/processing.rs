@@ -1,6 +1,8 @@
 use egui::{Align, Frame, Label, Layout, ProgressBar, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
-use super::error;
+use super::{error, trust};
+use crate::protocol::CutClient;
+use crate::ui::model::trust::TrustAction;
 use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
@@ -28,6 +30,7 @@ pub fn show(ui: &Ui, view: &mut ProcessingView, model: &Model, messages: &mut Ve
         list(ui, view, job, model);
         if ended {
             saved(ui, job, model, messages);
+            trust_changed(ui, job, model, messages);
         }
         if let Some(problem) = view.selected.and_then(|at| job.rows.get(at)).and_then(|row| row.state.problem()) {
             ui.add_space(theme::SPACE);
@@ -80,6 +83,21 @@ fn saved(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {
     ui.add_space(theme::SPACE);
     ui.label(RichText::new(T::SavedIn.text(model.language)).size(theme::SMALL_TEXT).color(palette(ui).weak));
     path_line(ui, folder, true, model.language, messages);
+}
+
+/// Who was disconnected by a change of whom the controllers trust, and the way back.
+fn trust_changed(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {
+    let cut: Vec<CutClient> = job.rows.iter().flat_map(|row| row.cut.iter().cloned()).collect();
+    if !cut.is_empty() {
+        ui.add_space(theme::SPACE);
+        note(ui, palette(ui).warning, |ui| trust::cut(ui, &cut, model));
+    }
+    if job.rows.iter().any(|row| row.undo.is_some()) {
+        ui.add_space(theme::SPACE);
+        if ui.button(T::TrustUndo.text(model.language)).clicked() {
+            messages.push(Message::Trust(TrustAction::UndoJob));
+        }
+    }
 }
 
 fn cancelling(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {

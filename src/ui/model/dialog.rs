@@ -1,5 +1,6 @@
 use std::collections::BTreeSet;
 
+use super::trust::{AddTrustForm, DeleteTrust, DetailsView, TrustForm};
 use super::{
     ActivationForm, CaSignedForm, ConnectionListForm, DropForm, ExportForm, FileForm, ImportReview, KeysForm, LogView,
     Purpose, RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm, VerifyView,
@@ -32,6 +33,10 @@ pub enum Dialog {
     ImportReview(ImportReview),
     Transfer(TransferForm),
     ServerLog(LogView),
+    Trust(Box<TrustForm>),
+    AddTrust(AddTrustForm),
+    DeleteTrust(DeleteTrust),
+    TrustDetails(Box<DetailsView>),
     Drop(DropForm),
     Backup { on: bool },
     Options,
@@ -52,6 +57,7 @@ impl Dialog {
                 | Self::ExportSelfSigned(_)
                 | Self::Activation(_)
                 | Self::Transfer(_)
+                | Self::AddTrust(_)
         )
     }
 

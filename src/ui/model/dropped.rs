@@ -56,8 +56,8 @@ const ROUTES: &[Route] = &[
     Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::One(CERTIFICATE), of_one: true, open: Model::open_user_certificate },
     Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::One(KEY), of_one: true, open: Model::open_user_key },
     Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::Not(KEY_AND_CERTIFICATE, TextKey::WhySplitKey), of_one: true, open: Model::open_nothing },
-    Route { command: UiCommand::ClientLists, title: TextKey::MenuClients, takes: Takes::Any(&[CERTIFICATE, CHAIN, BUNDLE]), of_one: false, open: Model::open_nothing },
-    Route { command: UiCommand::Crl, title: TextKey::DropCrl, takes: Takes::Any(&[CRL, BUNDLE]), of_one: false, open: Model::open_nothing },
+    Route { command: UiCommand::ClientLists, title: TextKey::MenuClients, takes: Takes::Any(&[CERTIFICATE, CHAIN, BUNDLE]), of_one: false, open: Model::open_clients_of },
+    Route { command: UiCommand::Crl, title: TextKey::DropCrl, takes: Takes::Any(&[CRL, BUNDLE]), of_one: false, open: Model::open_crls_of },
     Route { command: UiCommand::CertificateAuthority, title: TextKey::DropAuthority, takes: Takes::Any(&[CSR]), of_one: false, open: Model::open_nothing },
 ];
 
@@ -125,6 +125,8 @@ pub struct Hover {
     pub paths: Vec<PathBuf>,
     /// `None` while they are looked at.
     pub found: Option<DropForm>,
+    /// The dialog on top takes them, whatever they are.
+    pub taken: bool,
 }
 
 impl Model {
@@ -163,11 +165,15 @@ impl Model {
             return vec![];
         }
         let job = self.next_job();
-        if let Some(blocked) = self.why_no_drop(paths.len()) {
-            self.hover = Some(Hover { job, paths, found: Some(DropForm::blocked(blocked)) });
+        if self.takes_trust_files() {
+            self.hover = Some(Hover { job, paths, found: None, taken: true });
             return vec![];
         }
-        self.hover = Some(Hover { job, paths: paths.clone(), found: None });
+        if let Some(blocked) = self.why_no_drop(paths.len()) {
+            self.hover = Some(Hover { job, paths, found: Some(DropForm::blocked(blocked)), taken: false });
+            return vec![];
+        }
+        self.hover = Some(Hover { job, paths: paths.clone(), found: None, taken: false });
         // Not every desktop says what they are before they are dropped.
         let told = paths.iter().all(|path| !path.as_os_str().is_empty());
         if told { vec![Command::Recognise { job, paths }] } else { vec![] }
@@ -175,6 +181,9 @@ impl Model {
 
     pub(super) fn drop_files(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
         self.hover = None;
+        if self.takes_trust_files() {
+            return self.dropped_trust(paths);
+        }
         self.dialogs.pop_if(|dialog| matches!(dialog, Dialog::Drop(_)));
         if let Some(blocked) = self.why_no_drop(paths.len()) {
             self.dialogs.push(Dialog::Drop(DropForm::blocked(blocked)));

@@ -3,9 +3,12 @@ use std::sync::Arc;
 
 use secrecy::SecretString;
 
+use super::trust::TrustTask;
 use super::{ImportSource, RowId};
+use crate::jobs::TrustUndo;
 use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
 use crate::model::{CertificateType, Credential, ErrorCode, FileFormat, Problem};
+use crate::protocol::CutClient;
 use crate::session::opcua_client::Patience;
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
@@ -58,6 +61,7 @@ pub enum Task {
         login: Option<Credential>,
     },
     TrustConfigurator,
+    Trust(TrustTask),
 }
 
 impl Task {
@@ -106,6 +110,7 @@ impl Task {
                 patience: Patience::default(),
             }),
             Self::TrustConfigurator => Arc::new(jobs::TrustConfigurator { identity: workspace.own_identity() }),
+            Self::Trust(task) => task.operation(),
             Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
             Self::DeleteLog => Arc::new(jobs::SetSettings {
                 change: jobs::SettingsChange { delete_log: true, ..Default::default() },
@@ -135,6 +140,7 @@ impl Task {
             Self::TrustConfigurator => TextKey::TrustConfiguratorTitle,
             Self::ReadLog => TextKey::ServerLog,
             Self::DeleteLog => TextKey::DeleteLog,
+            Self::Trust(task) => task.title(),
         }
     }
 
@@ -178,6 +184,9 @@ pub enum Purpose {
     /// The processing dialog, and in the end the reports; one controller that cannot be asked does not keep the others
     /// out.
     Verify,
+    LoadTrust,
+    /// The dialog with the lists of one controller, which shows by itself what came of it.
+    ChangeTrust,
 }
 
 impl Purpose {
@@ -227,6 +236,10 @@ pub struct JobRow {
     pub state: RowState,
     /// What was asked for and is on this computer now.
     pub saved: Option<PathBuf>,
+    /// Whose connections the change ended.
+    pub cut: Vec<CutClient>,
+    /// What takes a change of whom it trusts back.
+    pub undo: Option<TrustUndo>,
 }
 
 /// A job, running or ended.
@@ -241,6 +254,12 @@ pub struct Job {
     pub cancel: CancelState,
     /// Set when it has ended.
     pub summary: Option<Summary>,
+}
+
+impl JobRow {
+    pub fn new(row: RowId, name: String) -> Self {
+        Self { row, name, state: RowState::Waiting, saved: None, cut: Vec::new(), undo: None }
+    }
 }
 
 impl Job {

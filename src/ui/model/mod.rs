@@ -15,6 +15,7 @@ mod reduce_dialogs;
 mod rows;
 mod server_log;
 mod transfer;
+pub mod trust;
 mod verify;
 
 #[cfg(test)]
@@ -37,7 +38,7 @@ pub use files::{FileForm, PathField};
 pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, UserFiles, UserSpecifiedForm};
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
-pub use rows::{Column, Expiry, Row, RowId, Rows};
+pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
 pub use server_log::LogView;
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
 pub use verify::VerifyView;
@@ -47,6 +48,7 @@ use super::command::UiCommand;
 use super::texts::Zone;
 use crate::model::{Language, Problem};
 use crate::workspace::{Configuration, Options, ThemeChoice, Workspace};
+use trust::TrustAction;
 
 /// Everything the views draw from.
 #[derive(Debug)]
@@ -129,6 +131,8 @@ pub enum Message {
     TrustConfigurator,
     /// Delete the server log that is shown.
     DeleteLog,
+    /// About client certificates and CRLs.
+    Trust(TrustAction),
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.
@@ -188,6 +192,9 @@ impl Model {
     pub fn set_now(&mut self, now: DateTime<Utc>) {
         self.now = now;
         self.rows.refresh_expiry(now);
+        if let Some(form) = self.trust() {
+            form.refresh(now);
+        }
     }
 
     fn next_job(&mut self) -> JobId {

@@ -1,5 +1,6 @@
 //! The one place where the model changes.
 
+use super::trust::Shows;
 use super::{
     ActivationForm, AddController, CancelState, Column, Dialog, ExportForm, Job, JobId, JobRow, Message, Model,
     PasswordForm, ProcessingView, Purpose, RowId, RowState, Task, Transfer, Typed,
@@ -47,6 +48,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::DeleteLog => commands = model.delete_log(),
         Message::VerifyChanged => commands = model.verify_changed(),
         Message::TrustConfigurator => commands = model.trust_configurator(),
+        Message::Trust(action) => commands = model.trust_action(action),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -109,6 +111,8 @@ impl Model {
                 return vec![];
             }
             UiCommand::TypeSelect => return self.open_type_select(ticked),
+            UiCommand::ClientLists => return self.open_trust(Shows::Clients, ticked),
+            UiCommand::Crl => return self.open_trust(Shows::Crls, ticked),
             UiCommand::ExportSettings => return self.open_transfer(Transfer::Export, ticked),
             UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
             UiCommand::ServerLog => return ticked.first().map(|row| self.open_log(*row)).unwrap_or_default(),
@@ -164,10 +168,7 @@ impl Model {
         let id = self.next_job();
         let entries: Vec<_> = rows.iter().filter_map(|row| self.rows.get(*row)).collect();
         let controllers: Vec<JobController> = entries.iter().map(|row| JobController::from(&row.entry)).collect();
-        let rows = entries
-            .iter()
-            .map(|row| JobRow { row: row.id, name: row.entry.name.to_string(), state: RowState::Waiting, saved: None })
-            .collect::<Vec<_>>();
+        let rows = entries.iter().map(|row| JobRow::new(row.id, row.entry.name.to_string())).collect::<Vec<_>>();
         self.status = None;
         if purpose.is_shown() {
             for row in &rows {
@@ -209,6 +210,15 @@ impl Model {
             Event::FilePicked { job, result } => self.file_picked(job, result),
             Event::FileRead { job, result } => {
                 self.file_read(job, result);
+                vec![]
+            }
+            Event::FilesPicked { job, result } => self.trust_files_picked(job, result),
+            Event::TrustFilesRead { job, files } => {
+                self.trust_files_read(job, files);
+                vec![]
+            }
+            Event::TrustSeen { job, event } => {
+                self.trust_seen(job, event);
                 vec![]
             }
             Event::Recognised { job, files } => self.recognised(job, files),
@@ -257,6 +267,10 @@ impl Model {
                     Some(Outcome::Certificate { saved: Some(saved), .. }) => Some(saved.certificate.clone()),
                     _ => None,
                 };
+                if let (Some(Outcome::TrustChanged(change)), Purpose::Show) = (&outcome, purpose) {
+                    row.cut.clone_from(&change.cut);
+                    row.undo.clone_from(&change.undo);
+                }
                 let id = row.row;
                 row.state = state.clone();
                 job.finished += 1;
@@ -311,6 +325,7 @@ impl Model {
             Purpose::LoadCertificates => self.certificates_ended(),
             Purpose::Check => self.checks_ended(),
             Purpose::Verify => self.verify_ended(),
+            Purpose::LoadTrust | Purpose::ChangeTrust => self.trust_job_ended(),
             Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies | Purpose::LoadLog => {
                 let problem =
                     self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 
 use secrecy::SecretString;
 
+use super::trust::TrustAction;
 use super::{
     AddStage, AddUserForm, CancelState, Dialog, JobId, Model, Purpose, RowId, SelfSignedForm, SettingsForm, Task,
     Typed, UsersForm,
@@ -155,6 +156,13 @@ impl Model {
                 let planned = form.task().map(|task| (task, form.rows.clone()));
                 self.ask(Dialog::Transfer(form), planned)
             }
+            Dialog::Trust(form) => {
+                self.dialogs.push(Dialog::Trust(form));
+                self.trust_action(TrustAction::Details);
+                vec![]
+            }
+            Dialog::AddTrust(form) => self.submit_add_trust(form),
+            Dialog::DeleteTrust(asked) => self.delete_trust(asked),
             Dialog::Drop(form) if form.offers() => self.submit_dropped(form),
             Dialog::Backup { on } => {
                 self.options.backup = on;
@@ -198,6 +206,15 @@ impl Model {
                 self.certificates_ended();
                 vec![]
             }
+            Some(Dialog::Password(form)) if matches!(form.purpose, Purpose::LoadTrust | Purpose::ChangeTrust) => {
+                self.dialogs.pop();
+                self.trust_without_password();
+                vec![]
+            }
+            Some(Dialog::Trust(_)) => match self.dialogs.pop() {
+                Some(Dialog::Trust(form)) => self.close_trust(&form),
+                _ => vec![],
+            },
             Some(Dialog::Password(form)) if form.purpose == Purpose::Check => {
                 self.dialogs.pop();
                 self.checks_ended();
@@ -448,6 +465,7 @@ impl Model {
                 }
                 vec![]
             }
+            (Purpose::LoadTrust | Purpose::ChangeTrust, outcome) => self.trust_loaded(outcome),
             (Purpose::CountUsers, Outcome::Users(users)) => {
                 if let Some(Dialog::Settings(form)) = self.form() {
                     form.users = Some(users.value.len());

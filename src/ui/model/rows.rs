@@ -7,7 +7,7 @@ use crate::ui::model::RowState;
 use crate::workspace::{ControllerEntry, Retrieved};
 
 /// A certificate that expires within this time is pointed out.
-const EXPIRES_SOON: Duration = Duration::days(30);
+pub const EXPIRES_SOON: Duration = Duration::days(30);
 
 /// A column of the table, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

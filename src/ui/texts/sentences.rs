@@ -197,7 +197,7 @@ pub fn version(language: Language, version: &str) -> String {
     }
 }
 
-pub fn bits(language: Language, bits: u16) -> String {
+pub fn bits(language: Language, bits: impl std::fmt::Display) -> String {
     match language {
         Language::En => format!("{bits} bits"),
         Language::Zh => format!("{bits} 位"),

@@ -1,13 +1,13 @@
 use std::collections::BTreeMap;
 
-use egui::{Align, Checkbox, Label, Layout, RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align, Checkbox, Label, Layout, RichText, ScrollArea, Sense, Ui, vec2};
 use egui_extras::{Column as TableColumn, TableBuilder, TableRow};
 
 use crate::model::ServerStatus;
 use crate::ui::model::{Column, Expiry, Message, Model, Row, RowState};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, Palette, palette};
-use crate::ui::widgets::{chip, word};
+use crate::ui::widgets::{chip, sort_heading, word};
 
 const fn title(column: Column) -> T {
     match column {
@@ -58,7 +58,12 @@ fn table(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
         .header(theme::HEADER_HEIGHT, |mut header| {
             header.col(|ui| tick_all(ui, model, messages));
             for column in Column::ALL {
-                header.col(|ui| heading(ui, column, model, palette, messages));
+                header.col(|ui| {
+                    let ascending = model.rows.sort.and_then(|(by, ascending)| (by == column).then_some(ascending));
+                    if sort_heading(ui, title(column), ascending, model.language) {
+                        messages.push(Message::Sort(column));
+                    }
+                });
             }
         })
         .body(|body| {
@@ -81,33 +86,6 @@ fn tick_all(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     if response.on_hover_text(T::TickAllTip.text(model.language)).clicked() {
         messages.push(Message::TickAll(all));
     }
-}
-
-fn heading(ui: &mut Ui, column: Column, model: &Model, palette: &Palette, messages: &mut Vec<Message>) {
-    let text = title(column).text(model.language);
-    let ascending = model.rows.sort.and_then(|(by, ascending)| (by == column).then_some(ascending));
-    let color = if ascending.is_some() { palette.text } else { palette.weak };
-    let label = RichText::new(text).size(theme::HEADER_TEXT).strong().color(color);
-    let response = ui.add(Label::new(label).truncate().selectable(false).sense(Sense::click()));
-    let name = texts::sort_by(model.language, title(column));
-    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &name));
-    if response.on_hover_text(texts::sorted_tip(model.language)).clicked() {
-        messages.push(Message::Sort(column));
-    }
-    if let Some(ascending) = ascending {
-        sort_arrow(ui, ascending, color);
-    }
-}
-
-/// Drawn, as no font that is always there has such a character.
-fn sort_arrow(ui: &mut Ui, ascending: bool, color: egui::Color32) {
-    let (rect, _) = ui.allocate_exact_size(vec2(8.0, 5.0), Sense::hover());
-    let points = if ascending {
-        vec![rect.left_bottom(), rect.center_top(), rect.right_bottom()]
-    } else {
-        vec![rect.left_top(), rect.right_top(), rect.center_bottom()]
-    };
-    ui.painter().add(egui::Shape::convex_polygon(points, color, egui::Stroke::NONE));
 }
 
 fn remember_widths(widths: &[f32], model: &Model, messages: &mut Vec<Message>) {

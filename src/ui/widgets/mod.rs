@@ -4,10 +4,12 @@ mod button;
 mod chip;
 mod dialog;
 mod field;
+mod heading;
 mod list;
 
 pub use button::{command_button, command_item, primary};
 pub use chip::{chip, word};
 pub use dialog::{Answer, Buttons, dialog, note};
 pub use field::{choices, fine_print, form, labelled, mistake, path_field, path_line, secret_field, text_field};
+pub use heading::sort_heading;
 pub use list::{cell, list, list_title};

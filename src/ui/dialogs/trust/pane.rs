@@ -1,0 +1,387 @@
+use egui::{
+    Align, Button, Checkbox, Color32, Frame, Label, Layout, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2,
+};
+use egui_extras::{Column, TableBuilder, TableRow};
+
+use super::moves;
+use crate::ui::model::trust::{Entry, Life, Pane, PaneKind, TrustAction, TrustColumn, TrustForm};
+use crate::ui::model::{Message, Model};
+use crate::ui::texts::{self, TextKey as T};
+use crate::ui::theme::{self, Palette, palette};
+use crate::ui::widgets::{chip, sort_heading, word};
+
+/// One list: how full it is, what can be done with it, and its lines. Only the lines in sight are laid out. `alone`:
+/// there is no room for the others, which can be changed to.
+pub fn show(
+    ui: &mut Ui,
+    form: &mut TrustForm,
+    index: usize,
+    size: Vec2,
+    alone: bool,
+    model: &Model,
+    messages: &mut Vec<Message>,
+) {
+    let palette = palette(ui);
+    let has_focus = form.focus == index && form.panes.len() > 1;
+    let line = if has_focus { palette.accent } else { palette.line };
+    let layout = Layout::top_down(Align::Min);
+    ui.allocate_ui_with_layout(size, layout, |ui| {
+        ui.set_min_size(size);
+        ui.push_id(index, |ui| {
+            Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(8).inner_margin(theme::TRUST_MARGIN).show(
+                ui,
+                |ui| {
+                    let inner = size - theme::TRUST_MARGIN.sum() - vec2(2.0, 2.0);
+                    ui.set_min_size(inner);
+                    ui.set_max_size(inner);
+                    let top = ui.cursor().top();
+                    head(ui, form, index, alone, model, messages);
+                    ui.add_space(theme::SPACE / 2.0);
+                    let height = inner.y - (ui.cursor().top() - top);
+                    if form.panes[index].shown() == 0 {
+                        empty(ui, form, index, height, model);
+                    } else {
+                        table(ui, form, index, height, model, messages);
+                    }
+                },
+            );
+        });
+    });
+}
+
+fn head(ui: &mut Ui, form: &mut TrustForm, index: usize, alone: bool, model: &Model, messages: &mut Vec<Message>) {
+    let size = vec2(ui.available_width(), theme::BUTTON_HEIGHT);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.spacing_mut().button_padding.x = theme::SPACE;
+        buttons(ui, form, index, model, messages);
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            if alone {
+                tabs(ui, form, model);
+            } else {
+                title(ui, &form.panes[index], model);
+            }
+        });
+    });
+}
+
+fn title(ui: &mut Ui, pane: &Pane, model: &Model) {
+    let (language, palette) = (model.language, palette(ui));
+    ui.label(RichText::new(texts::pane(pane.kind).text(language)).strong());
+    if pane.new_ones() > 0 {
+        chip(ui, &texts::new_clients(language, pane.new_ones()), palette.warning);
+    }
+    let color = if pane.is_full() && !pane.is_empty() { palette.error } else { palette.weak };
+    let said = fullness(pane, model);
+    ui.add(Label::new(RichText::new(&said).size(theme::HEADER_TEXT).color(color)).truncate()).on_hover_text(said);
+}
+
+/// How many there are, of how many that fit, and how many are ticked.
+fn fullness(pane: &Pane, model: &Model) -> String {
+    // There is no such list.
+    if pane.limit == Some(0) {
+        return String::new();
+    }
+    let full = texts::how_full(model.language, pane.len(), pane.limit);
+    match pane.ticked_count() {
+        0 => full,
+        ticked => texts::full_and_ticked(model.language, &full, ticked, pane.ticked_hidden()),
+    }
+}
+
+/// One tab a list.
+fn tabs(ui: &mut Ui, form: &mut TrustForm, model: &Model) {
+    for index in 0..form.panes.len() {
+        let pane = &form.panes[index];
+        let mut said = format!("{}  {}", texts::pane(pane.kind).text(model.language), fullness(pane, model));
+        if pane.new_ones() > 0 {
+            said = format!("{said} ({})", texts::new_clients(model.language, pane.new_ones()));
+        }
+        let selected = form.focus == index;
+        let name = texts::pane(pane.kind).text(model.language);
+        let text = RichText::new(said.trim_end());
+        let button = Button::selectable(selected, if selected { text.strong() } else { text });
+        if ui.add(button).accessible_name(name).clicked() {
+            form.focus = index;
+        }
+    }
+}
+
+/// From right to left.
+fn buttons(ui: &mut Ui, form: &TrustForm, index: usize, model: &Model, messages: &mut Vec<Message>) {
+    let text = |key: T| key.text(model.language);
+    let pane = &form.panes[index];
+    let busy = (!form.is_ready()).then_some(T::TrustBusy);
+    let nothing = (pane.ticked_count() == 0 && pane.cursor().is_none()).then_some(T::TrustChoose);
+    let name = text(texts::pane(pane.kind));
+    let mut button = |ui: &mut Ui, label: T, why: Option<T>, tip: Option<T>, action: TrustAction| {
+        let response = ui.add_enabled(why.is_none(), Button::new(text(label)).min_size(vec2(0.0, theme::DENSE_HEIGHT)));
+        let response = response.accessible_name(format!("{}: {}", name, text(label)));
+        let response = response.on_disabled_hover_text(why.map_or("", text));
+        let response = match tip {
+            Some(tip) => response.on_hover_text(text(tip)),
+            None => response,
+        };
+        if response.clicked() {
+            messages.push(Message::Trust(action));
+        }
+    };
+    if pane.kind.destination().is_some() {
+        let legacy = (pane.kind == PaneKind::Issuers && !form.has_issuers()).then_some(T::TrustIssuersWhy);
+        let full = pane.is_full().then_some(T::TrustFull);
+        button(ui, T::TrustAddTo, busy.or(legacy).or(full), None, TrustAction::Add(pane.kind));
+    }
+    button(ui, T::DeleteControllers, busy.or(nothing), None, TrustAction::Delete(pane.kind));
+    if let Some((to, label, tip)) = moves(pane.kind) {
+        let full = form.pane(to).is_some_and(Pane::is_full).then_some(T::TrustFull);
+        button(ui, label, busy.or(nothing).or(full), Some(tip), TrustAction::Move { from: pane.kind, to });
+    }
+}
+
+/// Says what to do.
+fn empty(ui: &mut Ui, form: &TrustForm, index: usize, height: f32, model: &Model) {
+    let pane = &form.panes[index];
+    let key = match pane.kind {
+        _ if !pane.is_empty() => T::TrustNothingFound,
+        PaneKind::Issuers if !form.has_issuers() => T::TrustIssuersLegacy,
+        kind => texts::pane_empty(kind),
+    };
+    let weak = palette(ui).weak;
+    ui.add_space((height * 0.2).max(0.0));
+    ui.vertical_centered(|ui| {
+        ui.set_max_width((ui.available_width() - 4.0 * theme::SPACE).min(theme::DIALOG));
+        ui.add(Label::new(RichText::new(key.text(model.language)).color(weak)).wrap());
+    });
+}
+
+fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &Model, messages: &mut Vec<Message>) {
+    let palette = palette(ui);
+    let has_focus = form.focus == index;
+    let pane = &mut form.panes[index];
+    let columns = pane.kind.columns();
+    let mut clicked = None;
+    ScrollArea::horizontal().id_salt("wide").auto_shrink(false).max_height(height).show(ui, |ui| {
+        ui.spacing_mut().item_spacing = vec2(10.0, 0.0);
+        // The text of ticked rows.
+        ui.visuals_mut().selection.stroke.color = palette.text;
+        let below =
+            height - theme::HEADER_HEIGHT - ui.spacing().scroll.bar_width - ui.spacing().scroll.bar_outer_margin;
+        let mut builder = TableBuilder::new(ui)
+            .id_salt("lines")
+            .striped(true)
+            .sense(Sense::click())
+            .resizable(true)
+            .cell_layout(Layout::left_to_right(Align::Center))
+            .auto_shrink(false)
+            .min_scrolled_height(below)
+            .max_scroll_height(below)
+            .column(Column::exact(theme::TICK_COLUMN).resizable(false));
+        for column in columns {
+            let last = columns.last() == Some(column);
+            let width = width(*column);
+            let kind = if last { Column::remainder() } else { Column::initial(width) };
+            builder = builder.column(kind.at_least(if last { width } else { theme::MIN_COLUMN }).clip(true));
+        }
+        if std::mem::take(&mut pane.reveal)
+            && let Some(cursor) = pane.cursor()
+        {
+            builder = builder.scroll_to_row(cursor, None);
+        }
+        builder
+            .header(theme::HEADER_HEIGHT, |mut header| {
+                header.col(|ui| tick_all(ui, pane, model));
+                for column in columns {
+                    header.col(|ui| {
+                        let ascending = (pane.sort.0 == *column).then_some(pane.sort.1);
+                        if sort_heading(ui, texts::trust_column(*column), ascending, model.language) {
+                            pane.sort_by(*column);
+                        }
+                    });
+                }
+            })
+            .body(|body| {
+                body.rows(theme::ROW_HEIGHT, pane.shown(), |mut row| {
+                    clicked = draw(&mut row, pane, columns, has_focus, model, palette).or(clicked);
+                });
+            });
+    });
+    match clicked {
+        None => {}
+        Some((at, Click::Tick { range })) => {
+            form.focus = index;
+            form.panes[index].toggle(at, range);
+        }
+        Some((at, click)) => {
+            form.focus = index;
+            form.panes[index].place_cursor(at);
+            if click == Click::Open {
+                messages.push(Message::Trust(TrustAction::Details));
+            }
+        }
+    }
+}
+
+fn tick_all(ui: &mut Ui, pane: &mut Pane, model: &Model) {
+    ui.add_space(10.0);
+    let mut all = pane.all_shown_ticked();
+    let some = pane.ticked_count() > pane.ticked_hidden() && !all;
+    let name = format!("{}: {}", texts::pane(pane.kind).text(model.language), T::TickAll.text(model.language));
+    let response = ui.add(Checkbox::without_text(&mut all).indeterminate(some)).accessible_name(name);
+    if response.clicked() {
+        pane.tick_shown(all);
+    }
+}
+
+const fn width(column: TrustColumn) -> f32 {
+    use TrustColumn as C;
+    match column {
+        C::IssuedTo | C::IssuedBy => 140.0,
+        C::Issuer => 220.0,
+        C::FileName => 130.0,
+        C::SerialNumber => 140.0,
+        C::ValidFrom => 95.0,
+        C::ValidUntil => 155.0,
+        C::Thumbprint => 330.0,
+        C::Reason | C::Health => 240.0,
+        C::Address => 115.0,
+        C::Count | C::Entries => 70.0,
+        C::FirstSeen | C::LastSeen | C::ThisUpdate => 130.0,
+        C::NextUpdate => 190.0,
+        C::Number => 90.0,
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Click {
+    Tick { range: bool },
+    Place,
+    Open,
+}
+
+fn draw(
+    row: &mut TableRow<'_, '_>,
+    pane: &Pane,
+    columns: &[TrustColumn],
+    has_focus: bool,
+    model: &Model,
+    palette: &Palette,
+) -> Option<(usize, Click)> {
+    let position = row.index();
+    let entry = pane.at(position)?;
+    let ticked = pane.is_ticked(&entry.id);
+    row.set_selected(ticked);
+    let mut click = None;
+    let mut modifiers = egui::Modifiers::NONE;
+    row.col(|ui| {
+        modifiers = ui.input(|input| input.modifiers);
+        if pane.cursor() == Some(position) {
+            let rect = ui.max_rect();
+            let bar = egui::Rect::from_min_size(rect.left_top(), vec2(3.0, theme::ROW_HEIGHT));
+            ui.painter().rect_filled(bar, 0.0, if has_focus { palette.accent } else { palette.line });
+        }
+        ui.add_space(10.0);
+        let mut on = ticked;
+        let tick = ui.add(Checkbox::without_text(&mut on));
+        if tick.accessible_name(texts::tick_row(model.language, &entry.issued_to)).clicked() {
+            click = Some(Click::Tick { range: modifiers.shift });
+        }
+    });
+    for column in columns {
+        row.col(|ui| cell(ui, *column, entry, model, palette));
+    }
+    let response = row.response();
+    if response.double_clicked() {
+        click = Some(Click::Open);
+    } else if response.clicked() {
+        let ticks = modifiers.shift || modifiers.command;
+        click = Some(if ticks { Click::Tick { range: modifiers.shift } } else { Click::Place });
+    }
+    click.map(|click| (position, click))
+}
+
+fn cell(ui: &mut Ui, column: TrustColumn, entry: &Entry, model: &Model, palette: &Palette) {
+    use TrustColumn as C;
+    let language = model.language;
+    let plain = |ui: &mut Ui, text: &str| drop(ui.add(Label::new(text).truncate()));
+    let weak = |ui: &mut Ui, text: &str, monospace: bool| {
+        let text = RichText::new(text).color(palette.weak);
+        ui.add(Label::new(if monospace { text.monospace() } else { text }).truncate());
+    };
+    match column {
+        C::IssuedTo | C::Issuer => {
+            if entry.refusal.as_ref().is_some_and(|refusal| refusal.is_new) {
+                let (rect, _) = ui.allocate_exact_size(vec2(8.0, theme::ROW_HEIGHT), Sense::hover());
+                ui.painter().circle_filled(rect.center(), theme::CHIP_DOT + 1.0, palette.warning);
+                word(ui, T::TrustNew.text(language), palette.warning);
+            }
+            ui.add(Label::new(RichText::new(&entry.issued_to).strong()).truncate());
+        }
+        C::IssuedBy => plain(ui, &entry.issued_by),
+        C::FileName => plain(ui, &entry.file_name),
+        C::SerialNumber => weak(ui, &entry.serial_number, true),
+        C::Thumbprint => weak(ui, &entry.id, true),
+        C::ValidFrom | C::ThisUpdate => {
+            let color = if entry.life == Life::NotYet { palette.error } else { palette.text };
+            ui.label(RichText::new(&entry.from.text).color(color));
+        }
+        C::ValidUntil | C::NextUpdate => life(ui, entry, model, palette),
+        C::Number => weak(ui, &entry.serial_number, true),
+        C::Reason | C::Address | C::Count | C::FirstSeen | C::LastSeen => {
+            let Some(refusal) = &entry.refusal else { return };
+            match column {
+                C::Reason => {
+                    let said = refusal.status.explain(language);
+                    ui.add(Label::new(RichText::new(said).color(palette.error)).truncate()).on_hover_text(said);
+                }
+                C::Address => weak(ui, &refusal.address, true),
+                C::Count => plain(ui, &refusal.count.to_string()),
+                C::FirstSeen => weak(ui, &refusal.first_seen.text, false),
+                _ => weak(ui, &refusal.last_seen.text, false),
+            }
+        }
+        C::Entries => {
+            if let Some(crl) = &entry.crl {
+                plain(ui, &crl.entries.to_string());
+            }
+        }
+        C::Health => {
+            let Some(health) = entry.crl.as_ref().and_then(|crl| Some((crl, crl.health.as_ref()?))) else { return };
+            let (said, color) = health_words(health.0, health.1, model, palette);
+            ui.add(Label::new(RichText::new(&said).color(color)).truncate()).on_hover_text(said);
+        }
+    }
+}
+
+/// What a CRL is good for.
+pub(super) fn health_words(
+    crl: &crate::ui::model::trust::Crl,
+    health: &crate::pki::CrlHealth,
+    model: &Model,
+    palette: &Palette,
+) -> (String, Color32) {
+    let words = texts::crl_health(health);
+    let color = if health.is_usable() { palette.ok } else { palette.error };
+    match &crl.covers {
+        Some(authority) => (texts::covers(model.language, words, authority), color),
+        None => (words.text(model.language).to_owned(), color),
+    }
+}
+
+fn life(ui: &mut Ui, entry: &Entry, model: &Model, palette: &Palette) {
+    let Some(until) = &entry.until else {
+        ui.label(RichText::new("—").color(palette.weak));
+        return;
+    };
+    let words = match entry.life {
+        Life::Past => Some((T::Expired, palette.error)),
+        Life::Soon { .. } => Some((T::ExpiresSoon, palette.warning)),
+        Life::NotYet => Some((T::TrustNotYetValid, palette.error)),
+        Life::Good => None,
+    };
+    ui.label(RichText::new(&until.text).color(words.map_or(palette.text, |(_, color)| color)));
+    if let Some((key, color)) = words {
+        let response = word(ui, key.text(model.language), color);
+        if let Life::Soon { days } = entry.life {
+            response.on_hover_text(texts::days_left(model.language, days));
+        }
+    }
+}

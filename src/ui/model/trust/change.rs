@@ -1,0 +1,193 @@
+//! What is done to the lists of one controller: delete, move, undo.
+
+use std::collections::BTreeMap;
+
+use super::{Done, Link, PaneKind, TrustAction, TrustForm, TrustTask};
+use crate::jobs::{MoveClients, Outcome, RemoveClients, RemoveCrls, TrustChange, UndoTrust};
+use crate::model::{ErrorCode, Problem};
+use crate::ui::backend::Command;
+use crate::ui::model::{Dialog, Model, Purpose, RowId, Task};
+
+/// What is to be deleted, to be agreed to.
+#[derive(Debug)]
+pub struct DeleteTrust {
+    pub name: String,
+    pub from: PaneKind,
+    /// Id, and what it is called.
+    pub what: Vec<(String, String)>,
+    revision: Option<u64>,
+}
+
+impl Model {
+    pub(in crate::ui::model) fn trust_action(&mut self, action: TrustAction) -> Vec<Command> {
+        match action {
+            TrustAction::Add(kind) => return self.add_to(kind),
+            TrustAction::Delete(kind) => self.ask_delete(kind),
+            TrustAction::Move { from, to } => return self.move_clients(from, to),
+            TrustAction::Undo => return self.undo_trust(),
+            TrustAction::UndoJob => return self.undo_job(),
+            TrustAction::Details => self.open_details(),
+            TrustAction::Reconnect => return self.reconnect(),
+            TrustAction::ChooseFiles => return self.choose_trust_files(),
+            TrustAction::ReadTyped => return self.read_typed_trust(),
+            TrustAction::LeaveOut(index) => self.leave_out(index),
+            TrustAction::Replan => self.replan(),
+        }
+        vec![]
+    }
+
+    /// The form on top, if another change may be made to it now.
+    fn changing(&mut self) -> Option<&mut TrustForm> {
+        match self.dialogs.last_mut() {
+            Some(Dialog::Trust(form)) if form.is_ready() => Some(form),
+            _ => None,
+        }
+    }
+
+    fn ask_delete(&mut self, kind: PaneKind) {
+        let Some(form) = self.changing() else { return };
+        let chosen = form.pane(kind).map(|pane| pane.chosen()).unwrap_or_default();
+        let what: Vec<_> = chosen.into_iter().map(|entry| (entry.id.clone(), entry.issued_to.clone())).collect();
+        if what.is_empty() {
+            return;
+        }
+        let revision = form.held.as_ref().map(|held| held.revision);
+        let asked = DeleteTrust { name: form.name.clone(), from: kind, what, revision };
+        self.dialogs.push(Dialog::DeleteTrust(asked));
+    }
+
+    pub(in crate::ui::model) fn delete_trust(&mut self, asked: DeleteTrust) -> Vec<Command> {
+        let count = asked.what.len();
+        let ids = asked.what.into_iter().map(|(id, _)| id).collect();
+        let task = match asked.from.list() {
+            Some(list) => {
+                TrustTask::RemoveClients(RemoveClients { list: Some(list), thumbprints: ids, based_on: asked.revision })
+            }
+            None => TrustTask::RemoveCrls(RemoveCrls { ids, based_on: asked.revision }),
+        };
+        self.change(task, Done::Deleted { from: asked.from, count })
+    }
+
+    fn move_clients(&mut self, from: PaneKind, to: PaneKind) -> Vec<Command> {
+        let (Some(list), Some(to_list)) = (from.list(), to.list()) else { return vec![] };
+        let Some(form) = self.changing() else { return vec![] };
+        let chosen = form.pane(from).map(|pane| pane.chosen()).unwrap_or_default();
+        let thumbprints: Vec<String> = chosen.into_iter().map(|entry| entry.id.clone()).collect();
+        if thumbprints.is_empty() {
+            return vec![];
+        }
+        let done = Done::Moved { from, to, count: thumbprints.len() };
+        // Whatever else was changed meanwhile: the certificates are named, so nothing else can be meant.
+        let task = TrustTask::Move(MoveClients { from: list, to: to_list, thumbprints, based_on: None });
+        self.change(task, done)
+    }
+
+    fn undo_trust(&mut self) -> Vec<Command> {
+        let Some(form) = self.changing() else { return vec![] };
+        let Some(undo) = form.undo.last().cloned() else { return vec![] };
+        let row = form.row;
+        let Some(name) = self.rows.get(row).map(|row| row.entry.name.clone()) else { return vec![] };
+        self.change(TrustTask::Undo(UndoTrust(BTreeMap::from([(name, undo)]))), Done::TakenBack)
+    }
+
+    /// Takes back what the job that ended did, wherever it did it.
+    fn undo_job(&mut self) -> Vec<Command> {
+        let Some(job) = self.job.as_mut().filter(|job| job.summary.is_some()) else { return vec![] };
+        let rows: Vec<(RowId, _)> = job.rows.iter_mut().filter_map(|row| Some((row.row, row.undo.take()?))).collect();
+        let undo: BTreeMap<_, _> = rows
+            .iter()
+            .filter_map(|(row, undo)| Some((self.rows.get(*row)?.entry.name.clone(), undo.clone())))
+            .collect();
+        if undo.is_empty() {
+            return vec![];
+        }
+        self.end_processing();
+        let rows = rows.into_iter().map(|(row, _)| row).collect();
+        self.start(Task::Trust(TrustTask::Undo(UndoTrust(undo))), rows, Purpose::Show, None)
+    }
+
+    /// Makes a change to the lists of the one controller, without a dialog of its own.
+    pub(super) fn change(&mut self, task: TrustTask, done: Done) -> Vec<Command> {
+        let Some(form) = self.trust().filter(|form| form.is_ready()) else { return vec![] };
+        form.busy = true;
+        form.doing = Some(done);
+        let row = form.row;
+        self.start(Task::Trust(task), vec![row], Purpose::ChangeTrust, None)
+    }
+
+    /// What the one controller answered.
+    pub(in crate::ui::model) fn trust_loaded(&mut self, outcome: Outcome) -> Vec<Command> {
+        match outcome {
+            Outcome::TrustLists(held) => self.watch(held),
+            Outcome::TrustChanged(change) => {
+                self.changed(*change);
+                vec![]
+            }
+            _ => vec![],
+        }
+    }
+
+    fn changed(&mut self, change: TrustChange) {
+        let now = self.now;
+        let Some(form) = self.trust() else { return };
+        let done = form.doing.take();
+        if done == Some(Done::TakenBack) {
+            form.undo.pop();
+        } else {
+            form.undo.extend(change.undo);
+        }
+        if let Some(Done::Deleted { from, .. } | Done::Moved { from, .. }) = &done
+            && let Some(pane) = form.pane_mut(*from)
+        {
+            pane.untick();
+        }
+        form.done = done;
+        form.cut = change.cut;
+        form.fill(Box::new(change.lists), now);
+    }
+
+    /// The job of the form ended; if it failed, the form stays with what it has, if it has anything.
+    pub(in crate::ui::model) fn trust_job_ended(&mut self) {
+        let job = self.job.take();
+        let problem = job.and_then(|job| job.rows.into_iter().find_map(|row| row.state.problem().cloned()));
+        if let Some(form) = self.trust() {
+            form.busy = false;
+            form.doing = None;
+        }
+        if let Some(problem) = problem {
+            self.trust_failed(problem);
+        }
+    }
+
+    /// Nobody gave the password.
+    pub(in crate::ui::model) fn trust_without_password(&mut self) {
+        self.job = None;
+        match self.trust() {
+            Some(form) if form.held.is_some() => {
+                form.busy = false;
+                form.doing = None;
+                if form.link == Link::Reading {
+                    form.link = Link::Ended(ErrorCode::PasswordMissing.into());
+                }
+            }
+            _ => self.drop_trust(),
+        }
+    }
+
+    fn trust_failed(&mut self, problem: Problem) {
+        match self.trust() {
+            Some(form) if form.held.is_some() => {
+                if form.link == Link::Reading {
+                    form.link = Link::Ended(problem.clone());
+                }
+            }
+            _ => self.drop_trust(),
+        }
+        self.show_problem(problem);
+    }
+
+    /// Closes a form that has nothing to show.
+    fn drop_trust(&mut self) {
+        self.dialogs.retain(|dialog| !matches!(dialog, Dialog::Trust(_)));
+    }
+}

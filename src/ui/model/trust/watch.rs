@@ -1,0 +1,77 @@
+//! The lists as the controller reports them.
+
+use super::{Link, Shows, TrustForm, TrustTask};
+use crate::jobs::{JobController, TrustSnapshot, WatchEvent};
+use crate::ui::backend::Command;
+use crate::ui::model::{Dialog, JobId, Model, Purpose, RowId, Task};
+
+impl Model {
+    /// For one controller its lists, for several what adds to them (manual 2.7.3.3, 2.7.3.6).
+    pub(in crate::ui::model) fn open_trust(&mut self, shows: Shows, rows: Vec<RowId>) -> Vec<Command> {
+        let [row] = rows[..] else {
+            self.open_add_trust(shows, rows);
+            return vec![];
+        };
+        let name = self.rows.names(&rows).pop().unwrap_or_default();
+        self.dialogs.push(Dialog::Trust(Box::new(TrustForm::new(row, name, shows, self.zone, self.now))));
+        self.start(Task::Trust(TrustTask::List), rows, Purpose::LoadTrust, None)
+    }
+
+    /// The form about the lists of one controller that is open, whatever is on top of it.
+    pub(in crate::ui::model) fn trust(&mut self) -> Option<&mut TrustForm> {
+        self.dialogs.iter_mut().rev().find_map(|dialog| match dialog {
+            Dialog::Trust(form) => Some(form.as_mut()),
+            _ => None,
+        })
+    }
+
+    /// The lists were read for the first time, or again: from now on they are watched.
+    pub(super) fn watch(&mut self, held: Box<TrustSnapshot>) -> Vec<Command> {
+        let (job, now) = (self.next_job(), self.now);
+        let Some(form) = self.trust() else { return vec![] };
+        form.fill(held, now);
+        form.link = Link::Live;
+        let before = form.watch.replace(job);
+        let pending = std::mem::take(&mut form.pending);
+        let row = form.row;
+        let Some(controller) = self.rows.get(row).map(|row| JobController::from(&row.entry)) else { return vec![] };
+        let mut commands: Vec<Command> = before.map(Command::Cancel).into_iter().collect();
+        commands.push(Command::WatchTrust { job, controller: Box::new(controller) });
+        if !pending.is_empty() {
+            commands.extend(self.dropped_trust(pending));
+        }
+        commands
+    }
+
+    pub(in crate::ui::model) fn trust_seen(&mut self, job: JobId, event: WatchEvent) {
+        let now = self.now;
+        let Some(form) = self.trust().filter(|form| form.watch == Some(job)) else { return };
+        match event {
+            WatchEvent::Lists(held) => {
+                form.link = Link::Live;
+                form.fill(held, now);
+                self.replan();
+            }
+            WatchEvent::Lost(problem) => form.link = Link::Lost(problem),
+            WatchEvent::Ended(problem) => {
+                form.link = Link::Ended(problem);
+                form.watch = None;
+            }
+        }
+    }
+
+    /// Reads the lists again; a missing password is asked for.
+    pub(super) fn reconnect(&mut self) -> Vec<Command> {
+        let Some(form) = self.trust().filter(|form| !form.busy) else { return vec![] };
+        form.link = Link::Reading;
+        let row = form.row;
+        self.start(Task::Trust(TrustTask::List), vec![row], Purpose::LoadTrust, None)
+    }
+
+    /// The dialog was closed: nobody needs to watch any more.
+    pub(in crate::ui::model) fn close_trust(&mut self, form: &TrustForm) -> Vec<Command> {
+        let mut commands = self.drop_job();
+        commands.extend(form.watch.map(Command::Cancel));
+        commands
+    }
+}
