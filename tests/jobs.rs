@@ -158,6 +158,17 @@ async fn a_lost_answer_is_said_to_be_lost_and_the_row_shows_what_was_done() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
+async fn a_key_the_security_policies_do_not_allow_keeps_the_server_from_starting() {
+    let plant = Plant::start(1, FleetFirmware::Legacy).await;
+    let fields = SelfSignedFields { key_length: KeyLength::Rsa4096, ..certificate().fields };
+    assert_eq!(codes(&plant.run(policies(&[SecurityPolicy::Basic256Sha256])).await), [None]);
+    assert_eq!(codes(&plant.run(SelfSigned { fields, backup: None }).await), [None]);
+    assert_eq!(codes(&plant.run(policies(&[SecurityPolicy::Basic128Rsa15])).await), [None]);
+    assert_eq!(codes(&plant.run(StartServer).await), [Some(ErrorCode::InvalidParameter)]);
+    assert_eq!(plant.controller(0).info().error, Some(ErrorCode::InvalidParameter));
+}
+
+#[tokio::test(flavor = "multi_thread")]
 async fn a_second_configurator_is_noticed() {
     let plant = Plant::start(1, FleetFirmware::Current).await;
     let seen = plant.controller(0).info().revision;

@@ -22,15 +22,15 @@ use plant::Plant;
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
-/// What the network does to sessions: answers of changes are lost, or readings after a change.
+/// What the network loses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Trouble {
     /// The answer to a start or a stop.
-    LosesStatus,
+    Status,
     /// Every reading on the first session.
-    LosesReading,
+    Reading,
     /// Every reading on every session.
-    LosesEveryReading,
+    EveryReading,
 }
 
 struct Network {
@@ -67,7 +67,7 @@ impl Connector for Network {
 impl Troubled {
     fn status(&mut self, done: Result<Changed, Problem>) -> Result<Changed, Problem> {
         self.changed = true;
-        if self.trouble == Trouble::LosesStatus { Err(ErrorCode::Timeout.into()) } else { done }
+        if self.trouble == Trouble::Status { Err(ErrorCode::Timeout.into()) } else { done }
     }
 }
 
@@ -75,9 +75,9 @@ impl Troubled {
 impl ControllerSession for Troubled {
     async fn info(&mut self) -> Result<ControllerInfo, Problem> {
         let lost = match self.trouble {
-            Trouble::LosesStatus => false,
-            Trouble::LosesReading => self.first && self.changed,
-            Trouble::LosesEveryReading => self.changed || !self.first,
+            Trouble::Status => false,
+            Trouble::Reading => self.first && self.changed,
+            Trouble::EveryReading => self.changed || !self.first,
         };
         if lost { Err(ErrorCode::ConnectionLost.into()) } else { self.real.info().await }
     }
@@ -145,16 +145,16 @@ async fn a_start_whose_answer_was_lost_is_done_if_the_server_runs() {
     let plant = with_certificate().await;
     for (operation, status) in [(true, ServerStatus::Run), (false, ServerStatus::Stop)] {
         let report = if operation {
-            in_trouble(&plant, Trouble::LosesStatus, StartServer).await
+            in_trouble(&plant, Trouble::Status, StartServer).await
         } else {
-            in_trouble(&plant, Trouble::LosesStatus, StopServer).await
+            in_trouble(&plant, Trouble::Status, StopServer).await
         };
         assert_eq!(report.result, Ok(Outcome::Done));
         assert_eq!(report.info.map(|info| info.status), Some(status));
     }
     // One that was not done is not said to be.
     plant.controller(0).faults().update(|faults| faults.refuse = true);
-    let report = in_trouble(&plant, Trouble::LosesStatus, StartServer).await;
+    let report = in_trouble(&plant, Trouble::Status, StartServer).await;
     assert_eq!(report.result.unwrap_err().code, ErrorCode::Timeout);
     assert_eq!(report.info.map(|info| info.status), Some(ServerStatus::Stop));
 }
@@ -163,11 +163,11 @@ async fn a_start_whose_answer_was_lost_is_done_if_the_server_runs() {
 async fn a_change_that_was_done_is_not_said_to_have_failed_because_nothing_can_be_read_afterwards() {
     let plant = with_certificate().await;
     let before = plant.controller(0).info().revision;
-    let report = in_trouble(&plant, Trouble::LosesReading, user("operator1")).await;
+    let report = in_trouble(&plant, Trouble::Reading, user("operator1")).await;
     assert_eq!(report.result, Ok(Outcome::Done));
     assert_eq!(report.info.map(|info| info.revision), Some(before + 1), "read with another session");
 
-    let report = in_trouble(&plant, Trouble::LosesEveryReading, user("operator2")).await;
+    let report = in_trouble(&plant, Trouble::EveryReading, user("operator2")).await;
     assert_eq!((report.result, report.info), (Ok(Outcome::Done), None));
     assert_eq!(plant.controller(0).info().revision, before + 2);
 }
