@@ -106,7 +106,7 @@ impl ChannelKeys {
 fn decode<T: BinaryDecodable>(bytes: &[u8], id: ObjectId) -> Option<T> {
     let contexts = contexts();
     let mut body = bytes.get(SEQUENCE_HEADER..)?;
-    let is_it = NodeId::decode(&mut body, &contexts.context()).ok()? == NodeId::from(id);
+    let is_it = NodeId::decode(&mut body, &contexts.context()).ok()? == id;
     if is_it { T::decode(&mut body, &contexts.context()).ok() } else { None }
 }
 

@@ -54,6 +54,15 @@ mod report;
 mod rewrap;
 mod upward;
 
+pub use gate::CutConnection;
+pub(super) use gate::{Gate, Settings};
+pub(super) use guard::Guarded;
+pub use judge::Clock;
+pub(super) use judge::Judge;
+pub use report::Refusals;
+pub(super) use report::Reporter;
+pub(super) use rewrap::Own;
+
 /// For the tests of the server, which have to forge what a client would not send.
 #[cfg(test)]
 pub(super) mod wire {
@@ -63,12 +72,3 @@ pub(super) mod wire {
     pub(in super::super) use super::passage::Passage;
     pub(in super::super) use super::rewrap::{Envelope, unseal};
 }
-
-pub use gate::CutConnection;
-pub(super) use gate::{Gate, Settings};
-pub(super) use guard::Guarded;
-pub use judge::Clock;
-pub(super) use judge::Judge;
-pub use report::Refusals;
-pub(super) use report::Reporter;
-pub(super) use rewrap::Own;

@@ -1,4 +1,5 @@
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use opcua::crypto::{PrivateKey, SecurityPolicy as WirePolicy, X509};
 use parking_lot::Mutex;
@@ -15,6 +16,8 @@ use super::identity::Identity;
 /// certificates than its own. Everything else passes untouched. Works because the test has everybody's keys.
 pub(super) struct Disguise {
     pub url: String,
+    /// How many CreateSession requests had the issuers put in.
+    pub sessions: Arc<AtomicUsize>,
     task: JoinHandle<()>,
 }
 
@@ -25,6 +28,7 @@ struct Keys {
     /// Whom it shows.
     shown: (PrivateKey, X509),
     shown_bytes: Vec<u8>,
+    sessions: Arc<AtomicUsize>,
     asked: Mutex<Vec<u8>>,
     channel: Mutex<Option<ChannelKeys>>,
 }
@@ -39,9 +43,11 @@ impl Disguise {
             client: client.wire(),
             shown: shown.wire(),
             shown_bytes: [&[&shown.der[..]], issuers].concat().concat(),
+            sessions: Arc::default(),
             asked: Mutex::default(),
             channel: Mutex::default(),
         });
+        let sessions = keys.sessions.clone();
         let has_issuers = !issuers.is_empty();
         let port = server.port();
         let task = tokio::spawn(async move {
@@ -60,7 +66,7 @@ impl Disguise {
                 }));
             }
         });
-        Self { url, task }
+        Self { url, sessions, task }
     }
 }
 
@@ -91,6 +97,7 @@ impl Keys {
         let channel = self.channel.lock();
         channel.as_ref()?.edit_session_request(chunk, |request| {
             assert_eq!(request.client_certificate.as_ref(), self.client.1.to_der().unwrap());
+            self.sessions.fetch_add(1, Ordering::Relaxed);
             request.client_certificate = self.shown_bytes.as_slice().into();
         })
     }
