@@ -224,6 +224,12 @@ impl Crl {
         facts.signature_algorithm.verify(&issuer.facts().public_key, &self.der[facts.signed.clone()], &facts.signature)
     }
 
+    /// Orders lists of one issuer. Unlike [`Crl::is_newer_than`] also where some have a number and some have none.
+    pub(super) fn age_key(&self) -> impl Ord + '_ {
+        let number = self.facts.number.as_deref().unwrap_or_default();
+        (self.facts.this_update, number.len(), number)
+    }
+
     pub(super) fn issuer_folded(&self) -> &[u8] {
         &self.facts.issuer_folded
     }
