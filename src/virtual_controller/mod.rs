@@ -82,6 +82,7 @@ pub use demo::{DEMO_COUNT, DEMO_PASSWORD, DemoEntry, DemoFleet, demo_fleet};
 pub use faults::{DropPoint, Faults, Switches};
 pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyLine};
 pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
+pub use opcua::AdmissionOptions;
 pub use password::hash_connection_password;
 pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;

@@ -51,6 +51,15 @@ mod report;
 mod rewrap;
 mod upward;
 
+/// For the tests of the server, which have to forge what a client would not send.
+#[cfg(test)]
+pub(super) mod wire {
+    pub(in super::super) use super::frame::tests;
+    pub(in super::super) use super::frame::{Kind, Open};
+    pub(in super::super) use super::passage::Passage;
+    pub(in super::super) use super::rewrap::{Envelope, unseal};
+}
+
 pub use gate::CutConnection;
 pub(super) use gate::{Gate, Settings};
 pub(super) use guard::Guarded;
