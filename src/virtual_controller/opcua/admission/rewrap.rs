@@ -1,8 +1,11 @@
 use std::fmt;
+use std::sync::Arc;
 
 use opcua::crypto::{KeySize as _, PrivateKey, PublicKey, SecurityPolicy, X509};
 use opcua::types::StatusCode;
+use parking_lot::Mutex;
 
+use super::channel_keys::ChannelKeys;
 use super::fault::Fault;
 use super::frame::Open;
 
@@ -18,11 +21,15 @@ pub(in super::super) struct Own {
 ///
 /// The server cannot read more than one certificate, so OpenSecureChannel is opened here and sealed again: for the
 /// server under its own certificate, for the client under what it expects. Both nonces pass as they are, so the two
-/// derive the same symmetric keys from them, and what follows passes untouched and unread.
+/// derive the same symmetric keys from them, and what follows passes untouched, but for CreateSession.
 pub(super) struct ChainedClient {
     policy: SecurityPolicy,
     public: PublicKey,
     thumbprint: Vec<u8>,
+    leaf: Vec<u8>,
+    /// The request under way, from its sequence header on.
+    asked: Mutex<Vec<u8>>,
+    keys: Mutex<Option<Arc<ChannelKeys>>>,
 }
 
 impl Own {
@@ -43,29 +50,52 @@ impl ChainedClient {
     pub(super) fn new(policy: SecurityPolicy, leaf: &[u8]) -> Result<Self, Fault> {
         let certificate = X509::from_der(leaf).map_err(|_| refused())?;
         let public = certificate.public_key().map_err(|_| refused())?;
-        Ok(Self { policy, public, thumbprint: certificate.thumbprint().value().to_vec() })
+        Ok(Self {
+            policy,
+            public,
+            thumbprint: certificate.thumbprint().value().to_vec(),
+            leaf: leaf.to_vec(),
+            asked: Mutex::default(),
+            keys: Mutex::default(),
+        })
     }
 
     /// The client's request as the server can read it, if the client signed it.
     pub(super) fn request(&self, own: &Own, chunk: &[u8]) -> Result<Vec<u8>, Fault> {
-        self.pass_on(own, chunk, &self.public, &own.thumbprint, &own.public)
+        let body = unseal(self.policy, chunk, &own.key, &self.public)?;
+        let sealed = self.seal(own, chunk, &body, &own.thumbprint, &own.public);
+        *self.asked.lock() = body;
+        sealed
     }
 
     /// The server's answer as the client expects it.
     pub(super) fn answer(&self, own: &Own, chunk: &[u8]) -> Result<Vec<u8>, Fault> {
-        self.pass_on(own, chunk, &own.public, &self.thumbprint, &self.public)
+        let body = unseal(self.policy, chunk, &own.key, &own.public)?;
+        let keys = ChannelKeys::new(self.policy, &std::mem::take(&mut *self.asked.lock()), &body);
+        *self.keys.lock() = keys.map(Arc::new);
+        self.seal(own, chunk, &body, &self.thumbprint, &self.public)
     }
 
-    fn pass_on(
+    /// A message under the keys agreed on last, with the client's certificate alone if it is CreateSession.
+    pub(super) fn session_request(&self, chunk: &[u8]) -> Option<Vec<u8>> {
+        let keys = self.keys.lock().clone()?;
+        keys.edit_session_request(chunk, |request| {
+            // Anything else than what the channel was opened with stays, and is refused.
+            if request.client_certificate.as_ref().starts_with(&self.leaf) {
+                request.client_certificate = self.leaf.as_slice().into();
+            }
+        })
+    }
+
+    fn seal(
         &self,
         own: &Own,
         chunk: &[u8],
-        sender: &PublicKey,
+        body: &[u8],
         receiver_thumbprint: &[u8],
         receiver: &PublicKey,
     ) -> Result<Vec<u8>, Fault> {
         let open = Open::parse(chunk)?;
-        let body = unseal(self.policy, chunk, &own.key, sender)?;
         let envelope = Envelope {
             policy: self.policy,
             channel: open.channel,
@@ -74,7 +104,7 @@ impl ChainedClient {
             receiver_thumbprint,
             receiver,
         };
-        envelope.seal(&body)
+        envelope.seal(body)
     }
 }
 

@@ -1,3 +1,5 @@
+use std::sync::atomic::Ordering;
+
 use opcua::types::MessageSecurityMode;
 use rcgen::RsaKeySize;
 
@@ -14,6 +16,7 @@ async fn is_served_with_its_chain(size: RsaKeySize, policies: &[SecurityPolicy])
     let server = start(OpcUaConfig { trust, ..config(&folder) }).await;
     let chain = [authority.certificate.der(), root.certificate.der()];
     let disguise = Disguise::start(&server, &client, &client, &chain).await;
+    let mut sessions = 0;
     for policy in policies {
         for mode in [MessageSecurityMode::Sign, MessageSecurityMode::SignAndEncrypt] {
             let through = Some(disguise.url.clone());
@@ -26,6 +29,8 @@ async fn is_served_with_its_chain(size: RsaKeySize, policies: &[SecurityPolicy])
                 tokio::time::sleep(Duration::from_millis(20)).await;
             }
             client.close().await;
+            sessions += 1;
+            assert_eq!(disguise.sessions.load(Ordering::Relaxed), sessions, "issuers in CreateSession too");
         }
     }
     server.stop().await;
@@ -54,13 +59,12 @@ async fn an_issuer_that_was_sent_completes_a_chain_but_is_not_trusted_for_it() {
     let through = Some(disguise.url.clone());
     let refused = Dial { through, ..Dial::new(&server) }.identity(&client).connect().await.err();
     assert_eq!(refused, Some(opcua::types::StatusCode::BadSecurityChecksFailed));
-    let recorded = recorded.0.lock();
+    let recorded = recorded.0.lock().clone();
     let (sent, address, rejection) = &recorded[0];
     assert_eq!(*sent, [client.certificate(), authority.certificate.clone()]);
     assert_eq!(
         (address.to_string(), rejection.status),
         ("127.0.0.1".to_owned(), crate::model::CertificateStatus::Untrusted)
     );
-    drop(recorded);
     server.stop().await;
 }

@@ -1,12 +1,14 @@
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use opcua::crypto::{PrivateKey, SecurityPolicy as WirePolicy, X509};
+use parking_lot::Mutex;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::task::JoinHandle;
 
 use super::super::OpcUaServer;
-use super::super::admission::wire::{Envelope, Kind, Open, Passage, unseal};
+use super::super::admission::wire::{ChannelKeys, Envelope, Kind, Open, Passage, unseal};
 use super::SERVER;
 use super::identity::Identity;
 
@@ -14,6 +16,8 @@ use super::identity::Identity;
 /// certificates than its own. Everything else passes untouched. Works because the test has everybody's keys.
 pub(super) struct Disguise {
     pub url: String,
+    /// How many CreateSession requests had the issuers put in.
+    pub sessions: Arc<AtomicUsize>,
     task: JoinHandle<()>,
 }
 
@@ -24,10 +28,13 @@ struct Keys {
     /// Whom it shows.
     shown: (PrivateKey, X509),
     shown_bytes: Vec<u8>,
+    sessions: Arc<AtomicUsize>,
+    asked: Mutex<Vec<u8>>,
+    channel: Mutex<Option<ChannelKeys>>,
 }
 
 impl Disguise {
-    /// `shown` opens the channels of `client`; `issuers` (DER) follow its certificate.
+    /// `shown` opens the channels of `client`; `issuers` (DER) follow its certificate, in CreateSession too.
     pub async fn start(server: &OpcUaServer, client: &Identity, shown: &Identity, issuers: &[&[u8]]) -> Self {
         let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
         let url = format!("opc.tcp://{}", listener.local_addr().unwrap());
@@ -36,18 +43,30 @@ impl Disguise {
             client: client.wire(),
             shown: shown.wire(),
             shown_bytes: [&[&shown.der[..]], issuers].concat().concat(),
+            sessions: Arc::default(),
+            asked: Mutex::default(),
+            channel: Mutex::default(),
         });
+        let sessions = keys.sessions.clone();
+        let has_issuers = !issuers.is_empty();
         let port = server.port();
         let task = tokio::spawn(async move {
             while let Ok((client, _)) = listener.accept().await {
                 let server = TcpStream::connect(("127.0.0.1", port)).await.unwrap();
                 let ((from_client, to_client), (from_server, to_server)) = (client.into_split(), server.into_split());
                 let (up, down) = (keys.clone(), keys.clone());
-                tokio::spawn(pass(from_client, to_server, move |chunk| up.request(chunk)));
-                tokio::spawn(pass(from_server, to_client, move |chunk| down.answer(chunk)));
+                tokio::spawn(pass(from_client, to_server, move |kind, chunk| match kind {
+                    Kind::Open => Some(up.request(chunk)),
+                    Kind::Message if has_issuers => up.session_request(chunk),
+                    _ => None,
+                }));
+                tokio::spawn(pass(from_server, to_client, move |kind, chunk| match kind {
+                    Kind::Open => Some(down.answer(chunk)),
+                    _ => None,
+                }));
             }
         });
-        Self { url, task }
+        Self { url, sessions, task }
     }
 }
 
@@ -61,12 +80,26 @@ impl Keys {
     fn request(&self, chunk: &[u8]) -> Vec<u8> {
         let (server_key, server) = &self.server;
         let client = self.client.1.public_key().unwrap();
-        reseal(chunk, server_key, &client, &self.shown_bytes, &self.shown.0, server)
+        let (sealed, body) = reseal(chunk, server_key, &client, &self.shown_bytes, &self.shown.0, server);
+        *self.asked.lock() = body;
+        sealed
     }
 
     fn answer(&self, chunk: &[u8]) -> Vec<u8> {
         let server = self.server.1.public_key().unwrap();
-        reseal(chunk, &self.shown.0, &server, &SERVER.der, &self.server.0, &self.client.1)
+        let (sealed, body) = reseal(chunk, &self.shown.0, &server, &SERVER.der, &self.server.0, &self.client.1);
+        let policy = WirePolicy::from_uri(Open::parse(chunk).unwrap().policy_uri);
+        *self.channel.lock() = ChannelKeys::new(policy, &self.asked.lock(), &body);
+        sealed
+    }
+
+    fn session_request(&self, chunk: &[u8]) -> Option<Vec<u8>> {
+        let channel = self.channel.lock();
+        channel.as_ref()?.edit_session_request(chunk, |request| {
+            assert_eq!(request.client_certificate.as_ref(), self.client.1.to_der().unwrap());
+            self.sessions.fetch_add(1, Ordering::Relaxed);
+            request.client_certificate = self.shown_bytes.as_slice().into();
+        })
     }
 }
 
@@ -77,7 +110,7 @@ fn reseal(
     sender_bytes: &[u8],
     sender_key: &PrivateKey,
     receiver: &X509,
-) -> Vec<u8> {
+) -> (Vec<u8>, Vec<u8>) {
     let open = Open::parse(chunk).unwrap();
     let policy = WirePolicy::from_uri(open.policy_uri);
     let body = unseal(policy, chunk, key, sender).unwrap();
@@ -90,24 +123,21 @@ fn reseal(
         receiver_thumbprint: thumbprint.value(),
         receiver: &receiver.public_key().unwrap(),
     };
-    envelope.seal(&body).unwrap()
+    (envelope.seal(&body).unwrap(), body)
 }
 
 async fn pass(
     mut from: tokio::net::tcp::OwnedReadHalf,
     mut to: tokio::net::tcp::OwnedWriteHalf,
-    reseal: impl Fn(&[u8]) -> Vec<u8>,
+    edit: impl Fn(Kind, &[u8]) -> Option<Vec<u8>>,
 ) {
     let mut passage = Passage::default();
     while matches!(from.read_buf(passage.room()).await, Ok(1..)) {
         while let Some(header) = passage.next(65_535).unwrap() {
-            match (header.kind, passage.chunk(header)) {
-                (Kind::Open, None) => break,
-                (Kind::Open, Some(chunk)) => {
-                    let resealed = reseal(chunk);
-                    passage.replace(header, resealed);
-                }
-                _ => passage.pass(header),
+            let Some(chunk) = passage.chunk(header) else { break };
+            match edit(header.kind, chunk) {
+                Some(edited) => passage.replace(header, edited),
+                None => passage.pass(header),
             }
         }
         if to.write_all(passage.good()).await.is_err() {
