@@ -122,7 +122,7 @@ proptest! {
             *place = byte;
         }
         if let Some(split) = split_certificates(&sent) {
-            prop_assert_eq!(split.concat(), sent);
+            prop_assert_eq!(split.concat(), sent.clone());
             prop_assert!(split.len() <= 8 && split.iter().all(|part| part[0] == 0x30));
         }
     }
@@ -141,7 +141,7 @@ proptest! {
             }
             sent.extend(whole);
         }
-        let (mut passage, mut arrived, mut seen) = (Passage::default(), Vec::new(), 0);
+        let (mut passage, mut arrived, mut seen) = (Passage::default(), Vec::<u8>::new(), 0);
         let mut pieces = pieces.into_iter().cycle();
         let mut rest = &sent[..];
         while !rest.is_empty() {
