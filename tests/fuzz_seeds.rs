@@ -1,10 +1,10 @@
 //! The readers of bytes from outside, fed with the fuzzer's seeds and with damaged copies of them: what a fuzzer does
 //! for hours, in seconds, with the stable compiler and the same result every time.
 
-#[path = "fuzz/src/readers/mod.rs"]
-mod readers;
 #[path = "fuzz/make_seeds.rs"]
 mod make_seeds;
+#[path = "fuzz/src/readers/mod.rs"]
+mod readers;
 #[allow(dead_code, reason = "not every story needs all of it")]
 #[path = "common/samples.rs"]
 mod samples;
@@ -123,8 +123,20 @@ impl Damage {
 
     fn of(&mut self, bytes: &[u8], others: &[(String, Vec<u8>)]) -> Vec<u8> {
         const WORDS: [&[u8]; 14] = [
-            b"\0", b"\xff", b"\n", b"\r\n", b"\"", b",", b";", b":", b"\x30\x80", b"\x30\x82", b"null", b"-1",
-            b"18446744073709551616", b"-----BEGIN ",
+            b"\0",
+            b"\xff",
+            b"\n",
+            b"\r\n",
+            b"\"",
+            b",",
+            b";",
+            b":",
+            b"\x30\x80",
+            b"\x30\x82",
+            b"null",
+            b"-1",
+            b"18446744073709551616",
+            b"-----BEGIN ",
         ];
         let mut bytes = bytes.to_vec();
         for _ in 0..=self.below(4) {

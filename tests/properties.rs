@@ -15,7 +15,7 @@ use opcua_configurator::model::{
     Address, ControllerName, ControllerSeries, FirmwareVersion, Language, SecurityPolicy, SerialNumber, ServerPort,
     ServerSettings, StartupMode, UserTokenPolicy,
 };
-use opcua_configurator::pki::{Certificate, Fingerprint, read_bundle};
+use opcua_configurator::pki::{Certificate, Fingerprint, PkiError, describe, read_bundle};
 use opcua_configurator::protocol::{ExportContent, ExportError, ExportedUser, SettingsExport};
 use opcua_configurator::workspace::{
     Configuration, ConnectionList, ControllerEntry, Options, ThemeChoice, WindowState, Workspace,
@@ -318,6 +318,18 @@ proptest! {
         }
         prop_assert_eq!(read_bundle(&bytes).expect("a bundle").certificates, once);
     }
+}
+
+#[test]
+fn a_file_cannot_keep_whoever_describes_it_busy_for_hours() {
+    let described = |file: &str, times| {
+        let text = seed(file).repeat(times);
+        describe(&text, Some(readers::PASSWORD)).map(|things| things.len())
+    };
+    assert_eq!(described("certificate/seed-pem", 1000), Ok(1000));
+    assert_eq!(described("certificate/seed-pem", 1001), Err(PkiError::TooMany(1000)));
+    assert_eq!(described("private_key/seed-aes.pem", 16), Ok(16));
+    assert_eq!(described("private_key/seed-aes.pem", 17), Err(PkiError::TooMany(16)));
 }
 
 proptest! {

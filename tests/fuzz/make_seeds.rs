@@ -123,7 +123,10 @@ impl Seeds<'_> {
             ("policy", "Aes128_Sha256_RsaOaep"),
             ("licence-key", "ab12-cd34-ef56-gh78"),
             ("activation-key", "AAAA-BBBB-CCCC-DDDD-EEEE-1111"),
-            ("fingerprint", "E3:B0:C4:42:98:FC:1C:14:9A:FB:F4:C8:99:6F:B9:24:27:AE:41:E4:64:9B:93:4C:A4:95:99:1B:78:52:B8:55"),
+            (
+                "fingerprint",
+                "E3:B0:C4:42:98:FC:1C:14:9A:FB:F4:C8:99:6F:B9:24:27:AE:41:E4:64:9B:93:4C:A4:95:99:1B:78:52:B8:55",
+            ),
         ] {
             self.seed("names", name, text);
         }
@@ -176,8 +179,7 @@ impl Seeds<'_> {
         encrypt("aes.pem", "PEM", "-v2 aes-128-cbc -v2prf hmacWithSHA1 -iter 4");
         encrypt("scrypt.der", "DER", "-scrypt -scrypt_N 16 -scrypt_r 1 -scrypt_p 1");
         encrypt("3des.der", "DER", "-v1 PBE-SHA1-3DES -iter 4");
-        for name in
-            ["pkcs8.der", "pkcs8.pem", "pkcs1.pem", "pkcs1.der", "aes.der", "aes.pem", "scrypt.der", "3des.der"]
+        for name in ["pkcs8.der", "pkcs8.pem", "pkcs1.pem", "pkcs1.der", "aes.der", "aes.pem", "scrypt.der", "3des.der"]
         {
             seed("private_key", name);
         }

@@ -6,7 +6,9 @@ use opcua::types::{
 };
 use proptest::prelude::*;
 
-use super::frame::{HEADER, Header, Kind, MAX_HELLO, MAX_OPEN, Open, SYMMETRIC_HEADER, split_certificates, tests::open};
+use super::frame::{
+    HEADER, Header, Kind, MAX_HELLO, MAX_OPEN, Open, SYMMETRIC_HEADER, split_certificates, tests::open,
+};
 use super::passage::Passage;
 use super::plain;
 

@@ -31,10 +31,13 @@ pub fn activation_file(bytes: &[u8]) {
 
     let again = activation::parse(canonical.as_bytes()).expect("canonical");
     assert!(again.mistakes().is_empty());
-    assert!(again.lines().iter().map(|line| (&line.serial, &line.keys)).eq(file
-        .lines()
-        .iter()
-        .map(|line| (&line.serial, &line.keys))));
+    assert!(
+        again
+            .lines()
+            .iter()
+            .map(|line| (&line.serial, &line.keys))
+            .eq(file.lines().iter().map(|line| (&line.serial, &line.keys)))
+    );
 }
 
 /// [`ConnectionList`]: what is added is new and unique, and the list read once more adds nothing.
