@@ -14,8 +14,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Damaged copies of each seed.
-const COPIES: usize = 400;
+/// Damaged copies of each seed, unless `FUZZ_COPIES` says how many.
+const COPIES: usize = 200;
 /// For one input, in a build that is not optimised, on a busy machine. What it is about is minutes.
 const SLOW: Duration = Duration::from_secs(20);
 
@@ -38,12 +38,14 @@ fn seeds(folder: &Path) -> Vec<(String, Vec<u8>)> {
 
 #[test]
 fn no_reader_breaks_its_promise_on_a_seed_or_a_damaged_copy() {
+    let copies = std::env::var("FUZZ_COPIES").map_or(COPIES, |copies| copies.parse().expect("a number"));
     let check = |(name, reader): &(&str, readers::Target)| {
+        let begun = Instant::now();
         let seeds = seeds(&corpus().join(name));
         assert!(!seeds.is_empty(), "{name} has no seeds");
         for (number, (seed, bytes)) in seeds.iter().enumerate() {
             let mut damage = Damage(0x9e37_79b9_7f4a_7c15 ^ number as u64);
-            let damaged = (0..COPIES).map(|_| damage.of(bytes, &seeds));
+            let damaged = (0..copies).map(|_| damage.of(bytes, &seeds));
             for (copy, input) in std::iter::once(bytes.clone()).chain(damaged).enumerate() {
                 let begun = Instant::now();
                 let kept = catch_unwind(AssertUnwindSafe(|| reader(&input)));
@@ -55,6 +57,7 @@ fn no_reader_breaks_its_promise_on_a_seed_or_a_damaged_copy() {
                 }
             }
         }
+        println!("{name}: {} inputs in {:.1} s", seeds.len() * (copies + 1), begun.elapsed().as_secs_f64());
     };
     std::thread::scope(|scope| {
         let halves = readers::TARGETS.split_at(readers::TARGETS.len() / 2);

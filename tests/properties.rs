@@ -15,7 +15,7 @@ use opcua_configurator::model::{
     Address, ControllerName, ControllerSeries, FirmwareVersion, Language, SecurityPolicy, SerialNumber, ServerPort,
     ServerSettings, StartupMode, UserTokenPolicy,
 };
-use opcua_configurator::pki::{Certificate, Fingerprint, read_bundle};
+use opcua_configurator::pki::{Certificate, Fingerprint, PkiError, describe, read_bundle};
 use opcua_configurator::protocol::{ExportContent, ExportError, ExportedUser, SettingsExport};
 use opcua_configurator::workspace::{
     Configuration, ConnectionList, ControllerEntry, Options, ThemeChoice, WindowState, Workspace,
@@ -94,7 +94,7 @@ fn time() -> impl Strategy<Value = DateTime<Utc>> {
 }
 
 proptest! {
-    #![proptest_config(cases(400))]
+    #![proptest_config(cases(300))]
 
     #[test]
     fn an_address_is_shown_as_it_is_read((host, port) in (host(), 1_u16..)) {
@@ -180,7 +180,7 @@ fn entry() -> impl Strategy<Value = Entry> {
 }
 
 proptest! {
-    #![proptest_config(cases(150))]
+    #![proptest_config(cases(100))]
 
     #[test]
     fn an_activation_file_gives_each_controller_the_keys_of_its_line(
@@ -244,6 +244,12 @@ proptest! {
         prop_assert_eq!(found, expected);
         readers::connection_list(text.as_bytes());
     }
+
+}
+
+proptest! {
+    // Every file is flushed to the disk.
+    #![proptest_config(cases(40))]
 
     #[test]
     fn what_is_saved_of_a_configuration_is_loaded(
@@ -319,6 +325,17 @@ proptest! {
         }
         prop_assert_eq!(read_bundle(&bytes).expect("a bundle").certificates, once);
     }
+}
+
+#[test]
+fn a_file_cannot_keep_whoever_describes_it_busy_for_hours() {
+    let described = |file: &str, times| {
+        let text = seed(file).repeat(times);
+        describe(&text, Some(readers::PASSWORD)).map(|things| things.len())
+    };
+    assert_eq!(described("certificate/seed-pem", 1001), Err(PkiError::TooMany(1000)));
+    assert_eq!(described("private_key/seed-aes.pem", 16), Ok(16));
+    assert_eq!(described("private_key/seed-aes.pem", 17), Err(PkiError::TooMany(16)));
 }
 
 proptest! {

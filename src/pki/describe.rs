@@ -127,6 +127,9 @@ pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>
     if pem::is_pem(bytes) {
         for block in pem::all_blocks(bytes)? {
             found.block(&block, password)?;
+            if found.things.len() > MAX_THINGS {
+                return Err(PkiError::TooMany(MAX_THINGS));
+            }
         }
         if found.things.is_empty() {
             return Err(PkiError::NoCertificate);
@@ -136,6 +139,11 @@ pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>
     }
     Ok(found.described())
 }
+
+/// Each certificate is compared with every other one.
+const MAX_THINGS: usize = 1000;
+/// Whoever wrote the file decides how slow it is to open an encrypted key, and a file has room for thousands.
+const MAX_HASHED: usize = 16;
 
 /// A thing that was found; certificates and lists wait for their signers, which may come later in the file.
 enum Thing {
@@ -147,6 +155,8 @@ enum Thing {
 #[derive(Default)]
 struct Found {
     things: Vec<Thing>,
+    /// Keys the password was hashed for.
+    hashed: usize,
 }
 
 impl Found {
@@ -166,6 +176,10 @@ impl Found {
                 self.other(Description::PrivateKey(sec1(&block.der, None).ok_or(PkiError::NotAPrivateKey)?));
             }
             _ if block.is_private_key() => {
+                self.hashed += 1;
+                if self.hashed > MAX_HASHED {
+                    return Err(PkiError::TooMany(MAX_HASHED));
+                }
                 let key = read_key_file(pem::armour(&block.label, &block.der).as_bytes(), password)?;
                 self.other(Description::PrivateKey(rsa_key(key.public_key())));
             }

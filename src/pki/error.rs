@@ -39,7 +39,7 @@ pub enum PkiError {
     NotTrustMaterial,
     #[error("there is something else in it, \"{0}\", than certificates and revocation lists")]
     UnexpectedBlock(String),
-    #[error("there are more than {0} certificates and revocation lists in it")]
+    #[error("it holds more than {0} certificates and revocation lists, or encrypted keys")]
     TooMany(usize),
 
     // a certificate signing request
