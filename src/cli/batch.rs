@@ -211,6 +211,7 @@ impl Settled {
             ),
             (confirmation.overwrites_files, "files of the same name on this computer are replaced"),
             (confirmation.deletes_log, "the server log is deleted"),
+            (confirmation.disconnects_clients, "clients that are not trusted any more are disconnected at once"),
             (confirmation.replaces_settings, "settings and users are replaced by those that were exported"),
         ] {
             if applies {

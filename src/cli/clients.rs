@@ -1,100 +1,224 @@
 use std::path::Path;
 
-use clap::{Subcommand, ValueEnum};
-use serde_json::json;
+use clap::{Args, Subcommand, ValueEnum};
+use serde_json::{Value, json};
 
-use super::batch::{Presentation, STATE, Shown};
+use super::batch::{Presentation, Shown};
 use super::select::{Select, ThingsThenSelect};
+use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
-use crate::jobs::{AddClientCertificates, ClientCertificateFile, ListClients, Outcome};
+use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, Outcome, RemoveClients, TrustChange, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, Problem};
-use crate::pki::{Certificate, MAX_CERTIFICATE_FILE_BYTES};
+use crate::protocol::{ListedCertificate, RejectedClient};
 
 #[derive(Debug, Subcommand)]
 pub enum ClientsCommand {
-    /// List the certificates of clients that may connect
-    List {
-        #[arg(long, value_enum, default_value_t = List::Trusted)]
-        list: List,
-        #[command(flatten)]
-        select: Select,
-    },
-    /// Add certificates of clients that may connect: FILE… CONTROLLER…
+    /// List the certificates of clients that may connect, of authorities, and of clients that were refused
+    List(ListArgs),
+    /// Add certificates of clients that may connect, or of authorities, and CRLs that come with them: FILE… CONTROLLER…
     Add {
+        /// Where certificates go; without it, each goes where certificates of its kind belong
         #[arg(long, value_enum)]
-        list: List,
+        list: Option<AddTo>,
         #[command(flatten)]
         arguments: ThingsThenSelect,
     },
+    /// Remove certificates from every list they are in: THUMBPRINT… CONTROLLER…
+    Remove(ThingsThenSelect),
+    /// Let in clients that were refused: THUMBPRINT… CONTROLLER…
+    Trust(ThingsThenSelect),
+}
+
+#[derive(Debug, Args)]
+pub struct ListArgs {
+    /// Only this list
+    #[arg(long, value_enum)]
+    list: Option<List>,
+    #[command(flatten)]
+    select: Select,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum List {
     Trusted,
+    Rejected,
     /// Current firmware only
     Issuers,
 }
 
-impl From<List> for ClientList {
-    fn from(list: List) -> Self {
-        match list {
-            List::Trusted => Self::Trusted,
-            List::Issuers => Self::Issuers,
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum AddTo {
+    Trusted,
+    /// Current firmware only
+    Issuers,
+}
+
+const ALL_LISTS: Presentation = Presentation {
+    header: &["CERTIFICATES"],
+    show: |outcome, _| shown(outcome, &[ClientList::Trusted, ClientList::Issuers, ClientList::Rejected]),
+};
+const TRUSTED: Presentation =
+    Presentation { header: &["TRUSTED"], show: |outcome, _| shown(outcome, &[ClientList::Trusted]) };
+const ISSUERS: Presentation =
+    Presentation { header: &["ISSUERS"], show: |outcome, _| shown(outcome, &[ClientList::Issuers]) };
+const REJECTED: Presentation =
+    Presentation { header: &["REJECTED"], show: |outcome, _| shown(outcome, &[ClientList::Rejected]) };
+
+fn shown(outcome: &Outcome, lists: &[ClientList]) -> Shown {
+    let Outcome::TrustLists(held) = outcome else {
+        return Shown { json: json!(null), cells: Vec::new() };
+    };
+    let mut words = Vec::new();
+    let mut json = json!({ "revision": held.revision });
+    for list in lists {
+        let (entries, lines) = listed(held, *list);
+        json[list.as_str()] = entries;
+        let label = if lists.len() > 1 { format!("{}: ", list.as_str()) } else { String::new() };
+        words.extend(lines.into_iter().map(|line| format!("{label}{line}")));
+    }
+    Shown { json, cells: vec![words.join("; ")] }
+}
+
+fn listed(held: &TrustSnapshot, list: ClientList) -> (Value, Vec<String>) {
+    match list {
+        ClientList::Trusted => (held.trusted.iter().map(entry).collect(), held.trusted.iter().map(line).collect()),
+        ClientList::Issuers => (held.issuers.iter().map(entry).collect(), held.issuers.iter().map(line).collect()),
+        ClientList::Rejected => {
+            (held.rejected.iter().map(refused).collect(), held.rejected.iter().map(refused_line).collect())
         }
     }
 }
 
-const CERTIFICATES: Presentation = Presentation {
-    header: &["CERTIFICATES"],
-    show: |outcome, _| {
-        let Outcome::Clients(list) = outcome else {
+fn entry(listed: &ListedCertificate) -> Value {
+    json!({ "file_name": listed.file_name, "certificate": listed.summary, "added": listed.added })
+}
+
+fn line(listed: &ListedCertificate) -> String {
+    let summary = &listed.summary;
+    format!("{} {} until {}", summary.thumbprint, summary.issued_to, summary.not_after.format("%Y-%m-%d"))
+}
+
+fn refused(rejected: &RejectedClient) -> Value {
+    json!({
+        "certificate": rejected.summary,
+        "status": rejected.status,
+        "reason": rejected.reason,
+        "address": rejected.address,
+        "count": rejected.count,
+        "first_seen": rejected.first_seen,
+        "last_seen": rejected.last_seen,
+    })
+}
+
+fn refused_line(rejected: &RejectedClient) -> String {
+    format!(
+        "{} {} from {}: {} ({}), {} times, first {}, last {}",
+        rejected.summary.thumbprint,
+        rejected.summary.issued_to,
+        if rejected.address.is_empty() { "-" } else { &rejected.address },
+        rejected.status.as_str(),
+        rejected.reason,
+        rejected.count,
+        rejected.first_seen.format("%Y-%m-%d %H:%M:%S"),
+        rejected.last_seen.format("%Y-%m-%d %H:%M:%S"),
+    )
+}
+
+/// A change of lists or CRLs: how many there are now, and who was disconnected.
+pub const CHANGE: Presentation = Presentation {
+    header: &["STATUS", "REVISION", "TRUSTED", "ISSUERS", "REJECTED", "CRLS", "DISCONNECTED"],
+    show: |outcome, info| {
+        let Outcome::TrustChanged(change) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
-        let json = list
-            .value
-            .iter()
-            .map(|c| json!({ "file_name": c.file_name, "certificate": c.summary, "added": c.added }))
-            .collect::<Vec<_>>();
-        let words = list
-            .value
-            .iter()
-            .map(|c| {
-                format!(
-                    "{} {} until {}",
-                    c.summary.thumbprint,
-                    c.summary.issued_to,
-                    c.summary.not_after.format("%Y-%m-%d")
-                )
-            })
-            .collect::<Vec<_>>();
-        Shown { json: json!({ "certificates": json }), cells: vec![words.join("; ")] }
+        let TrustChange { lists, cut, .. } = change.as_ref();
+        let counts = [lists.trusted.len(), lists.issuers.len(), lists.rejected.len(), lists.crls.len()];
+        let json = json!({
+            "status": info.status,
+            "revision": lists.revision,
+            "trusted": counts[0],
+            "issuers": counts[1],
+            "rejected": counts[2],
+            "crls": counts[3],
+            "disconnected": cut,
+        });
+        let mut cells = vec![info.status.as_str().to_owned(), lists.revision.to_string()];
+        cells.extend(counts.map(|count| count.to_string()));
+        let gone: Vec<String> = cut.iter().map(|cut| format!("{} ({})", cut.issued_to, cut.address)).collect();
+        cells.push(if gone.is_empty() { "-".to_owned() } else { gone.join(", ") });
+        Shown { json, cells }
     },
 };
 
 pub fn run(settled: &Settled, command: ClientsCommand) -> Result<Ending, Problem> {
     let configuration = settled.configuration()?;
     match command {
-        ClientsCommand::List { list, select } => {
-            settled.batch(&configuration, &select.resolve(&configuration)?, ListClients(list.into()), &CERTIFICATES)
+        ClientsCommand::List(ListArgs { list, select }) => {
+            let presentation = match list {
+                None => &ALL_LISTS,
+                Some(List::Trusted) => &TRUSTED,
+                Some(List::Rejected) => &REJECTED,
+                Some(List::Issuers) => &ISSUERS,
+            };
+            settled.batch(&configuration, &select.resolve(&configuration)?, ListTrust, presentation)
         }
         ClientsCommand::Add { list, arguments } => {
             let (files, chosen) = arguments.resolve(&configuration)?;
-            let files = files.iter().map(|f| read_certificate(Path::new(f))).collect::<Result<Vec<_>, _>>()?;
-            let operation = AddClientCertificates { list: list.into(), files };
-            settled.batch(&configuration, &chosen, operation, &STATE)
+            let destination = match list {
+                None => Destination::ByKind,
+                Some(AddTo::Trusted) => Destination::Trusted,
+                Some(AddTo::Issuers) => Destination::Issuers,
+            };
+            let files = read_trust_files(files.iter().map(Path::new))?;
+            show_plan(settled, &files, destination, &chosen)?;
+            let operation = AddTrust { files: files.into(), destination, based_on: None };
+            settled.batch(&configuration, &chosen, operation, &CHANGE)
+        }
+        ClientsCommand::Remove(arguments) => {
+            let (thumbprints, chosen) = arguments.resolve(&configuration)?;
+            let thumbprints = hexadecimal(&thumbprints)?;
+            let operation = RemoveClients { list: None, thumbprints, based_on: None };
+            settled.batch(&configuration, &chosen, operation, &CHANGE)
+        }
+        ClientsCommand::Trust(arguments) => {
+            let (thumbprints, chosen) = arguments.resolve(&configuration)?;
+            let (from, to) = (ClientList::Rejected, ClientList::Trusted);
+            let operation = MoveClients { from, to, thumbprints: hexadecimal(&thumbprints)?, based_on: None };
+            settled.batch(&configuration, &chosen, operation, &CHANGE)
         }
     }
 }
 
-fn read_certificate(path: &Path) -> Result<ClientCertificateFile, Problem> {
-    use std::io::Read as _;
-    let shown = path.display();
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)
-        .and_then(|file| file.take(MAX_CERTIFICATE_FILE_BYTES as u64 + 1).read_to_end(&mut bytes))
-        .map_err(|e| Problem::with_detail(ErrorCode::FileUnreadable, format!("{shown}: {e}")))?;
-    let certificate = Certificate::from_any(&bytes)
-        .map_err(|e| Problem::with_detail(ErrorCode::BadCertificate, format!("{shown}: {e}")))?;
-    let file_name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
-    Ok(ClientCertificateFile { file_name, certificate })
+/// SHA-1 values as a person may have copied them: any case, with blanks or colons between the bytes. Each once.
+pub fn hexadecimal(texts: &[String]) -> Result<Vec<String>, Problem> {
+    let mut all: Vec<String> = Vec::new();
+    for text in texts {
+        let plain: String = text.chars().filter(|c| !matches!(c, ':' | ' ' | '-')).collect();
+        if plain.len() != 40 || !plain.bytes().all(|b| b.is_ascii_hexdigit()) {
+            return Err(Problem::with_detail(
+                ErrorCode::NotInList,
+                format!("{text}: 40 hexadecimal digits are needed"),
+            ));
+        }
+        let plain = plain.to_ascii_uppercase();
+        if !all.contains(&plain) {
+            all.push(plain);
+        }
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_thumbprint_is_taken_as_other_tools_show_it() {
+        let plain = "00112233445566778899AABBCCDDEEFF00112233".to_owned();
+        let colons = "00:11:22:33:44:55:66:77:88:99:aa:bb:cc:dd:ee:ff:00:11:22:33".to_owned();
+        assert_eq!(hexadecimal(&[plain.clone(), colons]).unwrap(), [plain.clone()]);
+        for wrong in ["", "0011", &format!("{plain}00"), &plain.replace('A', "G")] {
+            assert_eq!(hexadecimal(&[wrong.to_owned()]).unwrap_err().code, ErrorCode::NotInList, "{wrong}");
+        }
+    }
 }

@@ -10,6 +10,7 @@ mod ca;
 mod cert;
 mod clients;
 mod controllers;
+mod crl;
 mod demo;
 mod log;
 mod output;
@@ -20,6 +21,7 @@ mod server;
 mod settings;
 mod settings_transfer;
 mod table;
+mod trust_files;
 mod users;
 mod virtual_fleet;
 mod virtual_plant;
@@ -106,9 +108,12 @@ enum Command {
     /// The small CA of the workspace: create it, sign with it, revoke, publish its CRL, back it up
     #[command(subcommand)]
     Ca(ca::CaCommand),
-    /// List and add trusted client certificates
+    /// List, add, trust and remove the certificates of clients and authorities
     #[command(subcommand)]
     Clients(clients::ClientsCommand),
+    /// List, add and remove certificate revocation lists
+    #[command(subcommand)]
+    Crl(crl::CrlCommand),
     /// Show or delete the log of OPC UA servers
     #[command(subcommand)]
     Log(log::LogCommand),
@@ -174,6 +179,7 @@ pub fn main() -> ExitCode {
         Some(Command::Pki(command)) => pki::run(&settled, command),
         Some(Command::Ca(command)) => ca::run(&settled, command),
         Some(Command::Clients(command)) => clients::run(&settled, command),
+        Some(Command::Crl(command)) => crl::run(&settled, command),
         Some(Command::Log(command)) => log::run(&settled, command),
         Some(Command::ExportSettings(args)) => settings_transfer::export(&settled, &args),
         Some(Command::ImportSettings(args)) => settings_transfer::import(&settled, &args),

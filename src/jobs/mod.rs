@@ -13,18 +13,18 @@
 //! | `create_csr` | make a key and its certificate signing request |
 //! | `import_ca` | check and import what a CA issued for that |
 //! | `sign_csrs` | have the small CA sign what controllers ask for, and import it |
+//! | `push_authority` | give controllers the CRL and certificate of the small CA |
 //! | `import_user` | check and import key and certificate made with another tool |
 //! | `preflight` | what is looked at before such an import |
 //! | `select_certificate` | list the server certificates held, select one |
 //! | `export_self_signed` | save the self-signed certificate on the PC |
-//! | `clients` | list and add trusted client certificates |
+//! | `trust` | client certificate lists and CRLs: list, watch, add, move, remove, undo |
 //! | `activate` | activate legacy controllers by their keys |
 //! | `server_log` | read the server log |
 //! | `settings_transfer` | export settings to the PC and import them again |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activate;
-mod clients;
 mod create_csr;
 mod enroll;
 mod export_self_signed;
@@ -33,6 +33,7 @@ mod import_ca;
 mod import_user;
 mod operation;
 mod preflight;
+mod push_authority;
 mod runner;
 mod select_certificate;
 mod self_signed;
@@ -41,10 +42,10 @@ mod server_log;
 mod settings;
 mod settings_transfer;
 mod sign_csrs;
+mod trust;
 mod users;
 
 pub use activate::{Activate, KeySource};
-pub use clients::{AddClientCertificates, ClientCertificateFile, ListClients};
 pub use create_csr::{CreateCsr, CsrFields};
 pub use enroll::{Enrolled, enroll, probe};
 pub use export_self_signed::ExportSelfSigned;
@@ -52,6 +53,7 @@ pub use get_info::GetInfo;
 pub use import_ca::{CaCertificateSource, CheckCaCertificate, ImportCaCertificate};
 pub use import_user::{CheckUserCertificate, ImportUserCertificate, UserCertificateFiles};
 pub use operation::{Confirmation, Operation, Outcome, Run, Step};
+pub use push_authority::PushAuthority;
 pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
 pub use select_certificate::{ListCertificates, SelectCertificateType};
 pub use self_signed::{SelfSigned, SelfSignedFields};
@@ -60,4 +62,9 @@ pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings};
 pub use sign_csrs::SignCsrs;
+pub use trust::{
+    AddTrust, Destination, Fate, ListTrust, MoveClients, Note, Planned, RemoveClients, RemoveCrls, SkipReason, Target,
+    Thing, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust, WATCH_INTERVAL, WatchEvent,
+    watch_trust,
+};
 pub use users::{AddUser, ListUsers, RemoveUsers};

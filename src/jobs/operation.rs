@@ -4,10 +4,10 @@ use async_trait::async_trait;
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
-use super::JobController;
+use super::{JobController, TrustChange, TrustSnapshot};
 use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Finding;
-use crate::protocol::{HeldCertificates, ListedCertificate, LogChunk, Revisioned};
+use crate::protocol::{HeldCertificates, LogChunk, Revisioned};
 use crate::session::ControllerSession;
 use crate::workspace::{SavedCertificate, SavedCsr};
 
@@ -43,6 +43,8 @@ pub struct Confirmation {
     pub deletes_log: bool,
     /// Settings and users in the controller are replaced by those of a file.
     pub replaces_settings: bool,
+    /// Clients that are connected and not trusted any more are disconnected. The server is not stopped.
+    pub disconnects_clients: bool,
 }
 
 /// The step a controller is at.
@@ -63,7 +65,10 @@ pub enum Outcome {
     Done,
     Settings(Revisioned<ServerSettings>),
     Users(Revisioned<Vec<UserName>>),
-    Clients(Revisioned<Vec<ListedCertificate>>),
+    /// Client lists and CRLs of a controller.
+    TrustLists(Box<TrustSnapshot>),
+    /// Client lists or CRLs were changed.
+    TrustChanged(Box<TrustChange>),
     /// [`LogChunk::text`] is what was asked for, however many requests that took.
     Log(LogChunk),
     /// The settings of the controller are in this file.

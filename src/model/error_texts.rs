@@ -316,6 +316,67 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("证书已在列表中", "控制器中已有完全相同的证书。", "无需处理。"),
     ),
     (
+        ErrorCode::NotInList,
+        text(
+            "The controller does not hold this any more",
+            "The certificate or CRL is not in the list, or somebody else removed it meanwhile.",
+            "List again to see what the controller holds now.",
+        ),
+        text(
+            "控制器中已没有该项",
+            "列表中没有该证书或 CRL，或已被他人删除。",
+            "请重新显示列表，确认控制器中的当前内容。",
+        ),
+    ),
+    (
+        ErrorCode::NotAnAuthority,
+        text(
+            "The certificate is not one of an authority",
+            "Only authorities, which sign other certificates, belong in the list of issuers.",
+            "Add the certificate of an application to the trusted list.",
+        ),
+        text(
+            "该证书不是颁发机构的证书",
+            "发行人列表只接受签发其他证书的机构证书。",
+            "请将应用程序的证书添加到信任列表。",
+        ),
+    ),
+    (
+        ErrorCode::TooManyCrls,
+        text(
+            "More CRLs than the controller can take",
+            "The controller's room for CRLs would be exceeded. Nothing was sent.",
+            "Delete CRLs that are no longer needed, or add fewer.",
+        ),
+        text(
+            "CRL 超过控制器上限",
+            "将超过控制器可保存的 CRL 上限。未发送任何内容。",
+            "请删除不再需要的 CRL，或减少要添加的数量。",
+        ),
+    ),
+    (
+        ErrorCode::DuplicateCrl,
+        text(
+            "The controller already holds this CRL",
+            "The controller holds exactly this CRL.",
+            "Nothing needs to be done.",
+        ),
+        text("控制器中已有该 CRL", "控制器中已有完全相同的 CRL。", "无需处理。"),
+    ),
+    (
+        ErrorCode::CrlOutdated,
+        text(
+            "The CRL is older than the one in the controller",
+            "The controller holds a CRL of the same issuer that is as new or newer. With the older one, certificates revoked since would be valid again.",
+            "Get the latest CRL from the issuer. If the older one is really meant, delete the newer one first.",
+        ),
+        text(
+            "该 CRL 比控制器中的旧",
+            "控制器中已有同一颁发者的相同版本或更新的 CRL。换成旧的会使此后吊销的证书重新有效。",
+            "请向颁发者获取最新的 CRL。若确实需要旧的，请先删除较新的 CRL。",
+        ),
+    ),
+    (
         ErrorCode::DiskFull,
         text(
             "The controller's storage is full",
@@ -428,6 +489,19 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "文件中没有可用的证书",
             "文件已损坏，或不是 PEM、DER 格式的 X.509 证书。",
             "请选择其他文件，或重新导出证书。",
+        ),
+    ),
+    (
+        ErrorCode::BadCrl,
+        text(
+            "The file holds no usable CRL",
+            "It is damaged, not a CRL in PEM or DER, or of a kind that controllers do not understand.",
+            "Choose another file, or get the CRL from the issuer again.",
+        ),
+        text(
+            "文件中没有可用的 CRL",
+            "文件已损坏，不是 PEM、DER 格式的 CRL，或是控制器不支持的类型。",
+            "请选择其他文件，或向颁发者重新获取 CRL。",
         ),
     ),
     (

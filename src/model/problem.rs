@@ -53,6 +53,11 @@ pub enum ErrorCode {
     UserNotFound,
     ListFull,
     DuplicateCertificate,
+    NotInList,
+    NotAnAuthority,
+    TooManyCrls,
+    DuplicateCrl,
+    CrlOutdated,
     DiskFull,
     Refused,
     LogPassword,
@@ -65,6 +70,7 @@ pub enum ErrorCode {
     BadCredential,
     BadCertificateRequest,
     BadCertificate,
+    BadCrl,
     BadFingerprint,
     NameTaken,
     AddressTaken,
@@ -273,10 +279,15 @@ mod tests {
             | UserNotFound
             | ListFull
             | DuplicateCertificate
+            | NotInList
+            | NotAnAuthority
+            | TooManyCrls
+            | DuplicateCrl
+            | CrlOutdated
             | DiskFull
             | Refused
             | LogPassword
-            | RequestTooLarge => 15,
+            | RequestTooLarge => 20,
             BadName
             | BadAddress
             | BadPort
@@ -284,12 +295,13 @@ mod tests {
             | BadCredential
             | BadCertificateRequest
             | BadCertificate
+            | BadCrl
             | BadFingerprint
             | NameTaken
             | AddressTaken
             | UnknownController
             | FileUnreadable
-            | NotConfirmed => 13,
+            | NotConfirmed => 14,
             CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,
@@ -308,7 +320,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 11 + 15 + 13 + 14 + 13 + 4 + 1 + 7 + 9;
+        let all = 7 + 11 + 20 + 14 + 14 + 13 + 4 + 1 + 7 + 9;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

@@ -184,6 +184,16 @@ impl Crl {
         self.facts.issuer_folded == certificate.facts().issuer_folded
     }
 
+    /// Whether the certificate carries the name of its authority and, where both say it, the key identifier. The
+    /// signature is not looked at.
+    pub fn is_of(&self, authority: &Certificate) -> bool {
+        self.facts.issuer_folded == authority.facts().subject_folded
+            && match (self.authority_key_id(), authority.subject_key_id()) {
+                (Some(wanted), Some(has)) => wanted == has,
+                _ => true,
+            }
+    }
+
     /// What it says of a certificate, if it lists it. Says nothing about certificates of other authorities.
     ///
     /// An indirect list never does: its entries may be about certificates of anybody.

@@ -55,6 +55,7 @@ mod self_signed;
 mod signature;
 mod tlv;
 mod trust;
+mod trust_health;
 
 pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
 pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, REVOCATION_REASONS, RevokedCertificate};
@@ -77,3 +78,4 @@ pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 pub use self_signed::{ServerNames, self_signed};
 pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy};
+pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

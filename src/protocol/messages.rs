@@ -1,13 +1,10 @@
 use std::fmt;
 
-use chrono::{DateTime, Utc};
 use secrecy::{ExposeSecret, SecretString};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Base64Bytes;
-use crate::model::{
-    CertificateSummary, CertificateType, ErrorCode, Problem, SelfSignedRequest, ServerSettings, ServerStatus, UserName,
-};
+use crate::model::{CertificateType, ErrorCode, Problem, SelfSignedRequest, ServerSettings, ServerStatus, UserName};
 
 /// A secret inside a message: serialised as a plain string (the channel is encrypted), never shown by `Debug`.
 #[derive(Clone)]
@@ -132,25 +129,6 @@ pub struct Installed {
     pub changed: Changed,
     /// DER.
     pub certificate: Base64Bytes,
-}
-
-/// A certificate in one of the client lists.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct ListedCertificate {
-    /// The name the file had on the PC; only for people to recognise it by.
-    pub file_name: String,
-    /// DER.
-    pub certificate: Base64Bytes,
-    pub summary: CertificateSummary,
-    pub added: DateTime<Utc>,
-}
-
-/// DER certificates for a client list, each with the file name it is to be shown under.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct AddClients {
-    pub revision: u64,
-    pub certificates: Vec<(String, Base64Bytes)>,
 }
 
 /// The body of every failed request.

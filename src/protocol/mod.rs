@@ -42,8 +42,13 @@
 //! | `POST` [`CSR`] | [`MakeCsr`] | [`CsrMade`], current firmware |
 //! | `POST` [`CSR_IMPORT`] | [`ImportCsr`] | [`CsrMade`], legacy firmware |
 //! | `POST` [`CA_SIGNED`] | [`ImportCaSigned`] | [`Installed`] |
-//! | `GET` [`CLIENTS`]`/trusted`, `/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
-//! | `POST` [`CLIENTS`]`/trusted`, `/issuers` | [`AddClients`] | [`Changed`] |
+//! | `GET` [`CLIENTS`]`/trusted` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
+//! | `GET` [`CLIENTS`]`/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>`, current firmware |
+//! | `GET` [`CLIENTS`]`/rejected` | – | [`Revisioned`]`<Vec<`[`RejectedClient`]`>>`, seen last first |
+//! | `GET` [`CRLS`] | – | [`Revisioned`]`<Vec<`[`ListedCrl`]`>>` |
+//! | `GET` [`CRLS`]`/` and a [`CrlSummary::id`](crate::model::CrlSummary::id) | – | [`Base64Bytes`]: the DER |
+//! | `GET` [`TRUST`] | – | [`TrustStamp`] |
+//! | `POST` [`TRUST`] | [`EditTrust`] | [`TrustChanged`] |
 //! | `POST` [`SETTINGS_EXPORT`] | [`ExportSettings`] | [`SettingsExport`], legacy firmware |
 //! | `POST` [`SETTINGS_IMPORT`] | [`ImportSettings`] | [`Changed`], legacy firmware |
 //! | `GET` [`LOG`], with `?from=` a byte | – | [`LogChunk`] |
@@ -58,6 +63,18 @@
 //! changes, start and stop are refused and everything else is answered.
 //!
 //! A change whose answer was lost may have been applied; the client finds out by reading the revision again.
+//!
+//! # Trust
+//! The certificates in the trusted list and the issuers list, and the CRLs, are part of the configuration: changing them
+//! ([`EditTrust`]) is a change as any other, but the OPC UA server is not stopped for it. It takes effect at once, for
+//! new connections as for open ones: those that would not be let in any more are ended, and the answer names them.
+//!
+//! The rejected list is filled by the controller with certificates that were refused. It is bounded and no part of the
+//! configuration: what only removes from it does not change the revision. [`TrustStamp`] tells cheaply whether it, or
+//! anything else of this, is another than before. A certificate that is put into another list leaves it.
+//!
+//! Limits of the lists are in [`ControllerInfo`](crate::model::ControllerInfo). Legacy firmware has no issuers list;
+//! whatever names it is refused with [`ErrorCode::FirmwareTooOld`].
 //!
 //! # Failures
 //! Every failure has a status of 400 or above and a [`Failure`] as its body. [`status_of`] says which status goes
@@ -82,6 +99,7 @@ mod certificates;
 mod log;
 mod messages;
 mod settings_export;
+mod trust;
 
 pub use activation::Activate;
 pub use certificates::{
@@ -89,13 +107,17 @@ pub use certificates::{
 };
 pub use log::{LogChunk, MAX_LOG_CHUNK_BYTES};
 pub use messages::{
-    AddClients, AddUser, Changed, Failure, Hello, ImportCertificate, Installed, ListedCertificate, Login,
-    MakeSelfSigned, RemoveUsers, Revisioned, Session, SetSettings, WireSecret,
+    AddUser, Changed, Failure, Hello, ImportCertificate, Installed, Login, MakeSelfSigned, RemoveUsers, Revisioned,
+    Session, SetSettings, WireSecret,
 };
 
 pub use settings_export::{
     EXPORT_FORMAT, EXPORT_VERSION, ExportContent, ExportError, ExportSettings, ExportedUser, ImportSettings,
     MAX_EXPORT_BYTES, SettingsExport,
+};
+pub use trust::{
+    CutClient, EditTrust, ListedCertificate, ListedCrl, MAX_SENT_CRL_BYTES, MAX_TRUST_STEPS, RejectedClient,
+    TrustChanged, TrustStamp, TrustStep,
 };
 
 use crate::model::{ClientList, ErrorCode};
@@ -122,6 +144,8 @@ pub const CSR: &str = "/v1/certificates/csr";
 pub const CSR_IMPORT: &str = "/v1/certificates/csr/import";
 pub const CA_SIGNED: &str = "/v1/certificates/ca-signed";
 pub const CLIENTS: &str = "/v1/clients";
+pub const CRLS: &str = "/v1/crls";
+pub const TRUST: &str = "/v1/trust";
 pub const ACTIVATION: &str = "/v1/activation";
 pub const LOG: &str = "/v1/log";
 pub const SETTINGS_EXPORT: &str = "/v1/settings/export";
@@ -139,6 +163,11 @@ pub const LOCK_OUT_SECS: u64 = 60;
 /// Where a list of client certificates lives.
 pub fn clients_path(list: ClientList) -> String {
     format!("{CLIENTS}/{}", list.as_str())
+}
+
+/// Where the DER of one CRL is.
+pub fn crl_path(id: &str) -> String {
+    format!("{CRLS}/{id}")
 }
 
 /// The HTTP status that carries an error code.

@@ -16,10 +16,10 @@ use super::{Connector, ControllerSession};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    self, Activate, AddClients, AddUser, Changed, CsrMade, ExportSettings, Failure, HeldCertificates, Hello,
-    ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, Login,
-    MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, Session, SetSettings, SettingsExport,
-    WireSecret,
+    self, Activate, AddUser, Base64Bytes, Changed, CsrMade, EditTrust, ExportSettings, Failure, HeldCertificates,
+    Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, ListedCrl,
+    LogChunk, Login, MakeCsr, MakeSelfSigned, RejectedClient, RemoveUsers, Revisioned, SelectCertificate, Session,
+    SetSettings, SettingsExport, TrustChanged, TrustStamp, WireSecret,
 };
 
 /// How long the driver waits.
@@ -295,8 +295,24 @@ impl ControllerSession for Link {
         self.get(&protocol::clients_path(list)).await
     }
 
-    async fn add_clients(&mut self, list: ClientList, change: AddClients) -> Result<Changed, Problem> {
-        self.change(&protocol::clients_path(list), &change).await
+    async fn rejected_clients(&mut self) -> Result<Revisioned<Vec<RejectedClient>>, Problem> {
+        self.get(&protocol::clients_path(ClientList::Rejected)).await
+    }
+
+    async fn crls(&mut self) -> Result<Revisioned<Vec<ListedCrl>>, Problem> {
+        self.get(protocol::CRLS).await
+    }
+
+    async fn crl(&mut self, id: &str) -> Result<Base64Bytes, Problem> {
+        self.get(&protocol::crl_path(id)).await
+    }
+
+    async fn trust_stamp(&mut self) -> Result<TrustStamp, Problem> {
+        self.get(protocol::TRUST).await
+    }
+
+    async fn edit_trust(&mut self, change: EditTrust) -> Result<TrustChanged, Problem> {
+        self.change(protocol::TRUST, &change).await
     }
 
     async fn activate(&mut self, change: Activate) -> Result<Changed, Problem> {

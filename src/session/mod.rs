@@ -14,9 +14,10 @@ pub use management::{ManagementConnector, Timeouts};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    Activate, AddClients, AddUser, Changed, CsrMade, ExportSettings, HeldCertificates, ImportCaSigned,
-    ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, MakeCsr, MakeSelfSigned,
-    RemoveUsers, Revisioned, SelectCertificate, SetSettings, SettingsExport,
+    Activate, AddUser, Base64Bytes, Changed, CsrMade, EditTrust, ExportSettings, HeldCertificates, ImportCaSigned,
+    ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, ListedCrl, LogChunk, MakeCsr,
+    MakeSelfSigned, RejectedClient, RemoveUsers, Revisioned, SelectCertificate, SetSettings, SettingsExport,
+    TrustChanged, TrustStamp,
 };
 
 /// Opens sessions.
@@ -85,10 +86,26 @@ pub trait ControllerSession: Send + Sync {
     async fn import_ca_signed(&mut self, _change: ImportCaSigned) -> Result<Installed, Problem> {
         not_offered()
     }
+    /// The trusted list, or on current firmware the issuers list.
     async fn clients(&mut self, _list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
         not_offered()
     }
-    async fn add_clients(&mut self, _list: ClientList, _change: AddClients) -> Result<Changed, Problem> {
+    /// Seen last first.
+    async fn rejected_clients(&mut self) -> Result<Revisioned<Vec<RejectedClient>>, Problem> {
+        not_offered()
+    }
+    async fn crls(&mut self) -> Result<Revisioned<Vec<ListedCrl>>, Problem> {
+        not_offered()
+    }
+    /// The DER of one CRL.
+    async fn crl(&mut self, _id: &str) -> Result<Base64Bytes, Problem> {
+        not_offered()
+    }
+    /// Cheap: tells whether the lists and CRLs are worth reading again.
+    async fn trust_stamp(&mut self) -> Result<TrustStamp, Problem> {
+        not_offered()
+    }
+    async fn edit_trust(&mut self, _change: EditTrust) -> Result<TrustChanged, Problem> {
         not_offered()
     }
     /// Legacy firmware only.

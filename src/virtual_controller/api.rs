@@ -28,10 +28,10 @@ use super::settings_transfer;
 use crate::model::activation::ActivationKeys;
 use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
-    self, Activate, AddClients, AddUser, Base64Bytes, Changed, CsrMade, ExportSettings, Failure, HeldCertificates,
-    Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, Login,
+    self, Activate, AddUser, Base64Bytes, Changed, CsrMade, EditTrust, ExportSettings, Failure, HeldCertificates,
+    Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCrl, LogChunk, Login,
     MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SESSION_IDLE_SECS, SelectCertificate, Session, SetSettings,
-    SettingsExport, WireSecret,
+    SettingsExport, TrustChanged, TrustStamp, WireSecret,
 };
 
 /// How long a wrong password waits for its answer.
@@ -59,7 +59,10 @@ pub static ROUTER: LazyLock<Router> = LazyLock::new(|| {
         .route(protocol::CSR, post(make_csr))
         .route(protocol::CSR_IMPORT, post(import_csr))
         .route(protocol::CA_SIGNED, post(import_ca_signed))
-        .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients).post(add_clients))
+        .route(&format!("{}/{{list}}", protocol::CLIENTS), get(clients))
+        .route(protocol::CRLS, get(crls))
+        .route(&protocol::crl_path("{id}"), get(crl))
+        .route(protocol::TRUST, get(trust_stamp).post(edit_trust))
         .route(protocol::ACTIVATION, post(activate))
         .route(protocol::LOG, get(log))
         .route(protocol::SETTINGS_EXPORT, post(export_settings))
@@ -327,20 +330,40 @@ async fn import_ca_signed(caller: Caller, body: Body) -> Answer<Installed> {
     Ok(Json(Installed { changed, certificate: Base64Bytes(certificate) }))
 }
 
-async fn clients(caller: Caller, Path(list): Path<String>) -> Answer<Revisioned<Vec<ListedCertificate>>> {
-    Ok(Json(caller.controller().clients(client_list(&list)?)?))
+async fn clients(caller: Caller, Path(list): Path<String>) -> Result<Response, Failed> {
+    let controller = Arc::clone(caller.controller());
+    // Parses certificates.
+    off_thread(move || {
+        Ok(match list.as_str() {
+            "trusted" => Json(controller.clients(ClientList::Trusted)?).into_response(),
+            "issuers" => Json(controller.clients(ClientList::Issuers)?).into_response(),
+            "rejected" => Json(controller.rejected()).into_response(),
+            _ => return Err(not_found()),
+        })
+    })
+    .await
 }
 
-async fn add_clients(caller: Caller, Path(list): Path<String>, body: Body) -> Answer<Changed> {
-    let list = client_list(&list)?;
-    let AddClients { revision, certificates } = read(body, Malformed::plain(ErrorCode::BadCertificate)).await?;
-    let effect = if list == ClientList::Trusted { Effect::TrustedClients } else { Effect::Nothing };
-    let outcome = caller
-        .controller()
-        .change(revision, effect, move |state, around| changes::add_clients(state, around, list, certificates))
-        .await;
-    let (changed, ()) = caller.settle(outcome).await?;
-    Ok(Json(changed))
+async fn crls(caller: Caller) -> Json<Revisioned<Vec<ListedCrl>>> {
+    Json(caller.controller().crls())
+}
+
+async fn crl(caller: Caller, Path(id): Path<String>) -> Answer<Base64Bytes> {
+    Ok(Json(caller.controller().crl(&id)?))
+}
+
+async fn trust_stamp(caller: Caller) -> Json<TrustStamp> {
+    Json(caller.controller().trust_stamp())
+}
+
+async fn edit_trust(caller: Caller, body: Body) -> Answer<TrustChanged> {
+    let change: EditTrust = read(body, Malformed::plain(ErrorCode::BadCertificate)).await?;
+    let outcome = caller.controller().edit_trust(change).await;
+    caller.settle(outcome).await.map(Json)
+}
+
+async fn off_thread<T: Send + 'static>(work: impl FnOnce() -> Result<T, Failed> + Send + 'static) -> Result<T, Failed> {
+    tokio::task::spawn_blocking(work).await.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?
 }
 
 async fn activate(caller: Caller, body: Body) -> Answer<Changed> {
@@ -396,11 +419,6 @@ async fn unknown_method() -> Failed {
 
 fn not_found() -> Failed {
     Failed { status: StatusCode::NOT_FOUND, problem: Problem::with_detail(ErrorCode::Refused, "no such path") }
-}
-
-/// The lists version 1 of the protocol knows.
-fn client_list(name: &str) -> Result<ClientList, Failed> {
-    [ClientList::Trusted, ClientList::Issuers].into_iter().find(|list| list.as_str() == name).ok_or_else(not_found)
 }
 
 /// What a body that is not the message expected is answered with.

@@ -8,17 +8,14 @@ use chrono::{DateTime, Utc};
 use super::activation_keys::demo_keys;
 use super::opcua::hash_password;
 use super::secret_bytes::SecretBytes;
-use super::state::{KeyPair, Listed, State, Surroundings, User};
+use super::state::{KeyPair, State, Surroundings, User};
 use crate::model::activation::ActivationKeys;
 use crate::model::{
-    CertificateType, ClientList, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings,
-    UserName, UserPassword,
+    CertificateType, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings, UserName,
+    UserPassword,
 };
 use crate::pki::{Certificate, PkiError, PrivateKey, check_usable, pkcs12_read, self_signed};
 use crate::protocol::Base64Bytes;
-
-/// The longest file name a client list keeps.
-const MAX_FILE_NAME_BYTES: usize = 255;
 
 /// Manual 2.6.1. `log_password` is looked at only when the server log goes from off to on.
 pub fn set_settings(
@@ -115,43 +112,6 @@ pub fn import_certificate(
     install(state, kind, certificate, &key)
 }
 
-/// Manual 2.7.3.2: all of them, or none. A list never holds the same certificate twice.
-pub fn add_clients(
-    state: &mut State,
-    around: &Surroundings,
-    list: ClientList,
-    certificates: Vec<(String, Base64Bytes)>,
-) -> Result<(), Problem> {
-    let limit = match list {
-        ClientList::Trusted => state.limits().trusted,
-        ClientList::Issuers if state.generation() == FirmwareGeneration::Legacy => {
-            return Err(ErrorCode::FirmwareTooOld.into());
-        }
-        ClientList::Issuers => state.limits().issuers,
-        ClientList::Rejected => return Err(Problem::with_detail(ErrorCode::Refused, "the controller fills this list")),
-    };
-    if certificates.is_empty() {
-        return Err(Problem::with_detail(ErrorCode::BadCertificate, "no certificate was sent"));
-    }
-    if state.list(list).len() + certificates.len() > limit {
-        return Err(Problem::with_detail(ErrorCode::ListFull, format!("at most {limit}")));
-    }
-    for (file_name, certificate) in certificates {
-        check_file_name(&file_name)?;
-        Certificate::from_der(&certificate.0)
-            .map_err(|error| Problem::with_detail(ErrorCode::BadCertificate, format!("{file_name}: {error}")))?;
-        if state.list(list).iter().any(|listed| listed.certificate == certificate) {
-            return Err(Problem::with_detail(ErrorCode::DuplicateCertificate, file_name));
-        }
-        let listed = Listed { file_name, certificate, added: around.now };
-        match list {
-            ClientList::Issuers => state.issuers.push(listed),
-            ClientList::Trusted | ClientList::Rejected => state.trusted.push(listed),
-        }
-    }
-    Ok(())
-}
-
 /// Manual 2.6.3.
 pub fn activate(state: &mut State, keys: ActivationKeys) -> Result<(), Problem> {
     if state.generation() == FirmwareGeneration::Current {
@@ -176,11 +136,4 @@ pub(super) fn install(
     state.certificates.insert(kind, KeyPair { certificate: Base64Bytes(der.clone()), private_key });
     state.selected = kind;
     Ok(der)
-}
-
-/// The name is only for people to recognise a file by, so any script goes.
-fn check_file_name(name: &str) -> Result<(), Problem> {
-    let fits = (1..=MAX_FILE_NAME_BYTES).contains(&name.len())
-        && !name.chars().any(|c| c.is_control() || c == '/' || c == '\\');
-    if fits { Ok(()) } else { Err(Problem::with_detail(ErrorCode::BadName, "file name")) }
 }

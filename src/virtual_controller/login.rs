@@ -125,7 +125,7 @@ fn digest(token: &str) -> [u8; 32] {
 }
 
 /// One host may own a whole /64 of IPv6; there the network counts as one address.
-fn network(address: IpAddr) -> IpAddr {
+pub(super) fn network(address: IpAddr) -> IpAddr {
     match address.to_canonical() {
         IpAddr::V6(v6) => IpAddr::V6(Ipv6Addr::from_bits(v6.to_bits() & (u128::MAX << 64))),
         v4 => v4,

@@ -8,6 +8,8 @@
 //! | `state` | [`State`]: everything a controller remembers, and what follows from it |
 //! | `changes` | every change a controller accepts, as a function on a copy of its state |
 //! | `certificate_changes` | those about server certificates |
+//! | `trust_changes` | those of client certificate lists and CRLs |
+//! | `rejected` | the clients that were refused, bounded, beside the state |
 //! | `settings_transfer` | settings sealed for the PC, and put back |
 //! | `store` | [`Store`]: the state on disk, replaced whole |
 //! | `secret_bytes` | [`SecretBytes`]: key material that shows nowhere |
@@ -37,7 +39,7 @@
 //!
 //! # Decisions
 //! - A running task or a connected teach pendant refuses changes, start and stop, while questions are answered.
-//! - Certificates added to a list do not restart the server.
+//! - Client lists and CRLs take effect in the running server, which is not restarted for it.
 //! - A CSR made in current firmware does not touch the certificate in use. Legacy firmware has room for one key of a
 //!   CA-signed certificate only: a new CSR takes the old certificate away, and a server that used it stops.
 //! - A change on a server in error leaves it in error; the next start or stop that succeeds ends that.
@@ -63,6 +65,7 @@ mod new_controller;
 pub mod opcua;
 mod password;
 mod ports;
+mod rejected;
 mod secret_bytes;
 mod server_log;
 mod settings_transfer;
@@ -71,6 +74,7 @@ mod store;
 #[cfg(test)]
 mod tests;
 mod tls;
+mod trust_changes;
 
 pub use activation_keys::demo_keys;
 pub use controller::{ControllerSpec, SwitchOnError, VirtualController};
@@ -81,5 +85,5 @@ pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
 pub use password::hash_connection_password;
 pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;
-pub use state::{Identity, KeyPair, Listed, PendingCsr, State, Surroundings, User};
+pub use state::{HeldCrl, Identity, KeyPair, Listed, PendingCsr, State, Surroundings, User};
 pub use store::{Staged, Store, StoreError};

@@ -70,6 +70,7 @@ impl NewController {
             selected: CertificateType::SelfSigned,
             trusted: Vec::new(),
             issuers: Vec::new(),
+            crls: Vec::new(),
             used_ports: self.used_ports,
             revision: 1,
         };

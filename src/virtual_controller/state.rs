@@ -7,12 +7,12 @@ use serde::{Deserialize, Serialize};
 use super::secret_bytes::SecretBytes;
 use crate::model::activation::ActivationKeys;
 use crate::model::{
-    CertificateType, ClientList, ControllerName, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion,
-    ListLimits, MAX_USERS, Problem, SerialNumber, ServerCertificate, ServerSettings, UserName, default_common_name,
-    offered_key_lengths,
+    CertificateType, ClientList, ControllerName, ControllerSeries, CrlSummary, ErrorCode, FirmwareGeneration,
+    FirmwareVersion, ListLimits, MAX_USERS, Problem, SerialNumber, ServerCertificate, ServerSettings, UserName,
+    default_common_name, offered_key_lengths,
 };
 use crate::pki::{Certificate, PkiError, ServerNames};
-use crate::protocol::{Base64Bytes, ListedCertificate};
+use crate::protocol::{Base64Bytes, ListedCertificate, ListedCrl};
 
 /// Who a controller is. Never changes during its life.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -65,6 +65,17 @@ pub struct Listed {
     pub added: DateTime<Utc>,
 }
 
+/// A CRL.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct HeldCrl {
+    pub file_name: String,
+    /// DER.
+    pub crl: Base64Bytes,
+    /// What was read from the DER when it was added: it may be large.
+    pub summary: CrlSummary,
+    pub added: DateTime<Utc>,
+}
+
 /// Everything a controller remembers when it is switched off.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct State {
@@ -89,11 +100,19 @@ pub struct State {
     pub selected: CertificateType,
     pub trusted: Vec<Listed>,
     pub issuers: Vec<Listed>,
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub crls: Vec<HeldCrl>,
     /// TCP ports taken by other functions of the controller.
     pub used_ports: Vec<u16>,
     /// Counts every change of the configuration.
     pub revision: u64,
 }
+
+/// What of it is sent along with a list: the answer stays below the protocol's limit, however long the names.
+const MAX_LISTED_CRL_BYTES: usize = 1024 * 1024;
+
+/// What all CRLs of a controller may have together, in bytes of DER.
+pub const MAX_CRLS_BYTES: usize = 4 * 1024 * 1024;
 
 /// What a controller knows about itself only while it is switched on.
 #[derive(Debug, Clone, Copy)]
@@ -196,6 +215,22 @@ impl State {
         Ok(pair)
     }
 
+    /// As [`crate::protocol::ListedCrl`], each with its DER as long as the answer stays small.
+    pub fn listed_crls(&self) -> Vec<ListedCrl> {
+        let mut room = MAX_LISTED_CRL_BYTES;
+        let listed = |held: &HeldCrl| {
+            let fits = held.crl.0.len() <= room;
+            room -= if fits { held.crl.0.len() } else { 0 };
+            ListedCrl {
+                file_name: held.file_name.clone(),
+                crl: fits.then(|| held.crl.clone()),
+                summary: held.summary.clone(),
+                added: held.added,
+            }
+        };
+        self.crls.iter().map(listed).collect()
+    }
+
     /// What holds in every state a controller may be in. A change that breaks it is a mistake of this program, and is
     /// refused; so is a file that does.
     pub fn check(&self) -> Result<(), Problem> {
@@ -208,7 +243,12 @@ impl State {
         if self.users.len() > MAX_USERS {
             return broken("too many users");
         }
-        if self.trusted.len() > limits.trusted || self.issuers.len() > limits.issuers {
+        let crl_bytes: usize = self.crls.iter().map(|held| held.crl.0.len()).sum();
+        if self.trusted.len() > limits.trusted
+            || self.issuers.len() > limits.issuers
+            || self.crls.len() > limits.crls
+            || crl_bytes > MAX_CRLS_BYTES
+        {
             return broken("a list over its limit");
         }
         if self.generation() == FirmwareGeneration::Current

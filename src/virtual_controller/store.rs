@@ -83,7 +83,9 @@ impl Store {
     pub fn stage(&self, state: &State) -> Result<Staged, StoreError> {
         let temporary = self.folder.join(TEMPORARY);
         let staged = Staged { temporary: temporary.clone(), target: self.folder.join(FILE), committed: false };
-        self.write(&temporary, state).map_err(|source| StoreError::Io { path: temporary, source })?;
+        encode(state)
+            .and_then(|bytes| write_private_file(&temporary, &bytes, &self.faults))
+            .map_err(|source| StoreError::Io { path: temporary, source })?;
         Ok(staged)
     }
 
@@ -91,23 +93,33 @@ impl Store {
     pub fn save(&self, state: &State) -> Result<(), StoreError> {
         self.stage(state)?.commit()
     }
+}
 
-    fn write(&self, path: &Path, state: &State) -> io::Result<()> {
-        let bytes = encode(state)?;
-        // One that a killed process left behind.
-        match fs::remove_file(path) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-            _ => {}
-        }
-        let mut file = private_file(path)?;
-        if self.faults.get().disk_full {
-            let (half, _) = bytes.split_at(bytes.len() / 2);
-            file.write_all(half)?;
-            return Err(io::ErrorKind::StorageFull.into());
-        }
-        file.write_all(&bytes)?;
-        file.sync_all()
+/// Writes a file beside the controller's state, for this account only, whole or not at all.
+pub(super) fn replace_private_file(path: &Path, bytes: &[u8], faults: &Faults) -> io::Result<()> {
+    let temporary = path.with_extension("new");
+    let written = write_private_file(&temporary, bytes, faults).and_then(|()| fs::rename(&temporary, path));
+    if written.is_err() {
+        let _ = fs::remove_file(&temporary);
     }
+    written?;
+    path.parent().map_or(Ok(()), sync_folder)
+}
+
+fn write_private_file(path: &Path, bytes: &[u8], faults: &Faults) -> io::Result<()> {
+    // One that a killed process left behind.
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    let mut file = private_file(path)?;
+    if faults.get().disk_full {
+        let (half, _) = bytes.split_at(bytes.len() / 2);
+        file.write_all(half)?;
+        return Err(io::ErrorKind::StorageFull.into());
+    }
+    file.write_all(bytes)?;
+    file.sync_all()
 }
 
 impl Staged {

@@ -20,6 +20,7 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
             invalidates_ca_signed,
             overwrites_files,
             replaces_settings,
+            disconnects_clients,
         } = confirmation;
         let stops = if matches!(task, Task::Stop) { T::ConfirmStop } else { T::ConfirmStops };
         let remarks = [
@@ -30,6 +31,7 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
             (invalidates_ca_signed, T::ConfirmInvalidatesCaSigned),
             (overwrites_files, T::ConfirmOverwrites),
             (replaces_settings, T::ConfirmReplacesSettings),
+            (disconnects_clients, T::ConfirmDisconnectsClients),
         ];
         note(ui, palette(ui).warning, |ui| {
             for (_, remark) in remarks.into_iter().filter(|(applies, _)| *applies) {

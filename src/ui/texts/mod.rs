@@ -200,6 +200,7 @@ texts! {
     ConfirmBackup: "Backup files of the same name in the workspace are overwritten.", "工作区中的同名备份文件将被覆盖。";
     ConfirmInvalidatesCaSigned: "The present CA-signed certificate becomes invalid. Firmware 8.0.0 and later goes on using it until the new one is imported.", "当前的 CA 签名证书将失效。固件 8.0.0 及以上版本在导入新证书之前仍使用原证书。";
     ConfirmReplacesSettings: "Settings and users in the controller are replaced by those of the file, and so are the activation keys if it holds any.", "控制器中的设置和用户将被文件中的内容替换；若文件含激活密钥，也将一并替换。";
+    ConfirmDisconnectsClients: "Clients that are not trusted any more are disconnected at once. The OPC UA server goes on running.", "不再受信任的客户端将立即断开连接。OPC UA 服务器继续运行。";
     ConfirmOverwrites: "Files of the same name on this computer are overwritten.", "本机上的同名文件将被覆盖。";
     ConfirmDeletesLog: "The server log in the controller is deleted.", "将删除控制器中的服务器日志。";
 

@@ -1,4 +1,3 @@
-use std::collections::BTreeMap;
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
@@ -9,14 +8,13 @@ use parking_lot::Mutex;
 /// The folder the OPC UA crate reads certificates from.
 ///
 /// The crate reads the server's certificate and key from it again for every connection, so the key lies there, for
-/// this account's eyes only, until the server is dropped. It asks the folder for trust in every new session, so
-/// changing the files changes who is let in. Only exact certificates are trusted; issuers and revocation are not
-/// looked at.
+/// this account's eyes only, until the server is dropped. It asks the folder for trust in every new session: there lie
+/// the certificates of clients the gate has let in, and no others.
 #[derive(Debug)]
 pub(super) struct PkiFolder {
     root: PathBuf,
-    /// Held while the files are changed.
-    changing: Mutex<()>,
+    /// The names of the files in the folder for trusted certificates, the one used longest ago first.
+    admitted: Mutex<Vec<String>>,
 }
 
 impl PkiFolder {
@@ -36,7 +34,7 @@ impl PkiFolder {
             }
             create_private_folder(&path)?;
         }
-        Ok(Self { root, changing: Mutex::new(()) })
+        Ok(Self { root, admitted: Mutex::default() })
     }
 
     pub(super) fn root(&self) -> &Path {
@@ -57,30 +55,39 @@ impl PkiFolder {
         write_private_file(&rejected, &[])
     }
 
-    /// Makes the given certificates the trusted ones. Whoever loses trust loses it first; a certificate the crate
-    /// cannot read can never be presented to it either, and is left out.
-    pub(super) fn set_trusted(&self, ders: &[Vec<u8>]) -> io::Result<()> {
-        let _changing = self.changing.lock();
-        let folder = self.root.join(TRUSTED);
-        let wanted: BTreeMap<String, &Vec<u8>> =
-            ders.iter().filter_map(|der| file_name(der).map(|name| (name, der))).collect();
-        for entry in fs::read_dir(&folder)? {
-            let entry = entry?;
-            if !entry.file_name().to_str().is_some_and(|name| wanted.contains_key(name)) {
-                remove_if_there(&entry.path())?;
-            }
+    /// Lets the crate take a client's certificate. `InvalidInput` if it cannot read it, or name a file after it.
+    ///
+    /// Of more than [`MAX_ADMITTED`], the one used longest ago is forgotten; there are fewer sessions.
+    pub(super) fn admit(&self, der: &[u8]) -> io::Result<()> {
+        let name = file_name(der).ok_or(io::ErrorKind::InvalidInput)?;
+        let mut admitted = self.admitted.lock();
+        if let Some(at) = admitted.iter().position(|known| *known == name) {
+            let known = admitted.remove(at);
+            admitted.push(known);
+            return Ok(());
         }
-        for (name, der) in wanted {
-            let path = folder.join(name);
-            if !path.exists() {
-                // Renamed into place, so that the server never reads half a certificate.
-                let new = self.root.join(NEW_CERTIFICATE);
-                remove_if_there(&new)?;
-                write_private_file(&new, der)?;
-                fs::rename(&new, &path)?;
-            }
+        // Renamed into place, so that the server never reads half a certificate.
+        let new = self.root.join(NEW_CERTIFICATE);
+        remove_if_there(&new)?;
+        write_private_file(&new, der)?;
+        fs::rename(&new, self.root.join(TRUSTED).join(&name))?;
+        admitted.push(name);
+        if admitted.len() > MAX_ADMITTED {
+            let oldest = admitted.remove(0);
+            remove_if_there(&self.root.join(TRUSTED).join(oldest))?;
         }
         Ok(())
+    }
+
+    /// Keeps the crate from taking a certificate. Should that fail, the gate still does not let it in.
+    pub(super) fn forget(&self, der: &[u8]) {
+        let Some(name) = file_name(der) else { return };
+        let mut admitted = self.admitted.lock();
+        let Some(at) = admitted.iter().position(|known| *known == name) else { return };
+        let name = admitted.remove(at);
+        if let Err(e) = remove_if_there(&self.root.join(TRUSTED).join(name)) {
+            tracing::warn!("an OPC UA client's certificate stays in {}: {e}", self.root.display());
+        }
     }
 }
 
@@ -94,14 +101,9 @@ impl Drop for PkiFolder {
 
 /// Where the crate looks for a certificate.
 fn file_name(der: &[u8]) -> Option<String> {
-    let certificate =
-        X509::from_der(der).inspect_err(|_| tracing::warn!("trusted certificate left out: not readable")).ok()?;
-    let name = CertificateStore::cert_file_name(&certificate);
+    let name = CertificateStore::cert_file_name(&X509::from_der(der).ok()?);
     // The common name in it is whatever the client's owner wrote.
     let harmless = name.len() <= 255 && !name.contains(|c: char| c.is_control() || "/\\:*?\"<>|".contains(c));
-    if !harmless {
-        tracing::warn!("trusted certificate left out: its common name cannot name a file");
-    }
     harmless.then_some(name)
 }
 
@@ -136,6 +138,7 @@ fn write_private_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
 pub(super) const OWN_CERTIFICATE: &str = "own.der";
 pub(super) const OWN_KEY: &str = "own.pem";
 const NEW_CERTIFICATE: &str = "new.der";
+const MAX_ADMITTED: usize = 256;
 // The crate's names.
 const TRUSTED: &str = "trusted";
 const REJECTED: &str = "rejected";

@@ -2,6 +2,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::net::IpAddr;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use argon2::password_hash::PasswordHash;
 use rsa::RsaPrivateKey;
@@ -9,8 +10,9 @@ use rsa::pkcs8::{DecodePrivateKey, EncodePublicKey};
 use x509_parser::prelude::{FromDer, X509Certificate};
 use zeroize::Zeroizing;
 
-use super::{Events, StartError};
+use super::{Clock, Events, Refusals, StartError};
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, SerialNumber, UserTokenPolicy};
+use crate::pki::{TrustLists, TrustPolicy};
 
 /// Everything one server is made of.
 #[derive(Clone)]
@@ -31,8 +33,16 @@ pub struct OpcUaConfig {
     pub certificate_der: Vec<u8>,
     /// The RSA key of the certificate, PKCS#8 DER.
     pub private_key_pkcs8: Zeroizing<Vec<u8>>,
-    /// The client certificates that are let in, DER; exactly these.
-    pub trusted_clients: Vec<Vec<u8>>,
+    /// Which client certificates are let in. [`super::OpcUaServer::set_trust`] changes it while the server runs.
+    pub trust: TrustLists,
+    pub trust_policy: TrustPolicy,
+    /// Whether a client is told what is wrong with its certificate. By default it is told only that it was refused, as
+    /// OPC 10000-6 §6.7.6 wants it.
+    pub detailed_status: bool,
+    /// Told of every client whose certificate was refused.
+    pub refusals: Option<Arc<dyn Refusals>>,
+    /// The clock certificates are checked by.
+    pub clock: Clock,
     pub identity: DeviceIdentity,
     /// Told what happens while the server runs.
     pub events: Events,
@@ -104,7 +114,9 @@ impl fmt::Debug for OpcUaConfig {
             .field("policies", &self.policies)
             .field("user_tokens", &self.user_tokens)
             .field("users", &self.users)
-            .field("trusted_clients", &self.trusted_clients.len())
+            .field("trusted_clients", &self.trust.trusted().len())
+            .field("trust_policy", &self.trust_policy)
+            .field("detailed_status", &self.detailed_status)
             .field("identity", &self.identity)
             .field("pki_folder", &self.pki_folder)
             .finish_non_exhaustive()

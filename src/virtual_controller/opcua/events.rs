@@ -1,5 +1,5 @@
 use std::fmt;
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 
 /// Who is told what happens in a running server; nobody by default.
@@ -14,13 +14,55 @@ type Listener = dyn Fn(Event<'_>) + Send + Sync;
 /// password typed into the wrong field, is not part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Event<'a> {
-    Started { endpoint: &'a str, policies: &'a str },
-    Stopped { endpoint: &'a str },
-    Connected { client: SocketAddr },
-    Disconnected { client: SocketAddr },
-    TooManyConnections { client: SocketAddr },
-    LoggedIn { user: Option<&'a str>, policy: &'a str, mode: &'a str },
-    LoginRefused { user: Option<&'a str>, reason: &'a str },
+    Started {
+        endpoint: &'a str,
+        policies: &'a str,
+    },
+    Stopped {
+        endpoint: &'a str,
+    },
+    /// A client has a secure channel.
+    Connected {
+        client: SocketAddr,
+    },
+    Disconnected {
+        client: SocketAddr,
+    },
+    TooManyConnections {
+        client: SocketAddr,
+    },
+    /// A client did not get, or did not keep, a secure channel or a session.
+    Refused {
+        client: SocketAddr,
+        reason: &'a str,
+    },
+    /// An open connection was ended by a change of trust.
+    Cut {
+        client: SocketAddr,
+        reason: &'a str,
+    },
+    /// No more refusals of this address are told for a while.
+    Locked {
+        address: IpAddr,
+    },
+    /// They are again; so many were not.
+    Unlocked {
+        address: IpAddr,
+        left_out: u64,
+    },
+    /// No more connections of this address are told for a while.
+    LeftOut {
+        address: IpAddr,
+    },
+    LoggedIn {
+        user: Option<&'a str>,
+        policy: &'a str,
+        mode: &'a str,
+    },
+    LoginRefused {
+        user: Option<&'a str>,
+        reason: &'a str,
+    },
 }
 
 impl Events {
@@ -44,7 +86,15 @@ impl fmt::Debug for Events {
 impl Event<'_> {
     /// Whether it is something to look at.
     pub fn is_warning(&self) -> bool {
-        matches!(self, Self::TooManyConnections { .. } | Self::LoginRefused { .. })
+        matches!(
+            self,
+            Self::TooManyConnections { .. }
+                | Self::Refused { .. }
+                | Self::Cut { .. }
+                | Self::Locked { .. }
+                | Self::Unlocked { .. }
+                | Self::LoginRefused { .. }
+        )
     }
 }
 
@@ -56,6 +106,11 @@ impl fmt::Display for Event<'_> {
             Self::Connected { client } => write!(f, "connection from {client} opened"),
             Self::Disconnected { client } => write!(f, "connection from {client} closed"),
             Self::TooManyConnections { client } => write!(f, "connection from {client} refused: too many"),
+            Self::Refused { client, reason } => write!(f, "client {client} refused: {reason}"),
+            Self::Cut { client, reason } => write!(f, "client {client} cut off: {reason}"),
+            Self::Locked { address } => write!(f, "refusals of {address} are too many; left out for a minute"),
+            Self::Unlocked { address, left_out } => write!(f, "{left_out} refusals of {address} were left out"),
+            Self::LeftOut { address } => write!(f, "connections of {address} are too many; left out for a minute"),
             Self::LoggedIn { user, policy, mode } => {
                 write!(f, "session of {} activated: {policy}, {mode}", user.unwrap_or("an anonymous user"))
             }

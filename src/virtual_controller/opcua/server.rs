@@ -16,13 +16,14 @@ use tokio::net::TcpListener;
 use tokio::task::JoinHandle;
 
 use super::address_space::Controller;
+use super::admission::{CutConnection, Gate, Guarded, Judge, Own, Reporter, Settings};
 use super::certificate_store::{OWN_CERTIFICATE, OWN_KEY, PkiFolder};
 use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
 use super::events::{Event, Events};
 use super::nodesets::NodeSet;
-use super::relay::relay;
 use super::users::Users;
+use crate::pki::TrustLists;
 
 /// Why a server could not be started.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -39,10 +40,10 @@ pub enum StartError {
 pub struct OpcUaServer {
     address: SocketAddr,
     handle: ServerHandle,
-    pki: PkiFolder,
+    gate: Arc<Gate>,
     events: Events,
     server: JoinHandle<Result<(), String>>,
-    relay: JoinHandle<()>,
+    clients: JoinHandle<()>,
 }
 
 impl OpcUaServer {
@@ -56,8 +57,8 @@ impl OpcUaServer {
         let events = config.events.clone();
         let policies = config.policies.iter().map(|p| p.as_str()).collect::<Vec<_>>().join(", ");
         // Reads and writes files, checks the key, and builds some ten thousand nodes.
-        let (server, handle, pki) =
-            tokio::task::spawn_blocking(move || build(&config, address)).await.map_err(failed)??;
+        let (server, handle, gate) =
+            tokio::task::spawn_blocking(move || build(&config, address, inner_address)).await.map_err(failed)??;
         let stop_unless_ready = handle.token().clone().drop_guard();
         let mut server = tokio::spawn(server.run_with(inner));
         tokio::time::timeout(START_TIMEOUT, ready(&mut server, &handle, inner_address.port()))
@@ -66,8 +67,8 @@ impl OpcUaServer {
         stop_unless_ready.disarm();
         // Endpoint URLs are made with this port: it must be the one clients know before the first of them asks.
         handle.info().port.store(address.port(), Ordering::Relaxed);
-        let relay = tokio::spawn(relay(clients, inner_address, events.clone()));
-        let running = Self { address, handle, pki, events, server, relay };
+        let clients = tokio::spawn(gate.clone().run(clients));
+        let running = Self { address, handle, gate, events, server, clients };
         tracing::info!(endpoint = running.endpoint(), "OPC UA server started");
         running.events.tell(Event::Started { endpoint: &running.endpoint(), policies: &policies });
         Ok(running)
@@ -83,14 +84,17 @@ impl OpcUaServer {
         endpoint(self.address)
     }
 
-    /// Lets in exactly these client certificates (DER) from the next session on. Sessions that are already open stay.
-    pub fn set_trusted_clients(&self, ders: &[Vec<u8>]) -> io::Result<()> {
-        self.pki.set_trusted(ders)
+    /// Lets in clients by these lists from now on, and ends at once every open connection that would not be let in any
+    /// more. Gives those that were ended.
+    ///
+    /// Checks the certificate of every connection, so not for an async task.
+    pub fn set_trust(&self, lists: TrustLists) -> Vec<CutConnection> {
+        self.gate.set_trust(lists)
     }
 
     /// False once the server has ended by itself.
     pub fn is_running(&self) -> bool {
-        !self.server.is_finished() && !self.relay.is_finished()
+        !self.server.is_finished() && !self.clients.is_finished()
     }
 
     /// Closes every connection and the port. Takes at most a few seconds, whatever the clients do.
@@ -98,8 +102,8 @@ impl OpcUaServer {
         self.handle.cancel();
         // Clients that listen are told why they are disconnected; the others are cut off.
         let told = ended(&mut self.server, FAREWELL).await;
-        self.relay.abort();
-        ended(&mut self.relay, STOP_TIMEOUT).await;
+        self.clients.abort();
+        ended(&mut self.clients, STOP_TIMEOUT).await;
         if !told && !ended(&mut self.server, STOP_TIMEOUT).await {
             tracing::warn!(endpoint = self.endpoint(), "OPC UA server did not stop in time");
             self.server.abort();
@@ -112,7 +116,7 @@ impl OpcUaServer {
 impl Drop for OpcUaServer {
     fn drop(&mut self) {
         self.handle.cancel();
-        self.relay.abort();
+        self.clients.abort();
     }
 }
 
@@ -159,20 +163,32 @@ async fn listen(address: IpAddr, port: u16) -> Result<TcpListener, StartError> {
     })
 }
 
-fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHandle, PkiFolder), StartError> {
+fn build(
+    config: &OpcUaConfig,
+    address: SocketAddr,
+    inner: SocketAddr,
+) -> Result<(Server, ServerHandle, Arc<Gate>), StartError> {
     let key = config.check()?;
     let devices = NodeSet::devices().map_err(StartError::Failed)?;
     let pki = PkiFolder::create(config.pki_folder.clone()).map_err(failed)?;
-    pki.set_trusted(&config.trusted_clients).map_err(failed)?;
     let pem = key.to_pkcs8_pem(LineEnding::LF).map_err(failed)?;
     pki.write_own(&config.certificate_der, &pem).map_err(failed)?;
+    let own = Own::new(&config.certificate_der, &pem).map_err(StartError::InvalidParameter)?;
+    let gate = Arc::new(Gate::new(
+        Settings::new(config.policies.clone(), config.detailed_status),
+        inner,
+        own,
+        Judge::new(config.trust.clone(), config.trust_policy, config.clock.clone()),
+        pki,
+        Reporter::new(config.events.clone(), config.refusals.clone()),
+    ));
     let (server, handle) =
-        builder(config, address, key.size() * 8, devices, &pki).build().map_err(StartError::Failed)?;
-    pki.close_rejected().map_err(failed)?;
+        builder(config, address, key.size() * 8, devices, &gate).build().map_err(StartError::Failed)?;
+    gate.pki().close_rejected().map_err(failed)?;
     if handle.info().server_pkey.is_none() || handle.info().server_certificate.is_none() {
         return Err(StartError::InvalidParameter("the server certificate or its key cannot be used".to_owned()));
     }
-    Ok((server, handle, pki))
+    Ok((server, handle, gate))
 }
 
 fn builder(
@@ -180,7 +196,7 @@ fn builder(
     address: SocketAddr,
     key_bits: usize,
     devices: Arc<NodeSet>,
-    pki: &PkiFolder,
+    gate: &Arc<Gate>,
 ) -> ServerBuilder {
     let identity = config.identity.clone();
     let controller = InMemoryNodeManagerBuilder::new(move |context: ServerContext, space: &mut AddressSpace| {
@@ -191,8 +207,8 @@ fn builder(
         // The controller's nodes before the standard ones: that gives them namespace 1. The crate's diagnostics want
         // the same namespace and are left out.
         .without_node_managers()
-        .with_node_manager(controller)
-        .with_node_manager(InMemoryNodeManagerBuilder::new(CoreNodeManagerBuilder))
+        .with_node_manager(Guarded::builder(controller, gate.clone()))
+        .with_node_manager(Guarded::builder(InMemoryNodeManagerBuilder::new(CoreNodeManagerBuilder), gate.clone()))
         .with_authenticator(Arc::new(Users::new(tokens, &config.users, config.events.clone())))
         .application_name(&config.application_name)
         .application_uri(&config.application_uri)
@@ -208,12 +224,13 @@ fn builder(
         .host(host(address.ip()))
         .port(address.port())
         .discovery_urls(vec![format!("{}/", endpoint(address))])
-        .pki_dir(pki.root())
+        .pki_dir(gate.pki().root())
         .certificate_path(OWN_CERTIFICATE)
         .private_key_path(OWN_KEY)
         .create_sample_keypair(false)
         .trust_client_certs(false)
-        .check_cert_time(true)
+        // The gate has looked at it, by the controller's clock.
+        .check_cert_time(false)
         .limits(endpoints::limits())
         .hello_timeout(endpoints::HELLO_TIMEOUT_SECS)
         .subscription_poll_interval_ms(endpoints::SUBSCRIPTION_TICK_MS)

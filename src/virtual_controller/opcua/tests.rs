@@ -12,7 +12,9 @@ use opcua::types::{
     BrowseDescription, BrowseDirection, MessageSecurityMode, NodeClass, NodeClassMask, NodeId, ObjectId, ReadValueId,
     ReferenceTypeId, StatusCode, TimestampsToReturn, VariableId, Variant, WriteValue,
 };
-use rcgen::{CertificateParams, DnType, KeyPair, PKCS_RSA_SHA256, RsaKeySize, SanType};
+use rcgen::{
+    CertificateParams, DnType, ExtendedKeyUsagePurpose, KeyPair, KeyUsagePurpose, PKCS_RSA_SHA256, RsaKeySize, SanType,
+};
 use tempfile::TempDir;
 use tokio::task::JoinHandle;
 use tokio::time::timeout;
@@ -20,6 +22,7 @@ use zeroize::Zeroizing;
 
 use super::*;
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, UserTokenPolicy};
+use crate::pki::{Certificate, TrustLists, TrustPolicy};
 
 const URI: &str = "urn:EpsonRC.SN0000123.127.000.000.001";
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -38,8 +41,20 @@ impl Identity {
             SanType::URI(format!("urn:{name}").try_into().unwrap()),
             SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST)),
         ];
+        params.key_usages = vec![
+            KeyUsagePurpose::DigitalSignature,
+            KeyUsagePurpose::ContentCommitment,
+            KeyUsagePurpose::KeyEncipherment,
+            KeyUsagePurpose::DataEncipherment,
+            KeyUsagePurpose::KeyCertSign,
+        ];
+        params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth, ExtendedKeyUsagePurpose::ClientAuth];
         Self { der: params.self_signed(&key).unwrap().der().to_vec(), key }
     }
+}
+
+fn trusting(identity: &Identity) -> TrustLists {
+    TrustLists::new(vec![Certificate::from_der(&identity.der).unwrap()], vec![], vec![])
 }
 
 static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("EpsonRC.SN0000123.127.000.000.001"));
@@ -56,7 +71,11 @@ fn config(folder: &TempDir) -> OpcUaConfig {
         users: vec![],
         certificate_der: SERVER.der.clone(),
         private_key_pkcs8: Zeroizing::new(SERVER.key.serialize_der()),
-        trusted_clients: vec![],
+        trust: TrustLists::default(),
+        trust_policy: TrustPolicy::default(),
+        detailed_status: false,
+        refusals: None,
+        clock: Clock::default(),
         identity: DeviceIdentity {
             name: "Weld 1".to_owned(),
             series: ControllerSeries::Rc800,
@@ -335,16 +354,16 @@ async fn a_password_is_encrypted_where_the_channel_is_not() {
 async fn trust_in_a_client_changes_while_the_server_runs() {
     let folder = tempfile::tempdir().unwrap();
     let server = start(config(&folder)).await;
-    assert_eq!(Client::encrypted(&server).await.err(), Some(StatusCode::BadCertificateUntrusted));
+    assert_eq!(Client::encrypted(&server).await.err(), Some(StatusCode::BadSecurityChecksFailed));
 
-    server.set_trusted_clients(&[CLIENT.der.clone(), b"no certificate".to_vec()]).unwrap();
+    assert_eq!(server.set_trust(trusting(&CLIENT)), []);
     Client::encrypted(&server).await.unwrap().close().await;
 
-    server.set_trusted_clients(std::slice::from_ref(&SERVER.der)).unwrap();
-    assert_eq!(Client::encrypted(&server).await.err(), Some(StatusCode::BadCertificateUntrusted));
+    server.set_trust(trusting(&SERVER));
+    assert_eq!(Client::encrypted(&server).await.err(), Some(StatusCode::BadSecurityChecksFailed));
     server.stop().await;
 
-    let server = start(OpcUaConfig { trusted_clients: vec![CLIENT.der.clone()], ..config(&folder) }).await;
+    let server = start(OpcUaConfig { trust: trusting(&CLIENT), ..config(&folder) }).await;
     for policy in SecurityPolicy::ALL {
         let client = Client::connect(&server, policy, IdentityToken::Anonymous).await;
         client.unwrap_or_else(|e| panic!("{policy}: {e}")).close().await;

@@ -177,8 +177,8 @@ async fn client_lists_have_limits_and_no_doubles() {
             let client = bench.client().await;
             let limit = ListLimits::of(firmware.generation()).trusted;
             let add = async |list: ClientList, revision: u64, certificates: &[_]| {
-                let body = json!({ "revision": revision, "certificates": certificates });
-                client.post::<Changed>(&clients_path(list), &body).await
+                let step = json!({ "add": { "list": list, "certificates": certificates } });
+                client.post::<Value>(protocol::TRUST, &json!({ "revision": revision, "steps": [step] })).await
             };
             let many = clients("client", limit + 1);
             assert_eq!(code(add(ClientList::Trusted, 1, &many).await), ErrorCode::ListFull);

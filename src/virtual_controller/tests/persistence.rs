@@ -1,6 +1,6 @@
 use std::fs;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, bounded, clients, initial, switch_on, with_certificate};
 use crate::protocol::{self, Changed};
@@ -15,8 +15,8 @@ async fn a_controller_comes_back_as_it_was() {
         let client = bench.client().await;
         let user = json!({ "revision": 1, "name": "operator1", "password": "Passw0rd" });
         client.post::<Changed>(protocol::USERS, &user).await.unwrap();
-        let trusted = json!({ "revision": 2, "certificates": clients("c", 3) });
-        client.post::<Changed>("/v1/clients/trusted", &trusted).await.unwrap();
+        let step = json!({ "add": { "list": "trusted", "certificates": clients("c", 3) } });
+        client.post::<Value>(protocol::TRUST, &json!({ "revision": 2, "steps": [step] })).await.unwrap();
         let (state, fingerprint) = (bench.state(), bench.controller.fingerprint());
         bench.controller.shutdown().await;
 

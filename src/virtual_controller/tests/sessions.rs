@@ -68,7 +68,8 @@ async fn every_failure_is_a_failure_body() {
         for (method, path, status) in [
             (Method::GET, "/", StatusCode::NOT_FOUND),
             (Method::GET, "/v2/info", StatusCode::NOT_FOUND),
-            (Method::GET, "/v1/clients/rejected", StatusCode::NOT_FOUND),
+            (Method::GET, "/v1/clients/others", StatusCode::NOT_FOUND),
+            (Method::POST, "/v1/clients/trusted", StatusCode::METHOD_NOT_ALLOWED),
             (Method::DELETE, protocol::USERS, StatusCode::METHOD_NOT_ALLOWED),
         ] {
             match client.send::<Value>(method, path, Vec::new()).await {
@@ -81,7 +82,17 @@ async fn every_failure_is_a_failure_body() {
             (protocol::USERS, "[1]", ErrorCode::BadCredential),
             (protocol::SELF_SIGNED, "{", ErrorCode::BadCertificateRequest),
             (protocol::USERS_REMOVE, r#"{"revision":1,"names":[],"x":1}"#, ErrorCode::BadCredential),
-            ("/v1/clients/trusted", r#"{"revision":1,"certificates":[["a","!"]]}"#, ErrorCode::BadCertificate),
+            (
+                protocol::TRUST,
+                r#"{"revision":1,"steps":[{"add":{"list":"trusted","certificates":[["a","!"]]}}]}"#,
+                ErrorCode::BadCertificate,
+            ),
+            (protocol::TRUST, r#"{"revision":1,"steps":[]}"#, ErrorCode::Refused),
+            (
+                protocol::TRUST,
+                r#"{"revision":1,"steps":[{"remove":{"list":"rejected","thumbprints":["AB"]}}]}"#,
+                ErrorCode::NotInList,
+            ),
         ] {
             let result = client.send::<Value>(Method::POST, path, body.into()).await;
             assert_eq!(code(result), expected, "{path}");

@@ -14,7 +14,10 @@ fn changes(revision: u64) -> [(&'static str, Value); 3] {
     [
         (protocol::USERS, json!({ "revision": revision, "name": "operator1", "password": "Passw0rd" })),
         (protocol::SELF_SIGNED, json!({ "revision": revision, "request": request("another", 2048) })),
-        ("/v1/clients/trusted", json!({ "revision": revision, "certificates": clients("c", 2) })),
+        (
+            protocol::TRUST,
+            json!({ "revision": revision, "steps": [{ "add": { "list": "trusted", "certificates": clients("c", 2) } }] }),
+        ),
     ]
 }
 
@@ -50,11 +53,11 @@ async fn a_change_that_fails_leaves_everything_as_it_was() {
             [(full, Some(ErrorCode::DiskFull)), (lost, None), (broken, Some(ErrorCode::ServerError))];
         for (fault, expected) in faults {
             for (path, body) in changes(1) {
-                if expected == Some(ErrorCode::ServerError) && path.ends_with("trusted") {
+                if expected == Some(ErrorCode::ServerError) && path == protocol::TRUST {
                     continue; // does not restart the server
                 }
                 bench.controller.faults().update(fault);
-                match (client.post::<Changed>(path, &body).await, expected) {
+                match (client.post::<Value>(path, &body).await, expected) {
                     (Err(Refusal::Failure(_, failure)), Some(expected)) => assert_eq!(failure.code, expected, "{path}"),
                     (Err(Refusal::Lost), None) => {}
                     (other, _) => panic!("{path}: {other:?}"),

@@ -1,0 +1,80 @@
+use std::path::Path;
+
+use clap::Subcommand;
+use serde_json::json;
+
+use super::batch::{Presentation, Shown};
+use super::clients::{CHANGE, hexadecimal};
+use super::select::{Select, ThingsThenSelect};
+use super::trust_files::{read_trust_files, show_plan};
+use super::{Ending, Settled};
+use crate::jobs::{AddTrust, Destination, ListTrust, Outcome, RemoveCrls};
+use crate::model::Problem;
+use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
+use crate::protocol::ListedCrl;
+
+#[derive(Debug, Subcommand)]
+pub enum CrlCommand {
+    /// List CRLs, by whose certificates clients are refused that their authority revoked
+    List(Select),
+    /// Add CRLs; one takes the place of an older one of the same issuer: FILE… CONTROLLER…
+    Add(ThingsThenSelect),
+    /// Remove CRLs by the ids that list shows: ID… CONTROLLER…
+    Remove(ThingsThenSelect),
+}
+
+const CRLS: Presentation = Presentation {
+    header: &["CRLS"],
+    show: |outcome, _| {
+        let Outcome::TrustLists(held) = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        let with_health = || held.crls.iter().zip(&held.health.crls);
+        let json: Vec<_> = with_health()
+            .map(|(crl, health)| {
+                json!({ "file_name": crl.file_name, "crl": crl.summary, "added": crl.added, "health": health })
+            })
+            .collect();
+        let lines: Vec<String> = with_health().map(|(crl, health)| line(crl, health)).collect();
+        let json = json!({ "revision": held.revision, "crls": json, "without_crl": held.health.without_crl });
+        Shown { json, cells: vec![lines.join("; ")] }
+    },
+};
+
+fn line(crl: &ListedCrl, health: &CrlHealth) -> String {
+    let summary = &crl.summary;
+    let until = summary.next_update.map_or("-".to_owned(), |next| next.format("%Y-%m-%d").to_string());
+    let issuer = match health.issuer {
+        CrlIssuer::Held { .. } => "",
+        CrlIssuer::NotSignedBy { .. } => ", NOT SIGNED BY ITS ISSUER",
+        CrlIssuer::MayNotSign { .. } => ", ITS ISSUER MAY NOT SIGN IT",
+        CrlIssuer::Missing => ", ISSUER MISSING",
+    };
+    let dates = match health.dates {
+        CrlDates::Current => "",
+        CrlDates::Expired => ", EXPIRED",
+        CrlDates::NotYetValid => ", NOT YET VALID",
+        CrlDates::NoEnd => ", WITHOUT END",
+    };
+    format!("{} {}: {} revoked, next by {until}{issuer}{dates}", summary.id, summary.issuer, summary.entries)
+}
+
+pub fn run(settled: &Settled, command: CrlCommand) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    match command {
+        CrlCommand::List(select) => settled.batch(&configuration, &select.resolve(&configuration)?, ListTrust, &CRLS),
+        CrlCommand::Add(arguments) => {
+            let (files, chosen) = arguments.resolve(&configuration)?;
+            let destination = Destination::Crls;
+            let files = read_trust_files(files.iter().map(Path::new))?;
+            show_plan(settled, &files, destination, &chosen)?;
+            let operation = AddTrust { files: files.into(), destination, based_on: None };
+            settled.batch(&configuration, &chosen, operation, &CHANGE)
+        }
+        CrlCommand::Remove(arguments) => {
+            let (ids, chosen) = arguments.resolve(&configuration)?;
+            let operation = RemoveCrls { ids: hexadecimal(&ids)?, based_on: None };
+            settled.batch(&configuration, &chosen, operation, &CHANGE)
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Files with certificates and CRLs on the command line: read, and shown where they go before anything is sent.
+
+use std::io::{IsTerminal as _, Write as _};
+use std::path::Path;
+
+use super::table::table;
+use super::{Settled, read_bounded};
+use crate::jobs::{Destination, Fate, Note, SkipReason, Target, Thing, TrustFile, TrustPlan};
+use crate::model::{ErrorCode, FirmwareGeneration, ListLimits, Problem};
+use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
+use crate::workspace::ControllerEntry;
+
+/// Reads them all; one that is no good makes the request wrong.
+pub fn read_trust_files<'a>(paths: impl Iterator<Item = &'a Path>) -> Result<Vec<TrustFile>, Problem> {
+    paths
+        .map(|path| {
+            let bytes = read_bounded(path, MAX_BUNDLE_BYTES)?;
+            let bundle = read_bundle(&bytes)
+                .map_err(|e| Problem::with_detail(ErrorCode::BadCertificate, format!("{}: {e}", path.display())))?;
+            let file_name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
+            Ok(TrustFile { file_name, bundle })
+        })
+        .collect()
+}
+
+/// Says what goes where, and asks if there is anything a person should think about.
+///
+/// One plan for each firmware generation among the chosen controllers; what they already hold is found out later.
+pub fn show_plan(
+    settled: &Settled,
+    files: &[TrustFile],
+    destination: Destination,
+    chosen: &[ControllerEntry],
+) -> Result<(), Problem> {
+    let now = chrono::Utc::now();
+    let mut unclear = false;
+    for (generation, says) in [
+        (FirmwareGeneration::Current, "firmware 8.0.0 and later"),
+        (FirmwareGeneration::Legacy, "firmware below 8.0.0"),
+    ] {
+        let concerned = chosen.iter().any(|entry| {
+            // One that was never read may be either.
+            entry.last.as_ref().is_none_or(|last| last.info.generation() == generation)
+        });
+        if !concerned {
+            continue;
+        }
+        let plan = TrustPlan::new(files, destination, generation, ListLimits::of(generation), now, None);
+        unclear |= plan.needs_a_look();
+        if plan.needs_a_look() && !settled.output.is_json() {
+            eprintln!("Controllers with {says}:\n{}", table(&["FILE", "WHAT", "GOES TO", "NOTE"], &rows(&plan)));
+        }
+    }
+    if !unclear || settled.yes {
+        return Ok(());
+    }
+    if !std::io::stdin().is_terminal() {
+        return Err(ErrorCode::NotConfirmed.into());
+    }
+    eprint!("Go on? [y/N] ");
+    let mut answer = String::new();
+    let read = std::io::stderr().flush().and_then(|()| std::io::stdin().read_line(&mut answer));
+    match (read, answer.trim()) {
+        (Ok(_), "y" | "Y" | "yes") => Ok(()),
+        _ => Err(ErrorCode::Cancelled.into()),
+    }
+}
+
+fn rows(plan: &TrustPlan) -> Vec<Vec<String>> {
+    plan.items
+        .iter()
+        .map(|item| {
+            let what = match &item.thing {
+                Thing::Certificate { summary, authority: true, .. } => format!("authority {}", summary.issued_to),
+                Thing::Certificate { summary, .. } => format!("application {}", summary.issued_to),
+                Thing::Crl { summary, .. } => format!("CRL of {}", summary.issuer),
+            };
+            let (to, note) = match &item.fate {
+                Fate::Goes { to, notes } => {
+                    (target(*to), notes.iter().map(|n| says(*n)).collect::<Vec<_>>().join("; "))
+                }
+                Fate::Skipped(reason) => ("-", skipped(*reason).to_owned()),
+                Fate::Refused(problem) => ("-", problem.to_string()),
+            };
+            vec![item.file_name.clone(), what, to.to_owned(), note]
+        })
+        .collect()
+}
+
+const fn target(target: Target) -> &'static str {
+    match target {
+        Target::Trusted => "trusted",
+        Target::Issuers => "issuers",
+        Target::Crls => "CRLs",
+    }
+}
+
+const fn says(note: Note) -> &'static str {
+    match note {
+        Note::TrustsAllItIssues => "lets in every client with a certificate from it",
+        Note::OnlyCompletesAChain => "only completes a chain",
+        Note::CrlAmongCertificates => "a CRL among certificates",
+        Note::ReplacesOlder => "replaces the older one",
+        Note::Expired => "expired",
+        Note::NotYetValid => "not valid yet",
+    }
+}
+
+const fn skipped(reason: SkipReason) -> &'static str {
+    match reason {
+        SkipReason::Repeated => "left out: there twice",
+        SkipReason::AlreadyHeld => "left out: already held",
+        SkipReason::Outdated => "left out: there is a newer one",
+        SkipReason::NotAskedFor => "left out: not what was asked for",
+    }
+}

@@ -1,0 +1,32 @@
+use super::TrustSnapshot;
+use super::undo::{TrustUndo, undo};
+use crate::jobs::{Outcome, Run, Step};
+use crate::model::Problem;
+use crate::protocol::{CutClient, EditTrust, TrustStep};
+
+/// What came of a change of lists or CRLs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrustChange {
+    /// The lists as they are now.
+    pub lists: TrustSnapshot,
+    /// Whose open connections the controller ended because of it.
+    pub cut: Vec<CutClient>,
+    /// What puts it back; `None` where nothing can, because refused certificates were deleted or because somebody else
+    /// changed the configuration at the same time.
+    pub undo: Option<TrustUndo>,
+}
+
+/// Sends one change that was made up from `before`, and reads what the controller has then.
+pub(super) async fn apply(
+    run: &mut Run<'_>,
+    before: TrustSnapshot,
+    steps: Vec<TrustStep>,
+    based_on: Option<u64>,
+) -> Result<Outcome, Problem> {
+    run.begin(Step::Apply)?;
+    let change = EditTrust { revision: based_on.unwrap_or(before.revision), steps };
+    let done = run.session.edit_trust(change).await?;
+    let lists = TrustSnapshot::read(run.session).await?;
+    let undo = (lists.revision == done.changed.revision).then(|| undo(&before, &lists)).flatten();
+    Ok(Outcome::TrustChanged(Box::new(TrustChange { lists, cut: done.cut, undo })))
+}

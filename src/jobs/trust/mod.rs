@@ -1,0 +1,32 @@
+//! Whom controllers trust: client certificate lists and CRLs (manual 2.7.3).
+//!
+//! | file | what |
+//! |---|---|
+//! | `snapshot` | [`ListTrust`]: everything a controller trusts, read at once |
+//! | `plan` | [`TrustPlan`]: which file's certificates and CRLs go where, before anything is sent |
+//! | `add` | [`AddTrust`]: do what such a plan says |
+//! | `remove` | [`RemoveClients`], [`RemoveCrls`] |
+//! | `relist` | [`MoveClients`]: from one list into another |
+//! | `change` | one change sent, and what came of it: [`TrustChange`] |
+//! | `undo` | [`TrustUndo`]: what puts it back |
+//! | `watch` | [`watch_trust`]: the lists as they change |
+
+mod add;
+mod change;
+mod plan;
+mod relist;
+mod remove;
+#[cfg(test)]
+mod samples;
+mod snapshot;
+mod undo;
+mod watch;
+
+pub use add::AddTrust;
+pub use change::TrustChange;
+pub use plan::{Destination, Fate, Note, Planned, SkipReason, Target, Thing, TrustFile, TrustPlan};
+pub use relist::MoveClients;
+pub use remove::{RemoveClients, RemoveCrls};
+pub use snapshot::{ListTrust, TrustSnapshot};
+pub use undo::{TrustUndo, UndoTrust};
+pub use watch::{WATCH_INTERVAL, WatchEvent, watch_trust};

@@ -1,0 +1,508 @@
+use std::collections::BTreeSet;
+use std::fmt;
+
+use chrono::{DateTime, Utc};
+
+use super::TrustSnapshot;
+use crate::model::{CertificateSummary, ClientList, CrlSummary, ErrorCode, FirmwareGeneration, ListLimits, Problem};
+use crate::pki::{Bundle, Certificate, Crl};
+use crate::protocol::{Base64Bytes, MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES, TrustStep};
+
+/// A file with certificates and CRLs, read and parsed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrustFile {
+    /// Without its folder.
+    pub file_name: String,
+    pub bundle: Bundle,
+}
+
+/// Where a person wants certificates to go. CRLs always go to the CRLs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Destination {
+    /// Each where certificates of its kind belong: an application's into the trusted list, an authority's into the
+    /// issuers list, or into the trusted list on legacy firmware, which has no other.
+    ByKind,
+    /// The trusted list; but authorities that came in one file with an application's certificate only complete its
+    /// chain, and go as with [`Destination::ByKind`].
+    Trusted,
+    /// The issuers list, authorities only.
+    Issuers,
+    /// CRLs only.
+    Crls,
+}
+
+/// Where something goes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Target {
+    Trusted,
+    Issuers,
+    Crls,
+}
+
+/// Which of the files' certificates and CRLs go where in one controller; what is left out, and what is wrong. Made
+/// without asking anybody: to be shown before anything is sent.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrustPlan {
+    /// In the order of the files.
+    pub items: Vec<Planned>,
+    have: [usize; 3],
+    limits: ListLimits,
+}
+
+/// One certificate or CRL of a file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Planned {
+    /// The file it came from.
+    pub file_name: String,
+    /// The name the controller will show it under: the file's, with a number where a file holds several.
+    pub shown_as: String,
+    pub thing: Thing,
+    pub fate: Fate,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum Thing {
+    Certificate { der: Vec<u8>, summary: CertificateSummary, authority: bool },
+    Crl { der: Vec<u8>, summary: CrlSummary },
+}
+
+/// What becomes of it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Fate {
+    /// It is sent; a person may want to think about the notes first.
+    Goes { to: Target, notes: Vec<Note> },
+    /// It is left out, and nothing is wrong.
+    Skipped(SkipReason),
+    /// It makes the whole request wrong.
+    Refused(Problem),
+}
+
+/// What a person may want to think about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Note {
+    /// An authority in the trusted list: every client is let in that has a certificate from it.
+    TrustsAllItIssues,
+    /// An authority that came with an application's certificate goes into the issuers list, not into the one asked for.
+    OnlyCompletesAChain,
+    /// A CRL among certificates goes to the CRLs.
+    CrlAmongCertificates,
+    /// It takes the place of the older CRL of the same issuer.
+    ReplacesOlder,
+    /// Its validity is over, or a newer CRL should have come.
+    Expired,
+    /// Its validity has not begun.
+    NotYetValid,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum SkipReason {
+    /// The same stands earlier in the files.
+    Repeated,
+    /// The controller holds it already.
+    AlreadyHeld,
+    /// A newer CRL of the same issuer stands in the files, or is held already.
+    Outdated,
+    /// An application's certificate in a file with authorities, where only authorities were asked for; or certificates,
+    /// where only CRLs were.
+    NotAskedFor,
+}
+
+impl TrustPlan {
+    /// `held`: what the controller has; without it, only the files are compared with each other. Blocks for large CRLs.
+    pub fn new(
+        files: &[TrustFile],
+        destination: Destination,
+        generation: FirmwareGeneration,
+        limits: ListLimits,
+        now: DateTime<Utc>,
+        held: Option<&TrustSnapshot>,
+    ) -> Self {
+        let held_crls = held.into_iter().flat_map(|held| &held.crls).filter_map(|held| held.crl.as_ref());
+        let held_crls = held_crls.filter_map(|der| Crl::from_der(&der.0).ok()).collect();
+        let offered_crls = files.iter().flat_map(|file| &file.bundle.crls).collect();
+        let sorter = Sorter { destination, generation, now, held, held_crls, offered_crls };
+        let mut seen = BTreeSet::new();
+        let mut items = Vec::new();
+        for file in files {
+            let several = file.bundle.certificates.len() + file.bundle.crls.len() > 1;
+            let mut number = 0;
+            let mut plan = |id: String, thing: Thing, fate: Fate| {
+                number += 1;
+                let extension = if matches!(thing, Thing::Crl { .. }) { "crl" } else { "der" };
+                let shown_as = shown_as(&file.file_name, several.then_some((number, extension)));
+                let fate = match fate {
+                    Fate::Goes { .. } if !seen.insert(id) => Fate::Skipped(SkipReason::Repeated),
+                    fate => fate,
+                };
+                items.push(Planned { file_name: file.file_name.clone(), shown_as, thing, fate });
+            };
+            let with_application = file.bundle.certificates.iter().any(|c| !c.is_authority());
+            let with_authority = file.bundle.certificates.iter().any(Certificate::is_authority);
+            for certificate in &file.bundle.certificates {
+                let summary = certificate.summary();
+                let authority = certificate.is_authority();
+                let fate =
+                    sorter.certificate(certificate, &summary.thumbprint, authority, with_application, with_authority);
+                let id = summary.thumbprint.clone();
+                plan(id, Thing::Certificate { der: certificate.der().to_vec(), summary, authority }, fate);
+            }
+            for crl in &file.bundle.crls {
+                let summary = crl.summary();
+                let fate = sorter.crl(crl, &summary, !file.bundle.certificates.is_empty());
+                plan(summary.id.clone(), Thing::Crl { der: crl.der().to_vec(), summary }, fate);
+            }
+        }
+        let have = held.map_or([0; 3], |held| [held.trusted.len(), held.issuers.len(), held.crls.len()]);
+        Self { items, have, limits }
+    }
+
+    /// For a controller whose lists are known.
+    pub fn for_controller(files: &[TrustFile], destination: Destination, held: &TrustSnapshot) -> Self {
+        Self::new(files, destination, held.generation, held.limits, held.clock, Some(held))
+    }
+
+    /// Whether something is there that a person should agree to: a note, or something left out. What is refused is not
+    /// sent anyhow.
+    pub fn needs_a_look(&self) -> bool {
+        self.items.iter().any(|item| match &item.fate {
+            Fate::Goes { notes, .. } => !notes.is_empty(),
+            Fate::Skipped(_) => true,
+            Fate::Refused(_) => false,
+        })
+    }
+
+    /// How many go there.
+    pub fn count(&self, target: Target) -> usize {
+        self.going().filter(|(to, _)| *to == target).count()
+    }
+
+    /// Why nothing of this may be sent: something is refused, nothing is new, it does not fit.
+    pub fn check(&self) -> Result<(), Problem> {
+        for item in &self.items {
+            if let Fate::Refused(problem) = &item.fate {
+                return Err(problem.clone());
+            }
+        }
+        if self.going().next().is_none() {
+            let crl = self.items.first().is_some_and(|item| matches!(item.thing, Thing::Crl { .. }));
+            return Err(match self.items.first() {
+                None => ErrorCode::BadCertificate,
+                Some(_) if crl => ErrorCode::DuplicateCrl,
+                Some(_) => ErrorCode::DuplicateCertificate,
+            }
+            .into());
+        }
+        let replacing = self.items.iter().filter(|item| item.replaces()).count();
+        for (target, have, limit, code) in [
+            (Target::Trusted, self.have[0], self.limits.trusted, ErrorCode::ListFull),
+            (Target::Issuers, self.have[1], self.limits.issuers, ErrorCode::ListFull),
+            (Target::Crls, self.have[2].saturating_sub(replacing), self.limits.crls, ErrorCode::TooManyCrls),
+        ] {
+            let total = have + self.count(target);
+            if self.count(target) > 0 && total > limit {
+                return Err(Problem::with_detail(code, format!("{total} > {limit}")));
+            }
+        }
+        let bytes: usize = self.going().map(|(_, item)| ENTRY_BYTES + item.thing.der().len().div_ceil(3) * 4).sum();
+        if bytes > MAX_REQUEST_BYTES { Err(ErrorCode::RequestTooLarge.into()) } else { Ok(()) }
+    }
+
+    /// What is to be sent.
+    pub(super) fn steps(&self) -> Vec<TrustStep> {
+        let of = |target: Target| -> Vec<(String, Base64Bytes)> {
+            self.going()
+                .filter(|(to, _)| *to == target)
+                .map(|(_, item)| (item.shown_as.clone(), Base64Bytes(item.thing.der().to_vec())))
+                .collect()
+        };
+        let mut steps = Vec::new();
+        for (target, list) in [(Target::Issuers, ClientList::Issuers), (Target::Trusted, ClientList::Trusted)] {
+            let certificates = of(target);
+            if !certificates.is_empty() {
+                steps.push(TrustStep::Add { list, certificates });
+            }
+        }
+        let crls = of(Target::Crls);
+        if !crls.is_empty() {
+            steps.push(TrustStep::AddCrls { crls });
+        }
+        steps
+    }
+
+    fn going(&self) -> impl Iterator<Item = (Target, &Planned)> {
+        self.items.iter().filter_map(|item| match item.fate {
+            Fate::Goes { to, .. } => Some((to, item)),
+            _ => None,
+        })
+    }
+}
+
+/// Generous for what stands around one certificate in a request: its name, brackets.
+const ENTRY_BYTES: usize = 300;
+
+impl Planned {
+    fn replaces(&self) -> bool {
+        matches!(&self.fate, Fate::Goes { notes, .. } if notes.contains(&Note::ReplacesOlder))
+    }
+}
+
+impl Thing {
+    pub fn der(&self) -> &[u8] {
+        match self {
+            Self::Certificate { der, .. } | Self::Crl { der, .. } => der,
+        }
+    }
+}
+
+/// Decides about one certificate or CRL at a time.
+struct Sorter<'a> {
+    destination: Destination,
+    generation: FirmwareGeneration,
+    now: DateTime<Utc>,
+    held: Option<&'a TrustSnapshot>,
+    held_crls: Vec<Crl>,
+    offered_crls: Vec<&'a Crl>,
+}
+
+impl Sorter<'_> {
+    fn certificate(
+        &self,
+        certificate: &Certificate,
+        thumbprint: &str,
+        authority: bool,
+        with_application: bool,
+        with_authority: bool,
+    ) -> Fate {
+        let legacy = self.generation == FirmwareGeneration::Legacy;
+        let (to, note) = match (self.destination, authority) {
+            (Destination::Crls, _) => return Fate::Skipped(SkipReason::NotAskedFor),
+            (Destination::Issuers, _) if legacy => return Fate::Refused(ErrorCode::FirmwareTooOld.into()),
+            (Destination::Issuers, false) if with_authority => return Fate::Skipped(SkipReason::NotAskedFor),
+            (Destination::Issuers, false) => {
+                return Fate::Refused(Problem::with_detail(ErrorCode::NotAnAuthority, thumbprint));
+            }
+            (Destination::Issuers, true) => (Target::Issuers, None),
+            (Destination::ByKind | Destination::Trusted, false) => (Target::Trusted, None),
+            (Destination::ByKind, true) if legacy => (Target::Trusted, Some(Note::TrustsAllItIssues)),
+            (Destination::ByKind, true) => (Target::Issuers, None),
+            (Destination::Trusted, true) if with_application && !legacy => {
+                (Target::Issuers, Some(Note::OnlyCompletesAChain))
+            }
+            (Destination::Trusted, true) => (Target::Trusted, Some(Note::TrustsAllItIssues)),
+        };
+        let list = if to == Target::Issuers { ClientList::Issuers } else { ClientList::Trusted };
+        if self.held.is_some_and(|held| held.holds(list, thumbprint)) {
+            return Fate::Skipped(SkipReason::AlreadyHeld);
+        }
+        let mut notes: Vec<Note> = note.into_iter().collect();
+        if certificate.not_after() < self.now {
+            notes.push(Note::Expired);
+        } else if certificate.not_before() > self.now {
+            notes.push(Note::NotYetValid);
+        }
+        Fate::Goes { to, notes }
+    }
+
+    fn crl(&self, crl: &Crl, summary: &CrlSummary, among_certificates: bool) -> Fate {
+        let refused = |code, detail: &dyn fmt::Display| Fate::Refused(Problem::with_detail(code, detail));
+        if let Some(why) = crl.unusable() {
+            return refused(ErrorCode::BadCrl, &why);
+        }
+        if crl.der().len() > MAX_SENT_CRL_BYTES {
+            let detail = format!("{} > {MAX_SENT_CRL_BYTES} bytes", crl.der().len());
+            return refused(ErrorCode::RequestTooLarge, &detail);
+        }
+        if self.held.is_some_and(|held| held.holds_crl(&summary.id)) {
+            return Fate::Skipped(SkipReason::AlreadyHeld);
+        }
+        let newer_stands_by = |other: &&Crl| crl.is_of_same_issuer(other) && other.is_newer_than(crl);
+        if self.offered_crls.iter().any(newer_stands_by) {
+            return Fate::Skipped(SkipReason::Outdated);
+        }
+        let mut notes = Vec::new();
+        let asked_for = self.destination == Destination::Crls || !among_certificates;
+        if let Some(held) = self.held_crls.iter().find(|held| crl.is_of_same_issuer(held)) {
+            if crl.is_newer_than(held) {
+                notes.push(Note::ReplacesOlder);
+            } else if asked_for {
+                return refused(ErrorCode::CrlOutdated, &summary.issuer);
+            } else {
+                return Fate::Skipped(SkipReason::Outdated);
+            }
+        }
+        if !asked_for {
+            notes.push(Note::CrlAmongCertificates);
+        }
+        if summary.next_update.is_none_or(|next| next < self.now) {
+            notes.push(Note::Expired);
+        } else if summary.this_update > self.now {
+            notes.push(Note::NotYetValid);
+        }
+        Fate::Goes { to: Target::Crls, notes }
+    }
+}
+
+/// The controller takes up to 255 bytes and no path.
+fn shown_as(file_name: &str, several: Option<(usize, &str)>) -> String {
+    const MAX_STEM_BYTES: usize = 200;
+    let harmless: String =
+        file_name.chars().map(|c| if c.is_control() || c == '/' || c == '\\' { '_' } else { c }).collect();
+    let (stem, extension) = harmless.rsplit_once('.').unwrap_or((&harmless, ""));
+    let stem = &stem[..stem.floor_char_boundary(MAX_STEM_BYTES)];
+    match several {
+        Some((number, extension)) => format!("{stem}_{number}.{extension}"),
+        None if extension.is_empty() || extension.len() > 16 => stem.to_owned(),
+        None => format!("{stem}.{extension}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples::{application, authority, listed, listed_crl, now, snapshot};
+    use super::*;
+
+    fn file(name: &str, certificates: &[&Certificate], crls: &[&Crl]) -> TrustFile {
+        let certificates = certificates.iter().copied().cloned().collect();
+        TrustFile {
+            file_name: name.to_owned(),
+            bundle: Bundle { certificates, crls: crls.iter().copied().cloned().collect() },
+        }
+    }
+
+    fn plan(files: &[TrustFile], destination: Destination, generation: FirmwareGeneration) -> TrustPlan {
+        TrustPlan::for_controller(files, destination, &snapshot(generation))
+    }
+
+    fn fates(plan: &TrustPlan) -> Vec<Fate> {
+        plan.items.iter().map(|item| item.fate.clone()).collect()
+    }
+
+    fn goes(to: Target, notes: &[Note]) -> Fate {
+        Fate::Goes { to, notes: notes.to_vec() }
+    }
+
+    use Fate::Skipped;
+    use FirmwareGeneration::{Current, Legacy};
+
+    #[test]
+    fn a_chain_with_its_crl_is_sorted_by_kind() {
+        let (ca, client) = (authority("Plant CA"), application("client"));
+        let files = [file("chain.p7b", &[&client, &ca.certificate], &[&ca.crl(1)])];
+        for destination in [Destination::ByKind, Destination::Trusted] {
+            let current = plan(&files, destination, Current);
+            let note: &[Note] = if destination == Destination::ByKind { &[] } else { &[Note::OnlyCompletesAChain] };
+            let crl = goes(Target::Crls, &[Note::CrlAmongCertificates]);
+            assert_eq!(fates(&current), [goes(Target::Trusted, &[]), goes(Target::Issuers, note), crl]);
+            assert_eq!(current.check(), Ok(()));
+            let names: Vec<&str> = current.items.iter().map(|item| item.shown_as.as_str()).collect();
+            assert_eq!(names, ["chain_1.der", "chain_2.der", "chain_3.crl"]);
+            assert_eq!(current.steps().len(), 3);
+
+            let legacy = plan(&files, destination, Legacy);
+            assert_eq!(fates(&legacy)[1], goes(Target::Trusted, &[Note::TrustsAllItIssues]));
+            assert!(legacy.needs_a_look());
+        }
+    }
+
+    #[test]
+    fn an_authority_alone_becomes_trusted_only_where_that_was_asked_for() {
+        let ca = authority("Plant CA");
+        let files = [file("ca.der", &[&ca.certificate], &[])];
+        assert_eq!(fates(&plan(&files, Destination::ByKind, Current)), [goes(Target::Issuers, &[])]);
+        assert!(!plan(&files, Destination::ByKind, Current).needs_a_look());
+        let trusted = plan(&files, Destination::Trusted, Current);
+        assert_eq!(fates(&trusted), [goes(Target::Trusted, &[Note::TrustsAllItIssues])]);
+        assert_eq!(trusted.items[0].shown_as, "ca.der");
+        assert!(trusted.needs_a_look());
+    }
+
+    #[test]
+    fn the_issuers_list_takes_authorities_only() {
+        let (ca, client) = (authority("Plant CA"), application("client"));
+        let chain = [file("chain.pem", &[&client, &ca.certificate], &[])];
+        let sorted = plan(&chain, Destination::Issuers, Current);
+        assert_eq!(fates(&sorted), [Skipped(SkipReason::NotAskedFor), goes(Target::Issuers, &[])]);
+        let alone = plan(&[file("client.der", &[&client], &[])], Destination::Issuers, Current);
+        assert_eq!(alone.check().unwrap_err().code, ErrorCode::NotAnAuthority);
+        assert_eq!(plan(&chain, Destination::Issuers, Legacy).check().unwrap_err().code, ErrorCode::FirmwareTooOld);
+    }
+
+    #[test]
+    fn what_is_there_already_is_left_out() {
+        let (one, two) = (application("one"), application("two"));
+        let mut held = snapshot(Current);
+        held.trusted.push(listed(&one));
+        let files = [file("one.der", &[&one], &[]), file("two.der", &[&two], &[]), file("again.der", &[&two], &[])];
+        let both = TrustPlan::for_controller(&files, Destination::Trusted, &held);
+        let left_out = [Skipped(SkipReason::AlreadyHeld), goes(Target::Trusted, &[]), Skipped(SkipReason::Repeated)];
+        assert_eq!(fates(&both), left_out);
+        assert_eq!(both.check(), Ok(()));
+        let nothing = TrustPlan::for_controller(&files[..1], Destination::Trusted, &held);
+        assert_eq!(nothing.check(), Err(ErrorCode::DuplicateCertificate.into()));
+        assert_eq!(plan(&[], Destination::Trusted, Current).check(), Err(ErrorCode::BadCertificate.into()));
+    }
+
+    #[test]
+    fn an_older_crl_never_takes_the_place_of_a_newer_one() {
+        let ca = authority("Plant CA");
+        let (old, held, new) = (ca.crl(1), ca.crl(2), ca.crl(3));
+        let mut lists = snapshot(Current);
+        lists.crls.push(listed_crl(&held));
+        let planned = |files: &[TrustFile], to| TrustPlan::for_controller(files, to, &lists);
+        let newer = planned(&[file("3.crl", &[], &[&new])], Destination::Crls);
+        assert_eq!(fates(&newer), [goes(Target::Crls, &[Note::ReplacesOlder])]);
+        let same = planned(&[file("2.crl", &[], &[&held])], Destination::Crls);
+        assert_eq!(same.check(), Err(ErrorCode::DuplicateCrl.into()));
+        let older = planned(&[file("1.crl", &[], &[&old])], Destination::Crls);
+        assert_eq!(older.check().unwrap_err().code, ErrorCode::CrlOutdated);
+        // One that came along with certificates is no reason to refuse those.
+        let along = planned(&[file("chain.p7b", &[&ca.certificate], &[&old])], Destination::ByKind);
+        assert_eq!(fates(&along), [goes(Target::Issuers, &[]), Skipped(SkipReason::Outdated)]);
+        let both = planned(&[file("1.crl", &[], &[&old]), file("3.crl", &[], &[&new])], Destination::Crls);
+        assert_eq!(fates(&both), [Skipped(SkipReason::Outdated), goes(Target::Crls, &[Note::ReplacesOlder])]);
+    }
+
+    #[test]
+    fn limits_hold_before_anything_is_sent() {
+        let certificates: Vec<Certificate> = (0..11).map(|i| application(&format!("client{i}"))).collect();
+        let files: Vec<TrustFile> = certificates.iter().map(|c| file("c.der", &[c], &[])).collect();
+        assert_eq!(plan(&files[..10], Destination::Trusted, Legacy).check(), Ok(()));
+        assert_eq!(plan(&files, Destination::Trusted, Legacy).check().unwrap_err().code, ErrorCode::ListFull);
+        let mut held = snapshot(Legacy);
+        held.trusted = certificates[..10].iter().map(listed).collect();
+        let over = TrustPlan::for_controller(&files[10..], Destination::Trusted, &held);
+        assert_eq!(over.check().unwrap_err().code, ErrorCode::ListFull);
+
+        let authorities: Vec<_> = (0..11).map(|i| authority(&format!("CA {i}"))).collect();
+        let mut full = snapshot(Legacy);
+        full.crls = authorities[..10].iter().map(|ca| listed_crl(&ca.crl(1))).collect();
+        let replacing = [file("new.crl", &[], &[&authorities[3].crl(2)])];
+        assert_eq!(TrustPlan::for_controller(&replacing, Destination::Crls, &full).check(), Ok(()));
+        let another = [file("more.crl", &[], &[&authorities[10].crl(1)])];
+        let over = TrustPlan::for_controller(&another, Destination::Crls, &full);
+        assert_eq!(over.check().unwrap_err().code, ErrorCode::TooManyCrls);
+    }
+
+    #[test]
+    fn dates_are_those_of_the_controllers_clock() {
+        let files = [file("client.der", &[&application("client")], &[])];
+        let at = |now: &str| {
+            let mut held = snapshot(Current);
+            held.clock = now.parse().unwrap();
+            fates(&TrustPlan::for_controller(&files, Destination::Trusted, &held))
+        };
+        assert_eq!(at("2035-01-01T00:00:00Z"), [goes(Target::Trusted, &[Note::Expired])]);
+        assert_eq!(at("2020-01-01T00:00:00Z"), [goes(Target::Trusted, &[Note::NotYetValid])]);
+        assert_eq!(at(&now().to_rfc3339()), [goes(Target::Trusted, &[])]);
+    }
+
+    #[test]
+    fn a_file_name_is_made_harmless_and_short() {
+        assert_eq!(shown_as("a/b\\c\n.der", None), "a_b_c_.der");
+        let long = format!("{}.der", "长".repeat(200));
+        let shown = shown_as(&long, Some((12, "crl")));
+        assert!(shown.len() <= 255 && shown.ends_with("长_12.crl"), "{shown}");
+        assert_eq!(shown_as("noname", None), "noname");
+        assert!(shown_as(&format!("x.{}", "y".repeat(300)), None).len() <= 255);
+    }
+}

@@ -1,0 +1,50 @@
+use async_trait::async_trait;
+
+use super::TrustSnapshot;
+use super::change::apply;
+use crate::jobs::{Confirmation, Operation, Outcome, Run, Step};
+use crate::model::{ClientList, ErrorCode, Problem};
+use crate::protocol::TrustStep;
+
+/// Moves certificates from one client list into another, such as a refused client into the trusted list:
+/// [`Outcome::TrustChanged`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MoveClients {
+    pub from: ClientList,
+    pub to: ClientList,
+    /// SHA-1, upper-case hexadecimal.
+    pub thumbprints: Vec<String>,
+    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
+    pub based_on: Option<u64>,
+}
+
+#[async_trait]
+impl Operation for MoveClients {
+    fn confirmation(&self) -> Option<Confirmation> {
+        let disconnects_clients = self.from != ClientList::Rejected;
+        Some(Confirmation { disconnects_clients, ..Confirmation::default() })
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let before = TrustSnapshot::read(run.session).await?;
+        if let Some(missing) = self.thumbprints.iter().find(|t| !before.holds(self.from, t)) {
+            return Err(Problem::with_detail(ErrorCode::NotInList, missing));
+        }
+        if let Some(held) = self.thumbprints.iter().find(|t| before.holds(self.to, t)) {
+            return Err(Problem::with_detail(ErrorCode::DuplicateCertificate, held));
+        }
+        let (have, limit) = match self.to {
+            ClientList::Trusted => (before.trusted.len(), before.limits.trusted),
+            ClientList::Issuers => (before.issuers.len(), before.limits.issuers),
+            // Bounded by the controller, which makes room by itself.
+            ClientList::Rejected => (0, usize::MAX),
+        };
+        if have + self.thumbprints.len() > limit {
+            let detail = format!("{} > {limit}", have + self.thumbprints.len());
+            return Err(Problem::with_detail(ErrorCode::ListFull, detail));
+        }
+        let step = TrustStep::Move { from: self.from, to: self.to, thumbprints: self.thumbprints.clone() };
+        apply(run, before, vec![step], self.based_on).await
+    }
+}

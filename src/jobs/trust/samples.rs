@@ -1,0 +1,107 @@
+//! Certificates and CRLs for the tests of this room.
+
+use chrono::{DateTime, TimeDelta, Utc};
+use rcgen::{
+    BasicConstraints, CertificateParams, CertificateRevocationListParams, CertifiedIssuer, DnType, IsCa, KeyIdMethod,
+    KeyPair, KeyUsagePurpose, SanType, SerialNumber,
+};
+
+use super::TrustSnapshot;
+use crate::model::{FirmwareGeneration, ListLimits};
+use crate::pki::{Certificate, Crl, TrustHealth};
+use crate::protocol::{Base64Bytes, ListedCertificate, ListedCrl, RejectedClient};
+
+pub fn now() -> DateTime<Utc> {
+    "2030-01-01T12:00:00Z".parse().unwrap()
+}
+
+pub struct Authority {
+    issuer: CertifiedIssuer<'static, KeyPair>,
+    pub certificate: Certificate,
+}
+
+pub fn authority(name: &str) -> Authority {
+    let mut params = params(name);
+    params.is_ca = IsCa::Ca(BasicConstraints::Unconstrained);
+    params.key_usages = vec![KeyUsagePurpose::KeyCertSign, KeyUsagePurpose::CrlSign];
+    let issuer = CertifiedIssuer::self_signed(params, KeyPair::generate().unwrap()).unwrap();
+    let certificate = Certificate::from_der(issuer.der()).unwrap();
+    Authority { issuer, certificate }
+}
+
+/// A self-signed application that says it may sign others, as those of some stacks do.
+pub fn application(name: &str) -> Certificate {
+    let mut params = params(name);
+    params.subject_alt_names = vec![SanType::URI(format!("urn:{name}").try_into().unwrap())];
+    params.is_ca = IsCa::Ca(BasicConstraints::Unconstrained);
+    Certificate::from_der(params.self_signed(&KeyPair::generate().unwrap()).unwrap().der()).unwrap()
+}
+
+fn params(name: &str) -> CertificateParams {
+    let mut params = CertificateParams::default();
+    params.distinguished_name = rcgen::DistinguishedName::new();
+    params.distinguished_name.push(DnType::CommonName, name);
+    params.not_before = rcgen::date_time_ymd(2029, 1, 1);
+    params.not_after = rcgen::date_time_ymd(2031, 1, 1);
+    params
+}
+
+impl Authority {
+    pub fn crl(&self, number: u64) -> Crl {
+        let params = CertificateRevocationListParams {
+            this_update: rcgen::date_time_ymd(2029, 12, 1),
+            next_update: rcgen::date_time_ymd(2030, 2, 1),
+            crl_number: SerialNumber::from(number),
+            issuing_distribution_point: None,
+            revoked_certs: Vec::new(),
+            key_identifier_method: KeyIdMethod::Sha256,
+        };
+        Crl::from_der(params.signed_by(&self.issuer).unwrap().der()).unwrap()
+    }
+}
+
+pub fn snapshot(generation: FirmwareGeneration) -> TrustSnapshot {
+    TrustSnapshot {
+        revision: 1,
+        generation,
+        limits: ListLimits::of(generation),
+        clock: now(),
+        trusted: Vec::new(),
+        rejected: Vec::new(),
+        issuers: Vec::new(),
+        crls: Vec::new(),
+        health: TrustHealth::default(),
+    }
+}
+
+pub fn listed(certificate: &Certificate) -> ListedCertificate {
+    ListedCertificate {
+        file_name: format!("{}.der", certificate.summary().issued_to),
+        certificate: Base64Bytes(certificate.der().to_vec()),
+        summary: certificate.summary(),
+        added: now() - TimeDelta::days(1),
+    }
+}
+
+pub fn rejected(certificate: &Certificate) -> RejectedClient {
+    RejectedClient {
+        certificate: Base64Bytes(certificate.der().to_vec()),
+        chain: Vec::new(),
+        summary: certificate.summary(),
+        status: crate::model::CertificateStatus::Untrusted,
+        reason: "nobody trusts it".to_owned(),
+        address: "10.0.0.9".to_owned(),
+        first_seen: now(),
+        last_seen: now(),
+        count: 1,
+    }
+}
+
+pub fn listed_crl(crl: &Crl) -> ListedCrl {
+    ListedCrl {
+        file_name: "plant.crl".to_owned(),
+        crl: Some(Base64Bytes(crl.der().to_vec())),
+        summary: crl.summary(),
+        added: now(),
+    }
+}

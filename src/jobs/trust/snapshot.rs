@@ -1,0 +1,144 @@
+use async_trait::async_trait;
+use chrono::{DateTime, Utc};
+
+use crate::jobs::{Confirmation, Operation, Outcome, Run, Step};
+use crate::model::{ClientList, ErrorCode, FirmwareGeneration, ListLimits, Problem};
+use crate::pki::{Certificate, Crl, TrustHealth};
+use crate::protocol::{ListedCertificate, ListedCrl, RejectedClient};
+use crate::session::ControllerSession;
+
+/// Reads all client lists and CRLs of a controller (manual 2.7.3.1, 2.7.3.4): [`Outcome::TrustLists`].
+#[derive(Debug, Clone, Copy)]
+pub struct ListTrust;
+
+/// Everything a controller trusts, and whom it refused, at one moment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TrustSnapshot {
+    pub revision: u64,
+    pub generation: FirmwareGeneration,
+    pub limits: ListLimits,
+    /// The controller's clock when this was read.
+    pub clock: DateTime<Utc>,
+    pub trusted: Vec<ListedCertificate>,
+    /// Seen last first.
+    pub rejected: Vec<RejectedClient>,
+    /// Empty on legacy firmware, which has no such list.
+    pub issuers: Vec<ListedCertificate>,
+    /// Each with its DER.
+    pub crls: Vec<ListedCrl>,
+    pub health: TrustHealth,
+}
+
+#[async_trait]
+impl Operation for ListTrust {
+    fn confirmation(&self) -> Option<Confirmation> {
+        None
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        Ok(Outcome::TrustLists(Box::new(TrustSnapshot::read(run.session).await?)))
+    }
+}
+
+/// How often somebody else may change the configuration while it is read.
+const ATTEMPTS: u32 = 4;
+
+impl TrustSnapshot {
+    pub(super) async fn read(session: &mut dyn ControllerSession) -> Result<Self, Problem> {
+        for _ in 0..ATTEMPTS {
+            if let Some(whole) = Self::read_once(session).await? {
+                return Ok(whole);
+            }
+        }
+        Err(ErrorCode::ChangedMeanwhile.into())
+    }
+
+    /// `None` if the configuration changed between two of the requests.
+    async fn read_once(session: &mut dyn ControllerSession) -> Result<Option<Self>, Problem> {
+        let info = session.info().await?;
+        let trusted = session.clients(ClientList::Trusted).await?;
+        let issuers = match info.generation() {
+            FirmwareGeneration::Legacy => Vec::new(),
+            FirmwareGeneration::Current => {
+                let issuers = session.clients(ClientList::Issuers).await?;
+                if issuers.revision != info.revision {
+                    return Ok(None);
+                }
+                issuers.value
+            }
+        };
+        let mut crls = session.crls().await?;
+        for listed in crls.value.iter_mut().filter(|listed| listed.crl.is_none()) {
+            match session.crl(&listed.summary.id).await {
+                Ok(der) => listed.crl = Some(der),
+                Err(problem) if problem.code == ErrorCode::NotInList => return Ok(None),
+                Err(problem) => return Err(problem),
+            }
+        }
+        // Last: it is the one that changes by itself.
+        let rejected = session.rejected_clients().await?;
+        if [trusted.revision, crls.revision, rejected.revision].iter().any(|read| *read != info.revision) {
+            return Ok(None);
+        }
+        let health = health([&trusted.value, &issuers], &crls.value, info.clock).await?;
+        Ok(Some(Self {
+            revision: info.revision,
+            generation: info.generation(),
+            limits: info.limits,
+            clock: info.clock,
+            trusted: trusted.value,
+            rejected: rejected.value,
+            issuers,
+            crls: crls.value,
+            health,
+        }))
+    }
+
+    /// The lists that certificates are put into.
+    pub(super) fn listed(&self, list: ClientList) -> &[ListedCertificate] {
+        match list {
+            ClientList::Trusted => &self.trusted,
+            ClientList::Issuers => &self.issuers,
+            ClientList::Rejected => &[],
+        }
+    }
+
+    /// The list a certificate is in; if in several, the one that counts most.
+    pub fn list_of(&self, thumbprint: &str) -> Option<ClientList> {
+        [ClientList::Trusted, ClientList::Issuers, ClientList::Rejected]
+            .into_iter()
+            .find(|list| self.holds(*list, thumbprint))
+    }
+
+    pub fn holds(&self, list: ClientList, thumbprint: &str) -> bool {
+        self.thumbprints(list).any(|held| held == thumbprint)
+    }
+
+    pub(super) fn thumbprints(&self, list: ClientList) -> impl Iterator<Item = &str> {
+        let rejected = if list == ClientList::Rejected { self.rejected.as_slice() } else { &[] };
+        let listed = self.listed(list).iter().map(|listed| listed.summary.thumbprint.as_str());
+        listed.chain(rejected.iter().map(|rejected| rejected.summary.thumbprint.as_str()))
+    }
+
+    pub(super) fn holds_crl(&self, id: &str) -> bool {
+        self.crls.iter().any(|held| held.summary.id == id)
+    }
+}
+
+/// Checks signatures: off the async threads.
+async fn health(
+    authorities: [&[ListedCertificate]; 2],
+    crls: &[ListedCrl],
+    now: DateTime<Utc>,
+) -> Result<TrustHealth, Problem> {
+    let authorities: Vec<Vec<u8>> = authorities.concat().into_iter().map(|listed| listed.certificate.0).collect();
+    let crls: Vec<Vec<u8>> = crls.iter().filter_map(|listed| Some(listed.crl.clone()?.0)).collect();
+    tokio::task::spawn_blocking(move || {
+        let authorities = authorities.iter().map(|der| Certificate::from_der(der)).collect::<Result<Vec<_>, _>>()?;
+        let crls = crls.iter().map(|der| Crl::from_der(der)).collect::<Result<Vec<_>, _>>()?;
+        Ok(TrustHealth::of(&crls, &authorities.iter().collect::<Vec<_>>(), now))
+    })
+    .await
+    .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?
+}

@@ -1,0 +1,315 @@
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use tokio::task::spawn_blocking;
+
+use super::plant::{Plant, opcua_config, trust_lists};
+use super::{Controller, Standing};
+use crate::model::{ErrorCode, Problem};
+use crate::protocol::{Changed, CutClient};
+use crate::virtual_controller::faults::DropPoint;
+use crate::virtual_controller::memory;
+use crate::virtual_controller::opcua::{Clock, Events, OpcUaConfig, OpcUaServer, StartError};
+use crate::virtual_controller::state::{State, Surroundings};
+use crate::virtual_controller::store::StoreError;
+
+/// What a change means for a running OPC UA server.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in super::super) enum Effect {
+    /// It has to be stopped and started with the new configuration.
+    Restart,
+    /// It takes over the trust lists as it runs, and ends connections that would not be let in any more.
+    Trust,
+    /// Its certificate may be gone. Without one it stops for good; otherwise it does not notice.
+    CertificateLost,
+    /// It does not notice.
+    Nothing,
+}
+
+/// A change that is in force.
+pub(super) struct Applied<T> {
+    pub changed: Changed,
+    pub value: T,
+    /// Whose connections were ended.
+    pub cut: Vec<CutClient>,
+}
+
+/// How a change, a start or a stop did not succeed.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(in super::super) enum Outcome {
+    Problem(Problem),
+    /// A fault switch asks for the connection to be lost here.
+    Dropped,
+}
+
+impl From<Problem> for Outcome {
+    fn from(problem: Problem) -> Self {
+        Self::Problem(problem)
+    }
+}
+
+impl From<StoreError> for Outcome {
+    fn from(error: StoreError) -> Self {
+        Self::Problem(error.into())
+    }
+}
+
+const RESTORE_ATTEMPTS: u32 = 3;
+const RESTORE_PAUSE: std::time::Duration = std::time::Duration::from_millis(100);
+
+impl Controller {
+    /// Makes a change, whole or not at all, even if the one who asked has gone: copy the state, edit the copy, write
+    /// it beside the one in force, give the server the new configuration, and only then let the copy take its place.
+    /// If a step fails, the ones before it are undone.
+    pub(in super::super) async fn change<T: Send + 'static>(
+        self: &Arc<Self>,
+        revision: u64,
+        effect: Effect,
+        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<(Changed, T), Outcome> {
+        let this = Arc::clone(self);
+        finished(tokio::spawn(async move { this.change_now(revision, effect, edit).await }).await)
+    }
+
+    pub(in super::super) async fn start_server(self: &Arc<Self>) -> Result<Changed, Outcome> {
+        let this = Arc::clone(self);
+        finished(
+            tokio::spawn(async move {
+                this.faults.admit_change()?;
+                this.start_server_now().await?;
+                Ok(this.changed())
+            })
+            .await,
+        )
+    }
+
+    pub(in super::super) async fn stop_server(self: &Arc<Self>) -> Result<Changed, Outcome> {
+        let this = Arc::clone(self);
+        finished(
+            tokio::spawn(async move {
+                this.faults.admit_change()?;
+                let mut plant = this.server.lock().await;
+                plant.admit()?;
+                plant.stop().await;
+                memory::give_back();
+                *this.standing.lock() = Standing::Stopped;
+                Ok(this.changed())
+            })
+            .await,
+        )
+    }
+
+    /// Deletes the server log.
+    pub(in super::super) async fn delete_log(&self) {
+        let log = Arc::clone(&self.log);
+        let deleted = spawn_blocking(move || log.delete()).await;
+        if let Err(error) = deleted.map_err(std::io::Error::other).flatten() {
+            tracing::warn!(%error, "the server log was not deleted");
+        }
+    }
+
+    async fn change_now<T: Send + 'static>(
+        self: Arc<Self>,
+        revision: u64,
+        effect: Effect,
+        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<(Changed, T), Outcome> {
+        let mut plant = self.server.lock().await;
+        let Applied { changed, value, .. } = self.apply(&mut plant, revision, effect, edit).await?;
+        drop(plant);
+        self.answer()?;
+        Ok((changed, value))
+    }
+
+    /// Whether the answer to a change that was applied reaches who asked for it.
+    pub(super) fn answer(&self) -> Result<(), Outcome> {
+        if self.faults.take_drop(DropPoint::AfterApply) { Err(Outcome::Dropped) } else { Ok(()) }
+    }
+
+    pub(super) fn check_revision(&self, revision: u64) -> Result<(), Problem> {
+        let now = self.state().revision;
+        if revision == now {
+            return Ok(());
+        }
+        Err(Problem::with_detail(ErrorCode::ChangedMeanwhile, format!("revision {revision}, now {now}")))
+    }
+
+    /// A change, by whoever has its turn.
+    pub(super) async fn apply<T: Send + 'static>(
+        &self,
+        plant: &mut Plant,
+        revision: u64,
+        effect: Effect,
+        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<Applied<T>, Outcome> {
+        plant.admit()?;
+        self.faults.admit_change()?;
+        self.check_revision(revision)?;
+        let effect = if plant.is_running() { effect } else { Effect::Nothing };
+        let old = self.state();
+        let (store, around, copy) = (Arc::clone(&self.store), self.surroundings(), State::clone(&old));
+        let (new, value, lists, staged) = blocking(move || {
+            let mut state = copy;
+            let value = edit(&mut state, &around)?;
+            state.revision += 1;
+            state.check()?;
+            let lists = if effect == Effect::Trust { Some(trust_lists(&state)?) } else { None };
+            let staged = store.stage(&state)?;
+            Ok::<_, Outcome>((state, value, lists, staged))
+        })
+        .await?;
+        if self.faults.take_drop(DropPoint::BeforeApply) {
+            return Err(Outcome::Dropped);
+        }
+
+        self.take_effect(plant, effect, &old, &new).await?;
+        if let Err(error) = blocking(move || staged.commit()).await {
+            match effect {
+                Effect::Restart => {
+                    plant.stop().await;
+                    self.restore(plant, &old).await;
+                }
+                Effect::CertificateLost if !plant.is_running() => self.restore(plant, &old).await,
+                Effect::CertificateLost | Effect::Trust | Effect::Nothing => {}
+            }
+            return Err(error.into());
+        }
+        *self.state.write() = Arc::new(new);
+        if effect == Effect::CertificateLost && !plant.is_running() {
+            *self.standing.lock() = Standing::Stopped;
+        }
+        // Last, and it cannot fail: a connection that is ended cannot be given back.
+        let cut = match lists {
+            Some(lists) => plant.trust(lists).await,
+            None => Vec::new(),
+        };
+        Ok(Applied { changed: self.changed(), value, cut })
+    }
+
+    pub(super) async fn start_server_now(&self) -> Result<(), Problem> {
+        let mut plant = self.server.lock().await;
+        plant.admit()?;
+        if plant.is_running() {
+            return Ok(());
+        }
+        // One that died by itself.
+        plant.stop().await;
+        let started = if self.faults.get().server_error { Err(fault()) } else { self.run(&self.state()).await };
+        match started {
+            Ok(server) => {
+                plant.server = Some(server);
+                *self.standing.lock() = Standing::Running;
+                Ok(())
+            }
+            Err(problem) => {
+                *self.standing.lock() = Standing::Failed(problem.code);
+                Err(problem)
+            }
+        }
+    }
+
+    /// Gives the running server the new configuration; if that fails, the old one again.
+    async fn take_effect(&self, plant: &mut Plant, effect: Effect, old: &State, new: &State) -> Result<(), Problem> {
+        match effect {
+            Effect::Restart => self.restart(plant, old, new).await,
+            Effect::CertificateLost => {
+                if new.selected_certificate().is_none() {
+                    plant.stop().await;
+                }
+                Ok(())
+            }
+            // Once the change is in force.
+            Effect::Trust | Effect::Nothing => Ok(()),
+        }
+    }
+
+    async fn restart(&self, plant: &mut Plant, old: &State, new: &State) -> Result<(), Problem> {
+        // A configuration that cannot run is refused before anything is stopped.
+        new.check_start(&self.surroundings())?;
+        plant.stop().await;
+        let started = if self.faults.get().server_error { Err(fault()) } else { self.run(new).await };
+        match started {
+            Ok(server) => {
+                plant.server = Some(server);
+                Ok(())
+            }
+            Err(problem) => {
+                self.restore(plant, old).await;
+                Err(problem)
+            }
+        }
+    }
+
+    /// Puts back the server that ran until a moment ago. Should even that fail, the status says so.
+    async fn restore(&self, plant: &mut Plant, old: &State) {
+        for attempt in 1..=RESTORE_ATTEMPTS {
+            match self.run(old).await {
+                Ok(server) => {
+                    plant.server = Some(server);
+                    return;
+                }
+                Err(problem) if attempt == RESTORE_ATTEMPTS => {
+                    tracing::error!(serial = %old.identity.serial, %problem, "the OPC UA server could not be put back");
+                    *self.standing.lock() = Standing::Failed(problem.code);
+                }
+                Err(_) => tokio::time::sleep(RESTORE_PAUSE).await,
+            }
+        }
+    }
+
+    async fn run(&self, state: &State) -> Result<OpcUaServer, Problem> {
+        let mut config = self.config(state).await?;
+        config.refusals = Some(Arc::clone(&self.rejected) as _);
+        let faults = self.faults.clone();
+        config.clock = Clock::new(move || faults.now());
+        if state.settings.server_log {
+            if self.log.is_full() {
+                return Err(ErrorCode::ServerLogFull.into());
+            }
+            let log = Arc::clone(&self.log);
+            config.events = Events::new(move |event| log.write(event));
+        }
+        OpcUaServer::start(config).await.map_err(|error| match &error {
+            StartError::PortInUse(port) => Problem::with_detail(ErrorCode::PortConflict, port),
+            StartError::InvalidParameter(reason) => Problem::with_detail(ErrorCode::InvalidParameter, reason),
+            StartError::Failed(reason) => Problem::with_detail(ErrorCode::ServerError, reason),
+        })
+    }
+
+    /// Parses what may be megabytes of CRLs: off the async threads.
+    async fn config(&self, state: &State) -> Result<OpcUaConfig, Problem> {
+        let (state, around, folder) = (state.clone(), self.surroundings(), self.folder.clone());
+        spawn_blocking(move || opcua_config(&state, &around, &folder))
+            .await
+            .map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?
+    }
+
+    pub(super) async fn switch_off(&self) {
+        let mut plant = self.server.lock().await;
+        plant.off = true;
+        if plant.server.is_some() {
+            plant.stop().await;
+            memory::give_back();
+        }
+        *self.standing.lock() = Standing::Stopped;
+    }
+}
+
+/// What the fault switch says when the server is told to fail.
+fn fault() -> Problem {
+    Problem::with_detail(ErrorCode::ServerError, "a fault switch is on")
+}
+
+pub(super) fn finished<T>(joined: Result<Result<T, Outcome>, tokio::task::JoinError>) -> Result<T, Outcome> {
+    joined.unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error).into()))
+}
+
+/// Runs on a thread that may wait. A panic there is the controller's mistake, not the end of it.
+pub(super) async fn blocking<T: Send + 'static, E: From<StoreError> + Send + 'static>(
+    work: impl FnOnce() -> Result<T, E> + Send + 'static,
+) -> Result<T, E> {
+    spawn_blocking(work).await.unwrap_or_else(|error| {
+        let source = std::io::Error::other(error.to_string());
+        Err(StoreError::Io { path: PathBuf::new(), source }.into())
+    })
+}

@@ -1,0 +1,131 @@
+use std::net::{IpAddr, SocketAddr};
+use std::sync::Arc;
+
+use tokio::task::spawn_blocking;
+
+use super::{Controller, Standing};
+use crate::model::{
+    ClientList, ControllerInfo, ErrorCode, FirmwareGeneration, Problem, ServerSettings, ServerStatus, UserName,
+};
+use crate::protocol::{
+    Base64Bytes, Changed, HeldCertificate, HeldCertificates, ListedCertificate, ListedCrl, LogChunk, RejectedClient,
+    Revisioned, SettingsExport, TrustStamp, WireSecret,
+};
+use crate::virtual_controller::settings_transfer;
+use crate::virtual_controller::state::Listed;
+
+impl Controller {
+    /// `reached`: the address the asking client used, which names the controller when it listens on every one.
+    pub(in super::super) fn info(&self, reached: Option<IpAddr>) -> ControllerInfo {
+        let (status, error) = self.status();
+        let (state, around) = (self.state(), self.surroundings());
+        ControllerInfo {
+            name: state.identity.name.to_string(),
+            serial: state.identity.serial.clone(),
+            series: state.identity.series,
+            firmware: state.identity.firmware,
+            status,
+            error,
+            activated: state.activated,
+            certificate: state.server_certificate(),
+            application_name: state.application_name(&around),
+            endpoint: self.endpoint(reached),
+            used_ports: state.taken_ports(&around),
+            limits: state.limits(),
+            clock: around.now,
+            revision: state.revision,
+        }
+    }
+
+    pub(in super::super) fn settings(&self) -> Revisioned<ServerSettings> {
+        let state = self.state();
+        Revisioned { revision: state.revision, value: state.settings.clone() }
+    }
+
+    pub(in super::super) fn users(&self) -> Revisioned<Vec<UserName>> {
+        let state = self.state();
+        Revisioned { revision: state.revision, value: state.users.iter().map(|user| user.name.clone()).collect() }
+    }
+
+    pub(in super::super) fn certificates(&self) -> Revisioned<HeldCertificates> {
+        let state = self.state();
+        let held = state
+            .certificates
+            .iter()
+            .map(|(kind, pair)| HeldCertificate { kind: *kind, certificate: pair.certificate.clone() })
+            .collect();
+        let csr = state.csr.as_ref().map(|pending| pending.csr.clone());
+        Revisioned { revision: state.revision, value: HeldCertificates { selected: state.selected, held, csr } }
+    }
+
+    /// The trusted or the issuers list.
+    pub(in super::super) fn clients(&self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
+        let state = self.state();
+        if list == ClientList::Issuers && state.generation() == FirmwareGeneration::Legacy {
+            return Err(ErrorCode::FirmwareTooOld.into());
+        }
+        let value = state.list(list).iter().filter_map(Listed::to_message).collect();
+        Ok(Revisioned { revision: state.revision, value })
+    }
+
+    pub(in super::super) fn rejected(&self) -> Revisioned<Vec<RejectedClient>> {
+        Revisioned { revision: self.state().revision, value: self.rejected.list() }
+    }
+
+    pub(in super::super) fn crls(&self) -> Revisioned<Vec<ListedCrl>> {
+        let state = self.state();
+        Revisioned { revision: state.revision, value: state.listed_crls() }
+    }
+
+    /// The DER of one CRL.
+    pub(in super::super) fn crl(&self, id: &str) -> Result<Base64Bytes, Problem> {
+        let state = self.state();
+        let held = state.crls.iter().find(|held| held.summary.id == id);
+        held.map(|held| held.crl.clone()).ok_or_else(|| Problem::with_detail(ErrorCode::NotInList, id))
+    }
+
+    pub(in super::super) fn trust_stamp(&self) -> TrustStamp {
+        TrustStamp { revision: self.state().revision, rejected: self.rejected.stamp() }
+    }
+
+    /// The server log from byte `from` on, or its end.
+    pub(in super::super) async fn log(&self, from: Option<u64>) -> Result<LogChunk, Problem> {
+        let log = Arc::clone(&self.log);
+        let read = spawn_blocking(move || log.read(from)).await.map_err(std::io::Error::other).flatten();
+        read.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))
+    }
+
+    /// Settings, users and keys, sealed.
+    pub(in super::super) async fn export(&self, passphrase: WireSecret) -> Result<SettingsExport, Problem> {
+        let (state, around) = (self.state(), self.surroundings());
+        spawn_blocking(move || settings_transfer::export(&state, &around, &passphrase.0))
+            .await
+            .unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error)))
+    }
+
+    pub(super) fn changed(&self) -> Changed {
+        Changed { revision: self.state().revision, status: self.status().0 }
+    }
+
+    /// A server that died by itself is noticed here.
+    fn status(&self) -> (ServerStatus, Option<ErrorCode>) {
+        let standing = *self.standing.lock();
+        let notice = self.state().settings.server_log.then_some(ErrorCode::ServerLogOn);
+        match standing {
+            Standing::Stopped => (ServerStatus::Stop, notice),
+            Standing::Failed(code) => (ServerStatus::Error, Some(code)),
+            Standing::Running => match self.server.try_lock() {
+                Ok(plant) if !plant.is_running() => (ServerStatus::Error, Some(ErrorCode::ServerError)),
+                _ => (ServerStatus::Run, notice),
+            },
+        }
+    }
+
+    pub(super) fn endpoint(&self, reached: Option<IpAddr>) -> String {
+        let host = match reached {
+            Some(address) if self.bind.is_unspecified() => address.to_canonical(),
+            _ => self.surroundings().address(),
+        };
+        format!("opc.tcp://{}", SocketAddr::new(host, self.state().settings.port.get()))
+    }
+}

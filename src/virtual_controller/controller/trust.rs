@@ -1,0 +1,104 @@
+use std::sync::Arc;
+
+use tokio::task::spawn_blocking;
+
+use super::change::{Applied, finished};
+use super::{Controller, Effect, Outcome};
+use crate::model::{ClientList, ErrorCode, Problem};
+use crate::protocol::{EditTrust, TrustChanged, TrustStep};
+use crate::virtual_controller::rejected::{Entry, RejectedClients};
+use crate::virtual_controller::state::{State, Surroundings};
+use crate::virtual_controller::trust_changes::{self, Rejected};
+
+impl Controller {
+    /// Changes client lists and CRLs, whole or not at all, even if the one who asked has gone.
+    ///
+    /// The rejected list is another file than the state. What comes into it is written before the state, what leaves it
+    /// after: a process killed in between comes back with a certificate in two lists, and takes it out of this one.
+    pub(in super::super) async fn edit_trust(self: &Arc<Self>, change: EditTrust) -> Result<TrustChanged, Outcome> {
+        let this = Arc::clone(self);
+        finished(tokio::spawn(async move { this.edit_trust_now(change).await }).await)
+    }
+
+    async fn edit_trust_now(
+        self: Arc<Self>,
+        EditTrust { revision, steps }: EditTrust,
+    ) -> Result<TrustChanged, Outcome> {
+        let mut plant = self.server.lock().await;
+        let done = if let Some(thumbprints) = only_forgets(&steps) {
+            plant.admit()?;
+            self.forget(revision, thumbprints).await?
+        } else {
+            let rejected = Arc::clone(&self.rejected);
+            let edit = move |state: &mut State, around: &Surroundings| {
+                let Rejected { arrived, left } =
+                    trust_changes::edit_trust(state, around, steps, rejected.certificates())?;
+                Draft::new(rejected, arrived, left)
+            };
+            let Applied { changed, value, cut } = self.apply(&mut plant, revision, Effect::Trust, edit).await?;
+            value.settle().await;
+            TrustChanged { changed, cut }
+        };
+        drop(plant);
+        self.answer()?;
+        Ok(done)
+    }
+
+    /// Takes certificates out of the rejected list, which is no part of the configuration.
+    async fn forget(&self, revision: u64, thumbprints: Vec<String>) -> Result<TrustChanged, Problem> {
+        self.faults.admit_change()?;
+        self.check_revision(revision)?;
+        let rejected = Arc::clone(&self.rejected);
+        let removed = spawn_blocking(move || {
+            let held = rejected.certificates();
+            if let Some(missing) = thumbprints.iter().find(|thumbprint| !held.contains_key(*thumbprint)) {
+                return Err(Problem::with_detail(ErrorCode::NotInList, missing));
+            }
+            Ok(rejected.remove(&thumbprints)?)
+        });
+        removed.await.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))??;
+        Ok(TrustChanged { changed: self.changed(), cut: Vec::new() })
+    }
+}
+
+/// The rejected list's part of a change: thrown away, unless the change comes into force.
+struct Draft {
+    rejected: Arc<RejectedClients>,
+    arrived: Vec<String>,
+    left: Vec<String>,
+}
+
+impl Draft {
+    /// Blocks for the disk.
+    fn new(rejected: Arc<RejectedClients>, arrived: Vec<Entry>, left: Vec<String>) -> Result<Self, Problem> {
+        let thumbprints = arrived.iter().map(|entry| entry.thumbprint.clone()).collect();
+        let draft = Self { rejected, arrived: thumbprints, left };
+        if !arrived.is_empty() {
+            draft.rejected.insert(arrived)?;
+        }
+        Ok(draft)
+    }
+
+    /// The change is in force. That the disk does not hear of it at once does no harm: see [`RejectedClients::open`].
+    async fn settle(mut self) {
+        self.arrived.clear();
+        self.rejected.forget(&self.left);
+        self.rejected.write_soon().await;
+    }
+}
+
+impl Drop for Draft {
+    fn drop(&mut self) {
+        self.rejected.forget(&self.arrived);
+    }
+}
+
+/// The thumbprints, if the steps do nothing but take certificates out of the rejected list.
+fn only_forgets(steps: &[TrustStep]) -> Option<Vec<String>> {
+    match steps {
+        [TrustStep::Remove { list: ClientList::Rejected, thumbprints }] if !thumbprints.is_empty() => {
+            Some(thumbprints.clone())
+        }
+        _ => None,
+    }
+}

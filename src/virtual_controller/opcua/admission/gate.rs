@@ -1,0 +1,398 @@
+use std::collections::BTreeSet;
+use std::io::{self, ErrorKind};
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::time::Duration;
+
+use opcua::crypto::SecurityPolicy as WirePolicy;
+use opcua::types::StatusCode;
+use tokio::io::AsyncReadExt as _;
+use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::watch;
+use tokio::task::{JoinSet, spawn_blocking};
+use tokio::time::{Instant, sleep, sleep_until, timeout};
+
+use super::super::certificate_store::PkiFolder;
+use super::super::endpoints::wire;
+use super::connections::{Connection, Connections, Identity, Stop, stop_asked};
+use super::downward::{Downward, say};
+use super::fault::Fault;
+use super::frame::Open;
+use super::judge::{self, Judge, invalid, read_chain};
+use super::limits::Limits;
+use super::report::Reporter;
+use super::rewrap::{ChainedClient, Own};
+use super::upward::{Upward, read_hello};
+use crate::model::{CertificateStatus, SecurityPolicy};
+use crate::pki::{Certificate, Rejection, TrustLists};
+
+/// Stands in front of the OPC UA crate's server, which listens on a loopback port, and lets in whom it may.
+///
+/// The crate never lets go of a client that has stopped reading: stopping would take forever and keep a core busy. The
+/// clients' connections are therefore ours; dropping [`Gate::run`] closes them all, and the port.
+#[derive(Debug)]
+pub(in super::super) struct Gate {
+    settings: Settings,
+    server: SocketAddr,
+    own: Arc<Own>,
+    judge: Judge,
+    pki: PkiFolder,
+    connections: Connections,
+    reporter: Reporter,
+}
+
+/// What the gate of one server does not change.
+#[derive(Debug)]
+pub(in super::super) struct Settings {
+    pub(super) limits: Limits,
+    pub(super) policies: BTreeSet<SecurityPolicy>,
+    pub(super) detailed_status: bool,
+}
+
+impl Settings {
+    pub(in super::super) fn new(policies: BTreeSet<SecurityPolicy>, detailed_status: bool) -> Self {
+        Self { limits: Limits::default(), policies, detailed_status }
+    }
+}
+
+/// An open connection that was ended because its certificate is not trusted any more.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct CutConnection {
+    pub address: SocketAddr,
+    /// The client's own.
+    pub certificate: Certificate,
+    /// Why it would not be let in now.
+    pub rejection: Rejection,
+}
+
+impl Gate {
+    pub(in super::super) fn new(
+        settings: Settings,
+        server: SocketAddr,
+        own: Own,
+        judge: Judge,
+        pki: PkiFolder,
+        reporter: Reporter,
+    ) -> Self {
+        let connections = Connections::new(settings.limits);
+        Self { settings, server, own: Arc::new(own), judge, pki, connections, reporter }
+    }
+
+    /// Serves clients until it is dropped.
+    pub(in super::super) async fn run(self: Arc<Self>, clients: TcpListener) {
+        let mut connections = JoinSet::new();
+        loop {
+            tokio::select! {
+                accepted = clients.accept() => match accepted {
+                    Ok((client, address)) => {
+                        let gate = self.clone();
+                        connections.spawn(async move { gate.serve(client, address).await });
+                    }
+                    Err(e) => {
+                        // Most likely out of file descriptors, which passes.
+                        tracing::warn!("cannot accept an OPC UA connection: {e}");
+                        sleep(ACCEPT_PAUSE).await;
+                    }
+                },
+                Some(_) = connections.join_next() => {}
+            }
+        }
+    }
+
+    /// Puts other trust lists in force and ends every open connection that would not be let in now.
+    ///
+    /// Blocks as [`TrustLists::validate`] does, for each connection.
+    pub(in super::super) fn set_trust(&self, lists: TrustLists) -> Vec<CutConnection> {
+        self.judge.replace(lists);
+        let mut cut = Vec::new();
+        for connection in self.connections.all() {
+            let Some(identity) = connection.state.lock().identity.clone() else { continue };
+            let Some(leaf) = identity.leaf() else { continue };
+            if let Err(rejection) = self.judge.admit(&identity.chain, identity.policy, || ()) {
+                connection.stop(Stop::Told(judge::fault(&rejection, self.settings.detailed_status)));
+                self.pki.forget(leaf.der());
+                if connection.state.lock().channel.is_none() {
+                    continue;
+                }
+                self.reporter.cut(connection.peer, &identity.chain, &rejection);
+                cut.push(CutConnection { address: connection.peer, certificate: leaf.clone(), rejection });
+            }
+        }
+        cut
+    }
+
+    async fn serve(self: Arc<Self>, client: TcpStream, address: SocketAddr) {
+        let (stop, stopped) = watch::channel(None);
+        let Some(place) = self.connections.enter(address, stop) else {
+            tracing::warn!(%address, "too many OPC UA connections, one more refused");
+            self.reporter.too_many(address);
+            let fault = Fault::new(StatusCode::BadTcpNotEnoughResources, "too many connections");
+            let _ = client.try_write(&fault.to_message());
+            return;
+        };
+        // Both ends write whole messages.
+        let _ = client.set_nodelay(true);
+        let (mut from, mut to) = client.into_split();
+        if self.talk(&place.connection, &mut from, &mut to, stopped).await {
+            // Closing while there is something unread could keep the last words from arriving.
+            let _ = timeout(self.settings.limits.linger, unheard(&mut from)).await;
+        }
+        if place.connection.state.lock().channel.is_some() {
+            self.reporter.disconnected(address);
+        }
+    }
+
+    /// From the first byte to the last word. Whether the client should be given time to read that.
+    async fn talk(
+        self: &Arc<Self>,
+        connection: &Arc<Connection>,
+        from: &mut OwnedReadHalf,
+        to: &mut OwnedWriteHalf,
+        mut stopped: watch::Receiver<Option<Stop>>,
+    ) -> bool {
+        let limits = &self.settings.limits;
+        let start = Instant::now();
+        let greeting = tokio::select! {
+            greeting = self.greet(from, start + limits.open) => greeting,
+            stop = stop_asked(&mut stopped) => return say(to, &stop).await,
+        };
+        let (hello, server) = match greeting {
+            Ok(Some(greeting)) => greeting,
+            Ok(None) => return false,
+            Err(fault) => return say(to, &self.refuse(connection, fault)).await,
+        };
+        let _ = server.set_nodelay(true);
+        let (from_server, to_server) = server.into_split();
+        let up = async {
+            if let Err(stop) = Upward::new(self, connection, hello).run(from, to_server, start + limits.open).await {
+                connection.stop(stop);
+                std::future::pending::<()>().await;
+            }
+            // The client says no more; what the server still has to say gets some time.
+            sleep(limits.stall).await;
+        };
+        let in_vain = async {
+            sleep_until(start + limits.open + limits.session).await;
+            if !connection.has_session() {
+                connection.stop(Stop::Told(Fault::new(StatusCode::BadTimeout, "no session in time")));
+            }
+            std::future::pending::<()>().await;
+        };
+        tokio::select! {
+            told = Downward::new(self, connection).run(from_server, to, stopped) => told,
+            () = up => false,
+            () = in_vain => false,
+        }
+    }
+
+    /// Reads the client's Hello and finds the server. `None` if the client has gone.
+    async fn greet(&self, from: &mut OwnedReadHalf, by: Instant) -> Result<Option<(Vec<u8>, TcpStream)>, Fault> {
+        let Some(hello) = read_hello(from, by).await? else { return Ok(None) };
+        let server = TcpStream::connect(self.server).await;
+        let server = server.map_err(|_| Fault::new(StatusCode::BadServerHalted, "the server has stopped"))?;
+        Ok(Some((hello, server)))
+    }
+
+    pub(in super::super) fn pki(&self) -> &PkiFolder {
+        &self.pki
+    }
+
+    pub(super) fn limits(&self) -> &Limits {
+        &self.settings.limits
+    }
+
+    pub(super) fn own(&self) -> &Arc<Own> {
+        &self.own
+    }
+
+    /// Whether sessions without security are offered.
+    pub(super) fn offers_none(&self) -> bool {
+        self.settings.policies.contains(&SecurityPolicy::None)
+    }
+
+    /// Tells of a refusal, and says how the connection is to end.
+    pub(super) fn refuse(&self, connection: &Connection, fault: Fault) -> Stop {
+        let told = self.reporter.refused(connection.peer, &fault.reason);
+        if told { Stop::Told(fault) } else { Stop::AtOnce(fault) }
+    }
+
+    fn reject(&self, connection: &Connection, chain: &[Certificate], rejection: &Rejection) -> Stop {
+        let fault = judge::fault(rejection, self.settings.detailed_status);
+        let told = self.reporter.rejected(connection.peer, chain, rejection);
+        if told { Stop::Told(fault) } else { Stop::AtOnce(fault) }
+    }
+
+    /// Looks at an OpenSecureChannel request: the first of a connection, or a renewal by the same client.
+    pub(super) async fn admit(
+        self: &Arc<Self>,
+        connection: &Arc<Connection>,
+        chunk: &[u8],
+    ) -> Result<Arc<Identity>, Stop> {
+        let open = Open::parse(chunk).map_err(|fault| self.refuse(connection, fault))?;
+        let refuse = |status, reason| Err(self.refuse(connection, Fault::new(status, reason)));
+        let (known, channel) = {
+            let state = connection.state.lock();
+            (state.identity.clone(), state.channel)
+        };
+        let Some(policy) = self.offered(open.policy_uri) else {
+            return refuse(StatusCode::BadSecurityPolicyRejected, "a security policy that is not offered");
+        };
+        match &known {
+            Some(known) if known.policy != policy || known.sent != open.certificates => {
+                return refuse(StatusCode::BadSecurityChecksFailed, "renewal by somebody else");
+            }
+            Some(_) if channel != Some(open.channel) => {
+                return refuse(StatusCode::BadTcpSecureChannelUnknown, "renewal of another channel");
+            }
+            None if open.channel != 0 => {
+                return refuse(StatusCode::BadTcpSecureChannelUnknown, "the first channel has no number yet");
+            }
+            _ => {}
+        }
+        if policy == WirePolicy::None {
+            let identity = Arc::new(Identity { policy, sent: open.certificates.to_vec(), chain: Vec::new() });
+            connection.state.lock().identity = Some(identity.clone());
+            return Ok(identity);
+        }
+        if open.receiver_thumbprint != self.own.thumbprint() {
+            return refuse(StatusCode::BadCertificateInvalid, "the request is for another server certificate");
+        }
+        let (gate, connection, sent) = (self.clone(), connection.clone(), open.certificates.to_vec());
+        spawn_blocking(move || gate.judge(&connection, policy, sent))
+            .await
+            .unwrap_or_else(|_| Err(Stop::Told(Fault::internal())))
+    }
+
+    fn judge(&self, connection: &Connection, policy: WirePolicy, sent: Vec<u8>) -> Result<Arc<Identity>, Stop> {
+        let chain = read_chain(&sent).map_err(|rejection| self.reject(connection, &[], &rejection))?;
+        let identity = Arc::new(Identity { policy, sent, chain });
+        let let_in = self.judge.admit(&identity.chain, policy, || {
+            let Some(leaf) = identity.leaf() else { return Ok::<_, io::Error>(()) };
+            self.pki.admit(leaf.der())?;
+            let mut state = connection.state.lock();
+            if identity.chain.len() > 1 && state.chained.is_none() {
+                let client = ChainedClient::new(policy, leaf.der()).map_err(|_| ErrorKind::InvalidInput)?;
+                state.chained = Some(Arc::new(client));
+            }
+            state.identity = Some(identity.clone());
+            Ok(())
+        });
+        match let_in {
+            Ok(Ok(())) => Ok(identity),
+            Ok(Err(e)) if e.kind() == ErrorKind::InvalidInput => {
+                let rejection = invalid("the server cannot work with this certificate, perhaps because of its name");
+                Err(self.reject(connection, &identity.chain, &rejection))
+            }
+            Ok(Err(e)) => {
+                tracing::error!("the certificate of an OPC UA client cannot be kept: {e}");
+                Err(Stop::Told(Fault::internal()))
+            }
+            Err(rejection) => {
+                if let Some(leaf) = identity.leaf() {
+                    self.pki.forget(leaf.der());
+                }
+                Err(self.reject(connection, &identity.chain, &rejection))
+            }
+        }
+    }
+
+    /// The policy of this name, if clients may open a channel with it. Without security everybody may, since that is how
+    /// they ask for the endpoints.
+    fn offered(&self, uri: &str) -> Option<WirePolicy> {
+        let policies = self.settings.policies.iter().chain([&SecurityPolicy::None]);
+        policies.map(|policy| wire(*policy)).find(|policy| policy.to_uri() == uri)
+    }
+
+    /// The server has answered an OpenSecureChannel with this channel.
+    pub(super) fn opened(&self, connection: &Arc<Connection>, channel: u32) {
+        if self.connections.opened(connection, channel) {
+            self.reporter.connected(connection.peer);
+        }
+    }
+
+    /// The server hangs up with an error of its own.
+    pub(super) fn server_refused(&self, connection: &Connection) {
+        let state = connection.state.lock();
+        let unopened = state.identity.clone().filter(|_| state.channel.is_none());
+        drop(state);
+        if let Some(leaf) = unopened.as_ref().and_then(|identity| identity.leaf()) {
+            self.reporter.refused(connection.peer, &unproven(leaf));
+        }
+    }
+
+    /// The request of a client with this certificate could not be opened.
+    pub(super) fn unproven(&self, connection: &Connection, identity: &Identity, fault: Fault) -> Stop {
+        let told = identity.leaf().is_none_or(|leaf| self.reporter.refused(connection.peer, &unproven(leaf)));
+        if told { Stop::Told(fault) } else { Stop::AtOnce(fault) }
+    }
+
+    /// A password travelled in clear.
+    pub(super) fn clear_password(&self, connection: &Connection) {
+        self.reporter.refused(connection.peer, "a login whose password was not encrypted");
+    }
+
+    /// Whether a session belongs to the connection it came by. If it does not, the connection ends.
+    ///
+    /// `facts`: the certificate of CreateSession, DER, and the ApplicationUri; asked for once a session.
+    pub(super) fn vouch(
+        &self,
+        session: u32,
+        channel: u32,
+        facts: impl FnOnce() -> (Option<Vec<u8>>, String),
+    ) -> Result<(), StatusCode> {
+        let connection = self.connections.of_channel(channel).ok_or(StatusCode::BadSecureChannelIdInvalid)?;
+        if connection.is_stopped() {
+            return Err(StatusCode::BadSecureChannelClosed);
+        }
+        let identity = {
+            let state = connection.state.lock();
+            if state.sessions.contains(&session) {
+                return Ok(());
+            }
+            state.identity.clone().ok_or(StatusCode::BadSecureChannelIdInvalid)?
+        };
+        let (certificate, application_uri) = facts();
+        let problem = match identity.leaf() {
+            Some(leaf) if certificate.as_deref() != Some(leaf.der()) => Some(Rejection {
+                status: CertificateStatus::CertificateInvalid,
+                subject: leaf.subject().to_owned(),
+                depth: 0,
+                reason: "the session was opened under another certificate than the secure channel".to_owned(),
+            }),
+            Some(leaf) if leaf.application_uri().as_deref() != Some(application_uri.as_str()) => Some(Rejection {
+                status: CertificateStatus::UriInvalid,
+                subject: leaf.subject().to_owned(),
+                depth: 0,
+                reason: "the client gives another application URI than its certificate".to_owned(),
+            }),
+            None if certificate.is_some() => {
+                // Opened under a policy with security and moved to a channel without.
+                connection.stop(self.refuse(
+                    &connection,
+                    Fault::new(StatusCode::BadSecurityChecksFailed, "a secured session on a channel without security"),
+                ));
+                return Err(StatusCode::BadSecurityChecksFailed);
+            }
+            _ => None,
+        };
+        if let Some(rejection) = problem {
+            connection.stop(self.reject(&connection, &identity.chain, &rejection));
+            return Err(StatusCode::from(rejection.status.code()));
+        }
+        connection.state.lock().add_session(session);
+        Ok(())
+    }
+}
+
+/// Reads on until the client has hung up.
+async fn unheard(from: &mut OwnedReadHalf) {
+    let mut bytes = [0; 4096];
+    while matches!(from.read(&mut bytes).await, Ok(1..)) {}
+}
+
+fn unproven(leaf: &Certificate) -> String {
+    format!("no proof that the client has the key of its certificate ({})", leaf.subject())
+}
+
+const ACCEPT_PAUSE: Duration = Duration::from_millis(100);

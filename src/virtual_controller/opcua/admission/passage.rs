@@ -1,0 +1,135 @@
+use super::fault::Fault;
+use super::frame::Header;
+
+/// Bytes on their way in one direction, chunk by chunk: first those that may go on, then those still to be looked at.
+#[derive(Debug, Default)]
+pub(super) struct Passage {
+    bytes: Vec<u8>,
+    /// How many at the front may go on.
+    good: usize,
+    /// How many after `good` belong to a chunk that may go on.
+    passing: usize,
+}
+
+impl Passage {
+    pub(super) fn new(bytes: Vec<u8>) -> Self {
+        Self { bytes, good: 0, passing: 0 }
+    }
+
+    /// The header of the next chunk to look at, once what is before it was let pass. `None` if it is not there yet.
+    pub(super) fn next(&mut self, max_chunk: usize) -> Result<Option<Header>, Fault> {
+        let here = self.passing.min(self.bytes.len() - self.good);
+        self.good += here;
+        self.passing -= here;
+        if self.passing > 0 { Ok(None) } else { Header::parse(self.rest(), max_chunk) }
+    }
+
+    /// From the header of the next chunk on.
+    pub(super) fn rest(&self) -> &[u8] {
+        &self.bytes[self.good..]
+    }
+
+    /// The next chunk, if all of it is here.
+    pub(super) fn chunk(&self, header: Header) -> Option<&[u8]> {
+        self.rest().get(..header.size)
+    }
+
+    /// Lets the next chunk pass, here or not.
+    pub(super) fn pass(&mut self, header: Header) {
+        self.passing = header.size;
+    }
+
+    /// Puts another chunk in the place of the next one, which is here, and lets it pass.
+    pub(super) fn replace(&mut self, header: Header, chunk: Vec<u8>) {
+        self.passing = chunk.len();
+        self.bytes.splice(self.good..self.good + header.size, chunk);
+    }
+
+    /// What may go on.
+    pub(super) fn good(&self) -> &[u8] {
+        &self.bytes[..self.good]
+    }
+
+    /// It has gone on.
+    pub(super) fn sent(&mut self) {
+        self.bytes.drain(..self.good);
+        self.good = 0;
+    }
+
+    /// Whether the receiver has seen whole chunks only, once what may go on has gone on.
+    pub(super) fn is_between_chunks(&self) -> bool {
+        self.passing == 0
+    }
+
+    /// Where to read more into.
+    pub(super) fn room(&mut self) -> &mut Vec<u8> {
+        self.bytes.reserve(READ_AT_LEAST);
+        &mut self.bytes
+    }
+}
+
+const READ_AT_LEAST: usize = 4096;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn chunk(fill: u8, size: u32) -> Vec<u8> {
+        let mut chunk = b"MSGF".to_vec();
+        chunk.extend(size.to_le_bytes());
+        chunk.resize(size as usize, fill);
+        chunk
+    }
+
+    /// What arrives behind a passage that lets everything pass, fed with pieces of this size.
+    fn through(bytes: &[u8], piece: usize) -> Vec<u8> {
+        let (mut passage, mut out) = (Passage::default(), Vec::new());
+        for piece in bytes.chunks(piece) {
+            passage.room().extend(piece);
+            while let Some(header) = passage.next(1000).unwrap() {
+                passage.pass(header);
+            }
+            out.extend(passage.good());
+            passage.sent();
+        }
+        assert!(passage.is_between_chunks());
+        out
+    }
+
+    #[test]
+    fn chunks_pass_however_the_network_cuts_them() {
+        let bytes = [chunk(1, 24), chunk(2, 1000), chunk(3, 30)].concat();
+        for piece in [1, 7, 8, 9, 24, 25, 500, 2000] {
+            assert_eq!(through(&bytes, piece), bytes, "{piece}");
+        }
+    }
+
+    #[test]
+    fn nothing_passes_before_its_header_was_seen() {
+        let mut passage = Passage::new(chunk(1, 24)[..7].to_vec());
+        assert_eq!(passage.next(1000), Ok(None));
+        assert_eq!(passage.good(), b"");
+        passage.room().extend(&chunk(1, 24)[7..20]);
+        let header = passage.next(1000).unwrap().unwrap();
+        assert_eq!((header.size, passage.chunk(header)), (24, None));
+        assert_eq!(passage.good(), b"");
+        passage.pass(header);
+        assert_eq!(passage.next(1000), Ok(None));
+        assert_eq!(passage.good().len(), 20);
+        assert!(!passage.is_between_chunks());
+    }
+
+    #[test]
+    fn a_chunk_can_be_replaced_by_another_one() {
+        let mut passage = Passage::new([chunk(1, 24), chunk(2, 40), chunk(3, 24)].concat());
+        let first = passage.next(1000).unwrap().unwrap();
+        passage.pass(first);
+        let second = passage.next(1000).unwrap().unwrap();
+        assert_eq!(passage.chunk(second), Some(&*chunk(2, 40)));
+        passage.replace(second, chunk(9, 33));
+        let third = passage.next(1000).unwrap().unwrap();
+        passage.pass(third);
+        assert_eq!(passage.next(1000), Ok(None));
+        assert_eq!(passage.good(), [chunk(1, 24), chunk(9, 33), chunk(3, 24)].concat());
+    }
+}

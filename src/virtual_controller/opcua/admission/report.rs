@@ -1,0 +1,102 @@
+use std::fmt;
+use std::net::{IpAddr, SocketAddr};
+use std::sync::Arc;
+use std::time::Instant;
+
+use parking_lot::Mutex;
+
+use super::super::{Event, Events};
+use super::addresses::{Addresses, Line, Toll};
+use super::connections::source;
+use crate::pki::{Certificate, Rejection};
+
+/// Who keeps the list of rejected clients.
+pub trait Refusals: Send + Sync {
+    /// A client at `address` was refused because of its certificate. `sent` is what it sent, leaf first, and never
+    /// empty; `rejection` is the true reason, whatever the client was told.
+    ///
+    /// Called on the server's own tasks, so it must not take long; not more than about thirty times a minute for one
+    /// address.
+    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection);
+}
+
+/// Tells of connections and refusals, and keeps quiet when one address causes too many of them.
+pub(in super::super) struct Reporter {
+    events: Events,
+    refusals: Option<Arc<dyn Refusals>>,
+    addresses: Mutex<Addresses>,
+}
+
+impl Reporter {
+    pub(in super::super) fn new(events: Events, refusals: Option<Arc<dyn Refusals>>) -> Self {
+        Self { events, refusals, addresses: Mutex::default() }
+    }
+
+    /// A certificate was refused. False if nobody was told, because the address is locked.
+    pub(super) fn rejected(&self, client: SocketAddr, sent: &[Certificate], rejection: &Rejection) -> bool {
+        let told = self.refused(client, &rejection.to_string());
+        if told
+            && !sent.is_empty()
+            && let Some(refusals) = &self.refusals
+        {
+            refusals.record(sent, source(client), rejection);
+        }
+        told
+    }
+
+    /// Something else than a certificate was refused. False if nobody was told, because the address is locked.
+    pub(super) fn refused(&self, client: SocketAddr, reason: &str) -> bool {
+        let toll = self.addresses.lock().refused(source(client), Instant::now());
+        match toll {
+            Toll::Tell { left_out } => {
+                if left_out > 0 {
+                    self.events.tell(Event::Unlocked { address: source(client), left_out });
+                }
+                self.events.tell(Event::Refused { client, reason });
+                tracing::info!(%client, reason, "OPC UA client refused");
+            }
+            Toll::TellAndLock => {
+                self.events.tell(Event::Refused { client, reason });
+                self.events.tell(Event::Locked { address: source(client) });
+                tracing::warn!(%client, reason, "OPC UA client refused, as too many before; no more is said of this address");
+            }
+            Toll::Quiet => return false,
+        }
+        true
+    }
+
+    /// An open connection was ended because its certificate is not trusted any more. Never kept quiet: it was let in.
+    pub(super) fn cut(&self, client: SocketAddr, sent: &[Certificate], rejection: &Rejection) {
+        self.events.tell(Event::Cut { client, reason: &rejection.to_string() });
+        if let Some(refusals) = &self.refusals {
+            refusals.record(sent, source(client), rejection);
+        }
+    }
+
+    pub(super) fn connected(&self, client: SocketAddr) {
+        self.line(client, Event::Connected { client });
+    }
+
+    pub(super) fn disconnected(&self, client: SocketAddr) {
+        self.line(client, Event::Disconnected { client });
+    }
+
+    pub(super) fn too_many(&self, client: SocketAddr) {
+        self.line(client, Event::TooManyConnections { client });
+    }
+
+    fn line(&self, client: SocketAddr, event: Event<'_>) {
+        let line = self.addresses.lock().line(source(client), Instant::now());
+        match line {
+            Line::Tell => self.events.tell(event),
+            Line::LastOne => self.events.tell(Event::LeftOut { address: source(client) }),
+            Line::Quiet => {}
+        }
+    }
+}
+
+impl fmt::Debug for Reporter {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Reporter").field("events", &self.events).finish_non_exhaustive()
+    }
+}
