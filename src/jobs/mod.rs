@@ -61,7 +61,7 @@ pub use server_control::{StartServer, StopServer};
 pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings};
-pub use sign_csrs::SignCsrs;
+pub use sign_csrs::{SharedAuthority, SignCsrs};
 pub use trust::{
     AddTrust, Destination, Fate, ListTrust, MoveClients, Note, Planned, RemoveClients, RemoveCrls, SkipReason, Target,
     Thing, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust, WATCH_INTERVAL, WatchEvent,

@@ -133,7 +133,7 @@ impl UiCommand {
     /// Why it cannot be done now; what a disabled item says on hover.
     pub fn why_disabled(self, model: &Model) -> Option<T> {
         match self {
-            Self::ClientLists | Self::Crl | Self::CertificateAuthority | Self::Verify => Some(T::WhyLater),
+            Self::ClientLists | Self::Crl | Self::Verify => Some(T::WhyLater),
             Self::DeleteControllers
             | Self::Start
             | Self::Stop
@@ -168,6 +168,7 @@ impl UiCommand {
             | Self::Quit
             | Self::Backup
             | Self::Options
+            | Self::CertificateAuthority
             | Self::Shortcuts
             | Self::About => None,
         }

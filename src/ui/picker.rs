@@ -11,12 +11,15 @@ use crate::model::{ErrorCode, Problem};
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
     Csv,
+    /// Certificate signing requests.
+    Csr,
 }
 
 impl FileKind {
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Csv => &["csv"],
+            Self::Csr => &["csr", "req", "der", "pem"],
         }
     }
 }

@@ -89,6 +89,8 @@ pub const DIALOG_MARGIN: f32 = 120.0;
 pub const DIALOG_LOG: f32 = 980.0;
 pub const LOG_HEIGHT: f32 = 520.0;
 pub const LOG_MARGIN: f32 = 260.0;
+/// Of the small CA's window, with its list of certificates.
+pub const DIALOG_AUTHORITY: f32 = 960.0;
 pub const LABEL_WIDTH: f32 = 150.0;
 pub const LIST_HEIGHT: f32 = 10.0 * LIST_ROW;
 pub const LIST_ROW: f32 = 26.0;

@@ -1,5 +1,6 @@
 //! Where the work is done that a frame may not wait for.
 
+mod authority;
 mod tokio_backend;
 
 use std::collections::VecDeque;
@@ -8,6 +9,7 @@ use std::path::PathBuf;
 use async_trait::async_trait;
 use secrecy::SecretString;
 
+pub use authority::{AuthorityDone, AuthorityWork};
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
 use super::model::{ExportFound, JobId, Task};
@@ -43,6 +45,11 @@ pub enum Command {
     LookAtExport {
         job: JobId,
         of: Box<ControllerInfo>,
+    },
+    /// Ends with [`Event::AuthorityDone`]. Cannot be cancelled.
+    Authority {
+        job: JobId,
+        work: AuthorityWork,
     },
     /// Stops a job after the step in hand.
     Cancel(JobId),
@@ -96,6 +103,10 @@ pub enum Event {
     ExportSeen {
         job: JobId,
         result: Result<ExportFound, Problem>,
+    },
+    AuthorityDone {
+        job: JobId,
+        result: Result<AuthorityDone, Problem>,
     },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
     /// A password works, but only until the program ends.

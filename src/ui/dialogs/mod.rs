@@ -3,6 +3,8 @@
 mod about;
 mod activation;
 mod add_controller;
+mod authority;
+mod authority_form;
 mod ca_signed;
 mod confirm;
 mod connection_list;
@@ -80,6 +82,8 @@ fn one(ui: &Ui, dialog: &mut Dialog, focus: bool, model: &Model, messages: &mut 
         Dialog::ImportReview(review) => import_review::show(ui, review, model),
         Dialog::ServerLog(log) => server_log::show(ui, log, model, messages),
         Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
+        Dialog::Authority(view) => authority::show(ui, view, model, messages),
+        Dialog::AuthorityForm(form) => authority_form::show(ui, form, focus, model, messages),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

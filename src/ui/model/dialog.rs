@@ -1,8 +1,8 @@
 use std::collections::BTreeSet;
 
 use super::{
-    ActivationForm, CaSignedForm, ConnectionListForm, ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose,
-    RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
+    ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, ExportForm,
+    FileForm, ImportReview, KeysForm, LogView, Purpose, RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -31,6 +31,8 @@ pub enum Dialog {
     ImportReview(ImportReview),
     Transfer(TransferForm),
     ServerLog(LogView),
+    Authority(AuthorityView),
+    AuthorityForm(AuthorityForm),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -71,6 +73,7 @@ impl Dialog {
         match self {
             Self::Activation(ActivationForm { keys: KeysForm::File { file, .. }, .. }) => Some(file),
             Self::ConnectionList(form) => Some(&mut form.file),
+            Self::AuthorityForm(AuthorityForm { action: AuthorityAction::SignFile(form), .. }) => Some(&mut form.file),
             _ => None,
         }
     }

@@ -5,7 +5,7 @@ use secrecy::SecretString;
 
 use super::{ImportSource, RowId};
 use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
-use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
+use crate::model::{CertificateType, ErrorCode, FileFormat, Problem, Validity};
 use crate::ui::texts::TextKey;
 use crate::workspace::Workspace;
 
@@ -37,6 +37,42 @@ pub enum Task {
     ImportSettings { passphrase: Option<SecretString> },
     ReadLog,
     DeleteLog,
+    // the small CA
+    SignCsrs(SigningWish),
+    PushAuthority(jobs::PushAuthority),
+}
+
+/// What the ticked controllers' certificates from the small CA are to be like.
+#[derive(Debug, Clone)]
+pub struct SigningWish {
+    /// For controllers that hold no signing request.
+    pub fields: CsrFields,
+    pub new_key: bool,
+    pub renew: bool,
+    pub accept_warnings: bool,
+    pub validity: Validity,
+    /// Whether keys made here are kept on this computer.
+    pub backup: bool,
+    pub passphrase: SecretString,
+}
+
+impl SigningWish {
+    fn operation(&self, workspace: &Workspace) -> jobs::SignCsrs {
+        jobs::SignCsrs {
+            authority: Arc::new(jobs::SharedAuthority::new(workspace.authority(), self.passphrase.clone())),
+            request: jobs::CreateCsr {
+                fields: self.fields.clone(),
+                format: FileFormat::Der,
+                files: workspace.certificate_files(),
+                backup: self.backup,
+            },
+            new_key: self.new_key,
+            renew: self.renew,
+            validity: self.validity,
+            allow_short_keys: false,
+            accept_warnings: self.accept_warnings,
+        }
+    }
 }
 
 impl Task {
@@ -74,6 +110,8 @@ impl Task {
             Self::ImportSettings { passphrase } => {
                 Arc::new(jobs::ImportSettings { files: workspace.settings_files(), passphrase: passphrase.clone() })
             }
+            Self::SignCsrs(wish) => Arc::new(wish.operation(workspace)),
+            Self::PushAuthority(operation) => Arc::new(operation.clone()),
             Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
             Self::DeleteLog => Arc::new(jobs::SetSettings {
                 change: jobs::SettingsChange { delete_log: true, ..Default::default() },
@@ -99,6 +137,8 @@ impl Task {
             Self::Check(source) | Self::Import { source, .. } => source.title(),
             Self::ExportSettings { .. } => TextKey::ExportTitle,
             Self::ImportSettings { .. } => TextKey::ImportTitle,
+            Self::SignCsrs(_) => TextKey::CaSignTitle,
+            Self::PushAuthority(_) => TextKey::CaCrlTitle,
             Self::ReadLog => TextKey::ServerLog,
             Self::DeleteLog => TextKey::DeleteLog,
         }

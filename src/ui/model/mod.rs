@@ -1,6 +1,7 @@
 //! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
 
 mod activation;
+mod authority;
 mod certificates;
 mod connections;
 mod dialog;
@@ -23,6 +24,9 @@ use std::collections::BTreeMap;
 use chrono::{DateTime, Utc};
 
 pub use activation::{ActivationForm, ActivationPreview, KeysForm, key_error};
+pub use authority::{
+    AuthorityAction, AuthorityForm, AuthorityView, CreateAuthorityForm, SignControllersForm, SignFileForm,
+};
 pub use certificates::{ExportForm, Held, TypeSelectForm};
 pub use connections::{ConnectionListForm, FoundConnection, LeftOut};
 pub use dialog::{
@@ -31,7 +35,7 @@ pub use dialog::{
 };
 pub use files::FileForm;
 pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, UserFiles, UserSpecifiedForm};
-pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
+pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, SigningWish, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
 pub use server_log::LogView;
@@ -64,6 +68,18 @@ pub struct Model {
     /// Something the window remembers has changed since it was last saved.
     pub unsaved: bool,
     last_job: u64,
+}
+
+/// What the small CA can be asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AuthorityCommand {
+    Create,
+    Restore,
+    SignControllers,
+    SignFile,
+    Revoke,
+    PublishCrl,
+    BackUp,
 }
 
 /// What can happen: an engineer did something, or the backend reports.
@@ -106,6 +122,8 @@ pub enum Message {
     RefreshLog,
     /// Delete the server log that is shown.
     DeleteLog,
+    /// Open the dialog for something the small CA is to do.
+    Authority(AuthorityCommand),
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.

@@ -41,6 +41,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::NewCsr => commands = model.new_csr(),
         Message::RefreshLog => commands = model.refresh_log(),
         Message::DeleteLog => commands = model.delete_log(),
+        Message::Authority(command) => model.ask_authority(command),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -102,6 +103,7 @@ impl Model {
             UiCommand::ExportSettings => return self.open_transfer(Transfer::Export, ticked),
             UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
             UiCommand::ServerLog => return ticked.first().map(|row| self.open_log(*row)).unwrap_or_default(),
+            UiCommand::CertificateAuthority => return self.open_authority(),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -203,6 +205,7 @@ impl Model {
                 self.export_seen(job, result);
                 vec![]
             }
+            Event::AuthorityDone { job, result } => self.authority_done(job, result),
             Event::VirtualStarted(result) => self.virtual_started(result),
             Event::PasswordNotKept(problem) | Event::SaveFailed(problem) => {
                 // Once is enough for the same trouble.

@@ -154,6 +154,7 @@ impl Model {
                 let planned = form.task().map(|task| (task, form.rows.clone()));
                 self.ask(Dialog::Transfer(form), planned)
             }
+            Dialog::AuthorityForm(form) => self.submit_authority(form),
             Dialog::Backup { on } => {
                 self.options.backup = on;
                 self.save()
@@ -234,11 +235,14 @@ impl Model {
         if job.summary.is_some() {
             let changed_users = matches!(job.task, Task::AddUser(_) | Task::RemoveUsers(_));
             let deleted_log = matches!(job.task, Task::DeleteLog);
+            let used_authority = matches!(job.task, Task::SignCsrs(_) | Task::PushAuthority(_));
             self.end_processing();
             return if changed_users {
                 self.reload_users()
             } else if deleted_log {
                 self.refresh_log()
+            } else if used_authority {
+                self.look_at_authority()
             } else {
                 vec![]
             };
