@@ -114,6 +114,20 @@ impl Office {
         fs::write(self.path("crls.pem"), all("crl.pem")).unwrap();
     }
 
+    /// The status this program itself gives a certificate.
+    fn status(&self, certificate: &str) -> String {
+        for (folder, extension) in [("trusted", "der"), ("crls", "crl")] {
+            fs::create_dir_all(self.path(folder)).unwrap();
+            for ca in ["ca", "root"] {
+                let name = format!("{ca}.{extension}");
+                let _ = fs::copy(self.ca_file(&name), self.path(folder).join(&name));
+            }
+        }
+        let mut command = program();
+        command.current_dir(self.folder.path()).args(["pki", "verify", "--trusted", "trusted", "--crls", "crls"]);
+        Running::start(command.arg(certificate)).unwrap().finish(DONE).stdout.trim().to_owned()
+    }
+
     /// What `openssl verify` says about a certificate with every CRL at hand, at a time.
     fn verify(&self, certificate: &str, purpose: &str, at: Option<i64>) -> String {
         let root = if self.path("root.pem").exists() { "root.pem" } else { "ca.pem" };
@@ -187,6 +201,7 @@ fn openssl_agrees_with_root_intermediate_server_client_and_crl() {
                 assert!(office.verify(certificate, purpose, None).contains("unsuitable certificate purpose"));
             }
         }
+        assert_eq!(["server", "client"].map(|it| office.status(&format!("out/{it}.pem"))), ["Good", "Good"]);
         for ca in ["ca", "root"].into_iter().filter(|ca| office.path(&format!("{ca}.pem")).exists()) {
             let pem = format!("{ca}.pem");
             assert_eq!(office.verify(&pem, "any", None), format!("{pem}: OK\n"));
@@ -221,6 +236,7 @@ fn openssl_agrees_with_root_intermediate_server_client_and_crl() {
         office.done("revoke", &[&serial, "--reason", "key-compromise"]);
         office.pem(&openssl);
         assert!(office.verify("out/server.pem", "sslserver", None).contains("certificate revoked"));
+        assert_eq!(office.status("out/server.pem"), "BadCertificateRevoked");
         assert_eq!(office.verify("out/client.pem", "sslclient", None), "out/client.pem: OK\n");
         let crl = openssl.call(folder, &["crl", "-in", "ca.crl.pem", "-text", "-noout"]);
         assert!(crl.contains(&serial) && crl.contains("Key Compromise"), "{crl}");
@@ -442,4 +458,48 @@ fn controllers_get_ca_signed_certificates_in_one_command() {
     assert_eq!((issued().len(), keys.len()), (5, 4));
     assert_eq!(rekeyed[0]["result"]["status"], "Run", "the server runs on with the new certificate");
     assert_eq!(issued()[3]["thumbprint"], *renewed);
+}
+
+#[test]
+fn controllers_learn_of_the_ca_and_of_what_it_revoked() {
+    let desk = Desk::with(2, &["--seed", "3", "--firmware", "mixed"]);
+    for (index, name) in ["weld", "paint"].into_iter().enumerate() {
+        assert_eq!(desk.add(index, name).0, Some(0));
+    }
+    let passphrase = desk.file("passphrase");
+    fs::write(&passphrase, PASSPHRASE).unwrap();
+    let ca = |arguments: &[&str]| desk.json(&[&["ca"], arguments, &["--passphrase-file", &passphrase]].concat());
+    assert_eq!(ca(&["init", "--cn", "Plant CA", "--bits", "2048", "--intermediate"]).0, Some(0));
+    let number = || desk.json(&["ca", "show"]).1[0]["result"]["ca"]["crl"]["number"].clone();
+    let first = number();
+    assert_error(&ca(&["crl", "--push", "weld"]).1, "not-confirmed");
+    assert_error(&ca(&["crl", "--yes", "--push"]).1, "unknown-controller");
+    assert_error(&ca(&["crl", "--yes", "--push", "nobody"]).1, "unknown-controller");
+    assert_eq!(number(), first, "nothing was published");
+
+    let counts = |arguments: &[&str]| {
+        let (code, lines) = ca(arguments);
+        assert_eq!(code, Some(0), "{lines:?}");
+        let of = |name: &str| {
+            let result = &lines.iter().find(|line| line["controller"] == name).unwrap()["result"];
+            ["trusted", "issuers", "crls"].map(|list| result[list].as_u64().unwrap())
+        };
+        (of("weld"), of("paint"))
+    };
+    let push = ["crl", "--yes", "--push", "--all"];
+    let (legacy, current) = ([0, 0, 2], [0, 2, 2]);
+    assert_eq!(counts(&push), (legacy, current));
+    assert_eq!(counts(&push), (legacy, current), "a newer CRL takes the place of the former");
+    assert_eq!(counts(&[&push[..], &["--trust"]].concat()), ([2, 0, 2], [2, 2, 2]));
+
+    assert_eq!(ca(&["sign-controllers", "--yes", "weld"]).0, Some(0));
+    let serial = desk.json(&["ca", "show"]).1[0]["result"]["issued"][0]["serial_number"].as_str().unwrap().to_owned();
+    assert_eq!(ca(&["revoke", &serial, "--reason", "cessationOfOperation"]).0, Some(0));
+    assert_eq!(ca(&push).0, Some(0));
+    let (_, held) = desk.json(&["crl", "list", "--all"]);
+    for line in held {
+        let crls = line["result"]["crls"].as_array().unwrap();
+        let entries: u64 = crls.iter().map(|crl| crl["crl"]["entries"].as_u64().unwrap()).sum();
+        assert_eq!((crls.len(), entries), (2, 1), "{line}");
+    }
 }

@@ -16,6 +16,11 @@ pub struct Select {
 }
 
 impl Select {
+    /// As if named on the command line. No name at all chooses nothing.
+    pub fn new(names: Vec<String>, all: bool) -> Self {
+        Self { names, all }
+    }
+
     /// The chosen entries, in the order they were named.
     pub fn resolve(&self, configuration: &Configuration) -> Result<Vec<ControllerEntry>, Problem> {
         if self.all { all(configuration) } else { named(&self.names, configuration) }

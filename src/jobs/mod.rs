@@ -13,6 +13,7 @@
 //! | `create_csr` | make a key and its certificate signing request |
 //! | `import_ca` | check and import what a CA issued for that |
 //! | `sign_csrs` | have the small CA sign what controllers ask for, and import it |
+//! | `push_authority` | give controllers the CRL and certificate of the small CA |
 //! | `import_user` | check and import key and certificate made with another tool |
 //! | `preflight` | what is looked at before such an import |
 //! | `select_certificate` | list the server certificates held, select one |
@@ -33,6 +34,7 @@ mod import_ca;
 mod import_user;
 mod operation;
 mod preflight;
+mod push_authority;
 mod runner;
 mod select_certificate;
 mod self_signed;
@@ -53,6 +55,7 @@ pub use get_info::GetInfo;
 pub use import_ca::{CaCertificateSource, CheckCaCertificate, ImportCaCertificate};
 pub use import_user::{CheckUserCertificate, ImportUserCertificate, UserCertificateFiles};
 pub use operation::{Confirmation, Operation, Outcome, Run, Step};
+pub use push_authority::PushAuthority;
 pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
 pub use select_certificate::{ListCertificates, SelectCertificateType};
 pub use self_signed::{SelfSigned, SelfSignedFields};
@@ -60,7 +63,7 @@ pub use server_control::{StartServer, StopServer};
 pub use server_log::{LogPart, ReadLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings};
-pub use sign_csrs::SignCsrs;
+pub use sign_csrs::{SharedAuthority, SignCsrs};
 pub use trust::{
     AddTrust, Destination, Fate, ListTrust, MoveClients, Note, Planned, RemoveClients, RemoveCrls, SkipReason, Target,
     Thing, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust, WATCH_INTERVAL, WatchEvent,

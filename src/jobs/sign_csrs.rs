@@ -3,12 +3,36 @@ use std::sync::Arc;
 use async_trait::async_trait;
 use chrono::Utc;
 use parking_lot::Mutex;
+use secrecy::SecretString;
 
 use super::{Confirmation, CreateCsr, JobController, Operation, Outcome, Run, Step, preflight};
 use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, Validity};
 use crate::pki::{Certificate, Csr, IssueRequest};
 use crate::protocol::{Base64Bytes, ImportCaSigned};
-use crate::workspace::authority::{Authority, Drafted, IssuedFor};
+use crate::workspace::authority::{Authority, AuthorityFiles, Drafted, IssuedFor};
+
+/// The small CA for one job: taken up when it is first needed, and held until the job is over.
+#[derive(Debug)]
+pub struct SharedAuthority {
+    files: AuthorityFiles,
+    passphrase: SecretString,
+    opened: Mutex<Option<Authority>>,
+}
+
+impl SharedAuthority {
+    pub fn new(files: AuthorityFiles, passphrase: SecretString) -> Self {
+        Self { files, passphrase, opened: Mutex::new(None) }
+    }
+
+    /// Blocks while others use it, and while it is opened.
+    fn with<R>(&self, work: impl FnOnce(&mut Authority) -> Result<R, Problem>) -> Result<R, Problem> {
+        let mut opened = self.opened.lock();
+        match opened.as_mut() {
+            Some(authority) => work(authority),
+            None => work(opened.insert(self.files.open(&self.passphrase)?)),
+        }
+    }
+}
 
 /// Has the small CA sign what each controller asks for, and imports and selects the certificate: from whatever a
 /// controller has to a CA-signed server certificate in one operation.
@@ -19,7 +43,7 @@ use crate::workspace::authority::{Authority, Drafted, IssuedFor};
 /// operation can simply be repeated. A controller that uses it already is left alone.
 #[derive(Debug, Clone)]
 pub struct SignCsrs {
-    pub authority: Arc<Mutex<Authority>>,
+    pub authority: Arc<SharedAuthority>,
     /// How a controller is asked for a signing request.
     pub request: CreateCsr,
     /// Make a new key and request even where there is a request.
@@ -101,13 +125,15 @@ impl SignCsrs {
         };
         let (authority, renew) = (self.authority.clone(), self.renew);
         run.off_thread(move || {
-            let (authority, now) = (authority.lock(), Utc::now());
-            let before = if renew { None } else { authority.valid_for(&csr, now) };
-            // One whose file is missing was never given to anybody.
-            match before.and_then(|issued| authority.files().issued(&issued.serial_number).ok()) {
-                Some(certificate) => Ok(Signed::Before(certificate)),
-                None => Ok(Signed::Now(authority.draft(&csr, &request, now)?)),
-            }
+            authority.with(|authority| {
+                let now = Utc::now();
+                let before = if renew { None } else { authority.valid_for(&csr, now) };
+                // One whose file is missing was never given to anybody.
+                match before.and_then(|issued| authority.files().issued(&issued.serial_number).ok()) {
+                    Some(certificate) => Ok(Signed::Before(certificate)),
+                    None => Ok(Signed::Now(authority.draft(&csr, &request, now)?)),
+                }
+            })
         })
         .await
     }
@@ -117,8 +143,7 @@ impl SignCsrs {
         let controller = IssuedFor { name: run.controller.name.clone(), serial: info.serial.clone() };
         let authority = self.authority.clone();
         run.off_thread(move || {
-            authority.lock().record(drafted, Some(controller), Utc::now())?;
-            Ok(())
+            authority.with(|authority| Ok(authority.record(drafted, Some(controller), Utc::now())?)).map(drop)
         })
         .await
     }

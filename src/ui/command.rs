@@ -133,7 +133,6 @@ impl UiCommand {
     /// Why it cannot be done now; what a disabled item says on hover.
     pub fn why_disabled(self, model: &Model) -> Option<T> {
         match self {
-            Self::CertificateAuthority => Some(T::WhyLater),
             Self::DeleteControllers
             | Self::Start
             | Self::Stop
@@ -171,6 +170,7 @@ impl UiCommand {
             | Self::Quit
             | Self::Backup
             | Self::Options
+            | Self::CertificateAuthority
             | Self::Shortcuts
             | Self::About => None,
         }

@@ -18,6 +18,8 @@ pub enum FileKind {
     Certificate,
     Key,
     Pkcs12,
+    /// Certificate signing requests.
+    Csr,
 }
 
 impl FileKind {
@@ -29,6 +31,7 @@ impl FileKind {
             Self::Certificate => &["der", "cer", "crt", "pem"],
             Self::Key => &["key", "pem", "der", "p8", "pk8"],
             Self::Pkcs12 => &["pfx", "p12"],
+            Self::Csr => &["csr", "req", "der", "pem"],
         }
     }
 }

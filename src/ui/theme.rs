@@ -97,6 +97,8 @@ pub const TRUST_ROOM: Vec2 = vec2(72.0, 168.0);
 pub const TRUST_LOW_WINDOW: f32 = 640.0;
 pub const TRUST_MIN_HEIGHT: f32 = 140.0;
 pub const TRUST_SIDE_BY_SIDE: f32 = 1050.0;
+/// Of the small CA's window, with its list of certificates.
+pub const DIALOG_AUTHORITY: f32 = 960.0;
 pub const LABEL_WIDTH: f32 = 150.0;
 pub const LIST_HEIGHT: f32 = 10.0 * LIST_ROW;
 pub const LIST_ROW: f32 = 26.0;

@@ -54,7 +54,8 @@ pub fn job(window: &W) -> JobId {
         | Command::ReadFile { job, .. }
         | Command::PickFile { job, .. }
         | Command::Recognise { job, .. }
-        | Command::LookAtExport { job, .. } => Some(*job),
+        | Command::LookAtExport { job, .. }
+        | Command::Authority { job, .. } => Some(*job),
         _ => None,
     };
     window.state().backend.sent.iter().rev().find_map(of).expect("something was asked for")

@@ -16,6 +16,7 @@ use serde_json::json;
 
 use super::passwords::ca_passphrase;
 use super::{Ending, Settled};
+use crate::jobs::SharedAuthority;
 use crate::model::Problem;
 use crate::pki::{REVOCATION_REASONS, RevocationReason};
 use crate::workspace::authority::Authority;
@@ -80,6 +81,15 @@ fn parse_reason(text: &str) -> Result<RevocationReason, String> {
 }
 
 impl PassphraseArgs {
+    /// The same for a job. A wrong passphrase is found out now, before any controller is asked.
+    fn shared(&self, settled: &Settled) -> Result<SharedAuthority, Problem> {
+        let files = settled.workspace.authority();
+        files.overview()?;
+        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false)?;
+        files.open(&passphrase)?;
+        Ok(SharedAuthority::new(files, passphrase))
+    }
+
     /// Takes the CA up. Asks only where there is a CA.
     fn open(&self, settled: &Settled) -> Result<Authority, Problem> {
         let files = settled.workspace.authority();

@@ -1,3 +1,4 @@
+use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
 use chrono::Utc;
@@ -5,8 +6,11 @@ use clap::Args;
 use serde_json::json;
 
 use super::{PassphraseArgs, show};
+use crate::cli::clients::CHANGE;
+use crate::cli::select::Select;
 use crate::cli::{Ending, Settled};
-use crate::model::Problem;
+use crate::jobs::PushAuthority;
+use crate::model::{ErrorCode, Problem};
 use crate::pki::{Crl, MAX_CRL_DAYS};
 use crate::workspace::write_atomic;
 
@@ -19,11 +23,33 @@ pub struct CrlArgs {
     /// How long it is good for, in days [default: as long as the one before]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_CRL_DAYS)))]
     days: Option<u16>,
+    /// Give it to these controllers, and the certificate of the CA to their issuers list
+    #[arg(long, value_name = "CONTROLLER", num_args = 0..)]
+    push: Option<Vec<String>>,
+    /// With --push: every controller in the list
+    #[arg(long, requires = "push")]
+    all: bool,
+    /// With --push: the certificate of the CA goes into the trusted list; every client is let in that has a certificate
+    /// from it
+    #[arg(long, requires = "push")]
+    trust: bool,
     #[command(flatten)]
     passphrase: PassphraseArgs,
 }
 
 pub fn run(settled: &Settled, args: &CrlArgs) -> Result<Ending, Problem> {
+    // Whatever is wrong with the controllers is found before anything is published.
+    let configuration = settled.configuration()?;
+    let chosen = match &args.push {
+        None => Vec::new(),
+        Some(names) if names.is_empty() && !args.all => {
+            return Err(Problem::with_detail(ErrorCode::UnknownController, "--push needs names or --all"));
+        }
+        Some(names) => Select::new(names.clone(), args.all).resolve(&configuration)?,
+    };
+    if args.push.is_some() && !settled.yes && !std::io::stdin().is_terminal() {
+        return Err(ErrorCode::NotConfirmed.into());
+    }
     let mut authority = args.passphrase.open(settled)?;
     authority.publish_crl(args.days, Utc::now())?;
     let overview = authority.overview()?;
@@ -45,7 +71,10 @@ pub fn run(settled: &Settled, args: &CrlArgs) -> Result<Ending, Problem> {
         "saved": saved,
     });
     settled.output.finished(&published, &show::text(&overview));
-    Ok(Ending::AllDone)
+    if chosen.is_empty() {
+        return Ok(Ending::AllDone);
+    }
+    settled.batch(&configuration, &chosen, PushAuthority::new(&overview, args.trust), &CHANGE)
 }
 
 fn save(path: &Path, crl: &Crl) -> Result<(), Problem> {

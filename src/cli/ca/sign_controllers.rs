@@ -1,7 +1,6 @@
 use std::sync::Arc;
 
 use clap::Args;
-use parking_lot::Mutex;
 
 use super::PassphraseArgs;
 use crate::cli::cert::IMPORTED;
@@ -66,7 +65,7 @@ pub fn run(settled: &Settled, args: SignControllersArgs) -> Result<Ending, Probl
     };
     let validity = Validity::try_from(args.years).map_err(|e| wrong(&e))?;
     let operation = SignCsrs {
-        authority: Arc::new(Mutex::new(args.passphrase.open(settled)?)),
+        authority: Arc::new(args.passphrase.shared(settled)?),
         request,
         new_key: args.new_key,
         renew: args.renew,

@@ -1,5 +1,6 @@
 //! Where the work is done that a frame may not wait for.
 
+mod authority;
 mod tokio_backend;
 mod trust_files;
 
@@ -9,6 +10,7 @@ use std::path::PathBuf;
 use async_trait::async_trait;
 use secrecy::SecretString;
 
+pub use authority::{AuthorityDone, AuthorityWork};
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
 use super::model::trust::ReadTrustFile;
@@ -47,6 +49,11 @@ pub enum Command {
         of: Box<ControllerInfo>,
         /// Instead of the one in the workspace.
         file: Option<PathBuf>,
+    },
+    /// Ends with [`Event::AuthorityDone`]. Cannot be cancelled.
+    Authority {
+        job: JobId,
+        work: AuthorityWork,
     },
     /// Stops a job after the step in hand.
     Cancel(JobId),
@@ -142,6 +149,10 @@ pub enum Event {
     TrustSeen {
         job: JobId,
         event: WatchEvent,
+    },
+    AuthorityDone {
+        job: JobId,
+        result: Result<AuthorityDone, Problem>,
     },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
     /// A password works, but only until the program ends.

@@ -209,6 +209,12 @@ impl Backend for TokioBackend {
                     });
                 }
             }
+            Command::Authority { job, work } => {
+                let files = self.workspace.authority();
+                if let Some(runtime) = &self.runtime {
+                    runtime.spawn_blocking(move || emit(Event::AuthorityDone { job, result: work.run(&files) }));
+                }
+            }
             Command::Cancel(job) => {
                 if let Some(token) = self.running.get(&job) {
                     token.cancel();

@@ -3,6 +3,8 @@
 mod about;
 mod activation;
 mod add_controller;
+mod authority;
+mod authority_form;
 mod ca_signed;
 mod confirm;
 mod connection_list;
@@ -89,6 +91,8 @@ fn one(ui: &Ui, dialog: &mut Dialog, on_top: bool, focus: bool, model: &Model, m
         Dialog::DeleteTrust(asked) => trust::delete(ui, asked, model),
         Dialog::TrustDetails(view) => trust::details(ui, view, model),
         Dialog::Drop(form) => drop::show(ui, form, model),
+        Dialog::Authority(view) => authority::show(ui, view, model, messages),
+        Dialog::AuthorityForm(form) => authority_form::show(ui, form, focus, model, messages),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

@@ -2,8 +2,9 @@ use std::collections::BTreeSet;
 
 use super::trust::{AddTrustForm, DeleteTrust, DetailsView, TrustForm};
 use super::{
-    ActivationForm, CaSignedForm, ConnectionListForm, DropForm, ExportForm, FileForm, ImportReview, KeysForm, LogView,
-    Purpose, RowId, Task, TransferForm, TypeSelectForm, UserSpecifiedForm, VerifyView,
+    ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, DropForm,
+    ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose, RowId, Task, TransferForm, TypeSelectForm,
+    UserSpecifiedForm, VerifyView,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -38,6 +39,8 @@ pub enum Dialog {
     DeleteTrust(DeleteTrust),
     TrustDetails(Box<DetailsView>),
     Drop(DropForm),
+    Authority(AuthorityView),
+    AuthorityForm(AuthorityForm),
     Backup { on: bool },
     Options,
     Error(Problem),
@@ -79,6 +82,7 @@ impl Dialog {
         match self {
             Self::Activation(ActivationForm { keys: KeysForm::File { file, .. }, .. }) => Some(file),
             Self::ConnectionList(form) => Some(&mut form.file),
+            Self::AuthorityForm(AuthorityForm { action: AuthorityAction::SignFile(form), .. }) => Some(&mut form.file),
             _ => None,
         }
     }

@@ -161,6 +161,7 @@ impl Model {
         let taken = result.and_then(|(_, contents)| match &mut dialog {
             Dialog::Activation(form) => form.take_in(&contents.0, self),
             Dialog::ConnectionList(form) => form.take_in(&contents.0, self),
+            Dialog::AuthorityForm(form) => form.take_in(&contents.0),
             _ => Ok(()),
         });
         let looked = match &mut dialog {

@@ -7,7 +7,7 @@ use super::trust::TrustTask;
 use super::{ImportSource, RowId};
 use crate::jobs::TrustUndo;
 use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
-use crate::model::{CertificateType, Credential, ErrorCode, FileFormat, Problem};
+use crate::model::{CertificateType, Credential, ErrorCode, FileFormat, Problem, Validity};
 use crate::protocol::CutClient;
 use crate::session::opcua_client::Patience;
 use crate::ui::texts::TextKey;
@@ -62,6 +62,42 @@ pub enum Task {
     },
     TrustConfigurator,
     Trust(TrustTask),
+    // the small CA
+    SignCsrs(SigningWish),
+    PushAuthority(jobs::PushAuthority),
+}
+
+/// What the ticked controllers' certificates from the small CA are to be like.
+#[derive(Debug, Clone)]
+pub struct SigningWish {
+    /// For controllers that hold no signing request.
+    pub fields: CsrFields,
+    pub new_key: bool,
+    pub renew: bool,
+    pub accept_warnings: bool,
+    pub validity: Validity,
+    /// Whether keys made here are kept on this computer.
+    pub backup: bool,
+    pub passphrase: SecretString,
+}
+
+impl SigningWish {
+    fn operation(&self, workspace: &Workspace) -> jobs::SignCsrs {
+        jobs::SignCsrs {
+            authority: Arc::new(jobs::SharedAuthority::new(workspace.authority(), self.passphrase.clone())),
+            request: jobs::CreateCsr {
+                fields: self.fields.clone(),
+                format: FileFormat::Der,
+                files: workspace.certificate_files(),
+                backup: self.backup,
+            },
+            new_key: self.new_key,
+            renew: self.renew,
+            validity: self.validity,
+            allow_short_keys: false,
+            accept_warnings: self.accept_warnings,
+        }
+    }
 }
 
 impl Task {
@@ -111,6 +147,8 @@ impl Task {
             }),
             Self::TrustConfigurator => Arc::new(jobs::TrustConfigurator { identity: workspace.own_identity() }),
             Self::Trust(task) => task.operation(),
+            Self::SignCsrs(wish) => Arc::new(wish.operation(workspace)),
+            Self::PushAuthority(operation) => Arc::new(operation.clone()),
             Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
             Self::DeleteLog => Arc::new(jobs::SetSettings {
                 change: jobs::SettingsChange { delete_log: true, ..Default::default() },
@@ -138,6 +176,8 @@ impl Task {
             Self::ImportSettings { .. } => TextKey::ImportTitle,
             Self::Verify { .. } => TextKey::VerifyTitle,
             Self::TrustConfigurator => TextKey::TrustConfiguratorTitle,
+            Self::SignCsrs(_) => TextKey::CaSignTitle,
+            Self::PushAuthority(_) => TextKey::CaCrlTitle,
             Self::ReadLog => TextKey::ServerLog,
             Self::DeleteLog => TextKey::DeleteLog,
             Self::Trust(task) => task.title(),

@@ -1,6 +1,7 @@
 //! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
 
 mod activation;
+mod authority;
 mod certificates;
 mod connections;
 mod dialog;
@@ -27,6 +28,9 @@ use std::path::PathBuf;
 use chrono::{DateTime, Utc};
 
 pub use activation::{ActivationForm, ActivationPreview, KeysForm, key_error};
+pub use authority::{
+    AuthorityAction, AuthorityForm, AuthorityView, CreateAuthorityForm, SignControllersForm, SignFileForm,
+};
 pub use certificates::{ExportForm, Held, TypeSelectForm};
 pub use connections::{ConnectionListForm, FoundConnection, LeftOut};
 pub use dialog::{
@@ -36,7 +40,7 @@ pub use dialog::{
 pub use dropped::{Choice, DropForm, DroppedFile, Hover, MAX_DROPPED};
 pub use files::{FileForm, PathField};
 pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, UserFiles, UserSpecifiedForm};
-pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
+pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, SigningWish, Task};
 pub use reduce::reduce;
 pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
 pub use server_log::LogView;
@@ -77,6 +81,18 @@ pub struct Model {
     dropping: Option<JobId>,
     /// The desktop's dialog finds a file for this field.
     browsing: Option<(JobId, PathField)>,
+}
+
+/// What the small CA can be asked for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum AuthorityCommand {
+    Create,
+    Restore,
+    SignControllers,
+    SignFile,
+    Revoke,
+    PublishCrl,
+    BackUp,
 }
 
 /// What can happen: an engineer did something, or the backend reports.
@@ -133,6 +149,8 @@ pub enum Message {
     DeleteLog,
     /// About client certificates and CRLs.
     Trust(TrustAction),
+    /// Open the dialog for something the small CA is to do.
+    Authority(AuthorityCommand),
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.

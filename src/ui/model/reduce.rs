@@ -49,6 +49,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::VerifyChanged => commands = model.verify_changed(),
         Message::TrustConfigurator => commands = model.trust_configurator(),
         Message::Trust(action) => commands = model.trust_action(action),
+        Message::Authority(command) => model.ask_authority(command),
         Message::KeepGoing => model.keep_going(),
         Message::EnterPasswords => model.ask_passwords(),
         Message::SetLanguage(language) => {
@@ -117,6 +118,7 @@ impl Model {
             UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
             UiCommand::ServerLog => return ticked.first().map(|row| self.open_log(*row)).unwrap_or_default(),
             UiCommand::Verify => return self.verify(ticked),
+            UiCommand::CertificateAuthority => return self.open_authority(),
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -226,6 +228,7 @@ impl Model {
                 self.export_seen(job, result);
                 vec![]
             }
+            Event::AuthorityDone { job, result } => self.authority_done(job, result),
             Event::VirtualStarted(result) => self.virtual_started(result),
             Event::PasswordNotKept(problem) | Event::SaveFailed(problem) | Event::FolderNotOpened(problem) => {
                 // Once is enough for the same trouble.

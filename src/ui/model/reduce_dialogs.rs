@@ -164,6 +164,7 @@ impl Model {
             Dialog::AddTrust(form) => self.submit_add_trust(form),
             Dialog::DeleteTrust(asked) => self.delete_trust(asked),
             Dialog::Drop(form) if form.offers() => self.submit_dropped(form),
+            Dialog::AuthorityForm(form) => self.submit_authority(form),
             Dialog::Backup { on } => {
                 self.options.backup = on;
                 self.save()
@@ -258,11 +259,14 @@ impl Model {
         if job.summary.is_some() {
             let changed_users = matches!(job.task, Task::AddUser(_) | Task::RemoveUsers(_));
             let deleted_log = matches!(job.task, Task::DeleteLog);
+            let used_authority = matches!(job.task, Task::SignCsrs(_) | Task::PushAuthority(_));
             self.end_processing();
             return if changed_users {
                 self.reload_users()
             } else if deleted_log {
                 self.refresh_log()
+            } else if used_authority {
+                self.look_at_authority()
             } else {
                 vec![]
             };

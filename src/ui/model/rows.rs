@@ -67,6 +67,17 @@ pub enum Expiry {
     Later,
 }
 
+impl Expiry {
+    /// Of something that is good until `end`.
+    pub fn of(end: DateTime<Utc>, now: DateTime<Utc>) -> Self {
+        match end - now {
+            left if left <= Duration::zero() => Self::Past,
+            left if left < EXPIRES_SOON => Self::Soon { days: left.num_days() },
+            _ => Self::Later,
+        }
+    }
+}
+
 /// A controller in the table.
 #[derive(Debug)]
 pub struct Row {
@@ -128,11 +139,7 @@ impl Row {
     }
 
     fn refresh_expiry(&mut self, now: DateTime<Utc>) {
-        self.expiry = self.not_after().map(|end| match end - now {
-            left if left <= Duration::zero() => Expiry::Past,
-            left if left < EXPIRES_SOON => Expiry::Soon { days: left.num_days() },
-            _ => Expiry::Later,
-        });
+        self.expiry = self.not_after().map(|end| Expiry::of(end, now));
     }
 
     fn compare(&self, other: &Self, column: Column) -> Ordering {

@@ -3,11 +3,13 @@
 //! English is in sentence case, without a full stop after a single sentence, with `…` on whatever asks for more. A text
 //! that lacks a language does not compile. Texts of errors come from [`ErrorCode::explain`](crate::model::ErrorCode).
 
+mod authority;
 mod files;
 mod sentences;
 mod trust;
 mod verify;
 
+pub use authority::*;
 pub use files::*;
 pub use sentences::*;
 pub use trust::*;
@@ -93,7 +95,7 @@ texts! {
     Options: "Options…", "选项…";
     OptionsTip: "Language, theme and controllers worked on at once", "语言、主题和同时处理的控制器数量";
     CertificateAuthority: "Certificate authority…", "证书颁发机构…";
-    CertificateAuthorityTip: "Sign certificate requests with an authority of your own", "使用自己的颁发机构签署证书请求";
+    CertificateAuthorityTip: "Sign certificate requests with an authority of your own", "使用自己的颁发机构签发证书请求";
     Verify: "Verify", "验证";
     VerifyTip: "Connect to the OPC UA server as a client would, in every way it offers", "以客户端方式尝试 OPC UA 服务器提供的每种连接";
     Shortcuts: "Keyboard shortcuts", "键盘快捷键";
@@ -593,6 +595,70 @@ texts! {
     KeyShiftClick: "Shift and click", "Shift+单击";
     KeyEnter: "Enter", "Enter";
     KeyEscape: "Esc", "Esc";
+
+    // the small CA
+    CaTitle: "Certificate authority", "证书颁发机构";
+    CaNone: "This workspace has no certificate authority yet", "该工作区尚无证书颁发机构";
+    CaNoneText: "A certificate authority (CA) of your own signs the certificates of controllers and clients, so that everybody only has to trust one certificate. Its key stays on this computer, protected by a passphrase.", "自己的证书颁发机构 (CA) 可为控制器和客户端签发证书，各方只需信任一个证书。CA 密钥保存在本机，并由口令保护。";
+    CaCreate: "Create CA…", "创建 CA…";
+    CaRestore: "Restore backup…", "恢复备份…";
+    CaCreateTitle: "Create CA", "创建 CA";
+    CaRestoreTitle: "Restore CA from backup", "从备份恢复 CA";
+    CaSignTicked: "Sign ticked controllers…", "为已勾选控制器签发…";
+    CaSignTickedTip: "Make or read the CSR of each ticked controller, sign it and import the certificate", "读取或创建已勾选控制器的 CSR，签发并导入证书";
+    CaSignTitle: "CA: sign and import", "CA：签发并导入";
+    CaSignFile: "Sign CSR file…", "签发 CSR 文件…";
+    CaSignFileTitle: "Sign CSR file", "签发 CSR 文件";
+    CaRevoke: "Revoke…", "吊销…";
+    CaRevokeTitle: "Revoke certificates", "吊销证书";
+    CaPublish: "Publish CRL…", "发布 CRL…";
+    CaCrlTitle: "CA: publish CRL", "CA：发布 CRL";
+    CaBackUp: "Back up…", "备份…";
+    CaBackUpTitle: "Back up CA", "备份 CA";
+    CaIssued: "Issued certificates", "已签发的证书";
+    CaIssuedNone: "No certificate has been issued yet", "尚未签发证书";
+    CaProfile: "For", "用途";
+    CaServer: "Server", "服务器";
+    CaClient: "Client", "客户端";
+    CaValid: "Valid", "有效";
+    CaExpired: "Expired", "已过期";
+    CaRevoked: "Revoked", "已吊销";
+    CaCrl: "CRL", "CRL";
+    CaTickIssued: "Tick certificates first", "请先勾选证书";
+    CaNameHint: "For example Plant 3 CA", "例如 Plant 3 CA";
+    CaIntermediate: "With an intermediate CA that signs", "使用中间 CA 签发";
+    CaIntermediateTip: "The root then only signs the intermediate, and its key (root.key) can be kept elsewhere.", "此时根 CA 仅签发中间 CA，其密钥 (root.key) 可另行保管。";
+    CaKeep: "Keep the passphrase safe. Without it nothing can be signed or revoked, and nobody can restore it.", "请妥善保管口令。没有口令将无法签发或吊销证书，且无法找回。";
+    CaPassphraseAgain: "Passphrase again", "再次输入口令";
+    CaPassphrasesDiffer: "The two passphrases differ", "两次输入的口令不一致";
+    CaPassphraseRule: "At least 8 characters", "至少 8 个字符";
+    CaPassphraseNeeded: "Enter the passphrase of the CA", "请输入 CA 的口令";
+    CaSignText: "The server certificates of these controllers are replaced by ones the CA signs. A CSR is made where there is none; below firmware 8.0.0 that makes the present CA-signed certificate invalid at once.", "将以 CA 签发的证书替换这些控制器的服务器证书。没有 CSR 时会创建；固件低于 8.0.0 时，现有 CA 签名证书将立即失效。";
+    CaNewKey: "Have the controllers make new keys", "让控制器生成新密钥";
+    CaRenew: "Renew certificates that are still valid", "续签仍有效的证书";
+    CaAcceptWarnings: "Import even where some clients may complain", "即使部分客户端可能发出警告也导入";
+    CaSignFileText: "The names in the request are taken over after a check, nothing else.", "检查后仅采用请求中的名称。";
+    CaRequest: "Request", "请求";
+    CaRevokeText: "Revoked certificates cannot be made valid again. Clients and controllers learn of it from the new CRL, so publish it to them afterwards.", "吊销后无法恢复有效。各方通过新的 CRL 得知吊销，请随后发布 CRL。";
+    CaReason: "Reason", "原因";
+    CaPublishText: "A new CRL with a new date and number is made and saved in the CA folder.", "将生成具有新日期和编号的 CRL，并保存在 CA 文件夹中。";
+    CaPush: "Send it to the ticked controllers, and the CA certificate to their issuers list", "发送到已勾选的控制器，并将 CA 证书加入其发行人列表";
+    CaPushNone: "Tick controllers to send it to them as well", "勾选控制器后可同时发送";
+    CaTrust: "Trust the CA there: every client with a certificate from it is let in", "在控制器中信任该 CA：允许持有其签发证书的所有客户端连接";
+    CaBackUpText: "Keys, certificates and database in one file, which the passphrase of the CA opens.", "将密钥、证书和数据库保存为一个文件，可用 CA 的口令打开。";
+    CaRestoreText: "The backup is opened with the passphrase the CA had when it was made.", "使用备份时 CA 的口令打开备份。";
+    CaSign: "Sign", "签发";
+    CaPublishNow: "Publish", "发布";
+    CaRestoreNow: "Restore", "恢复";
+    CaCreateNow: "Create", "创建";
+    CaWorking: "Working…", "处理中...";
+    ReasonUnspecified: "Not specified", "未指定";
+    ReasonKeyCompromise: "Key compromised", "密钥泄露";
+    ReasonCaCompromise: "CA compromised", "CA 泄露";
+    ReasonAffiliationChanged: "Name or owner changed", "名称或所属变更";
+    ReasonSuperseded: "Replaced by another certificate", "已被其他证书取代";
+    ReasonCessation: "No longer in operation", "停止使用";
+    ReasonPrivilegeWithdrawn: "Permission withdrawn", "权限撤销";
 }
 
 #[cfg(test)]

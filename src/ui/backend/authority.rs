@@ -1,0 +1,84 @@
+use std::path::PathBuf;
+
+use chrono::Utc;
+use secrecy::SecretString;
+
+use crate::model::Problem;
+use crate::pki::{Csr, IssueRequest, RevocationReason};
+use crate::workspace::authority::{AuthorityError, AuthorityFiles, AuthorityOverview, NewAuthority};
+
+/// Something for the small CA to do.
+#[derive(Debug, Clone)]
+pub enum AuthorityWork {
+    /// Needs no passphrase.
+    Look,
+    Create {
+        new: Box<NewAuthority>,
+        passphrase: SecretString,
+    },
+    Restore {
+        path: PathBuf,
+        passphrase: SecretString,
+    },
+    /// Finds out whether the passphrase is right.
+    Unlock {
+        passphrase: SecretString,
+    },
+    Sign {
+        csr: Box<Csr>,
+        request: Box<IssueRequest>,
+        passphrase: SecretString,
+    },
+    Revoke {
+        serial_numbers: Vec<String>,
+        reason: RevocationReason,
+        passphrase: SecretString,
+    },
+    PublishCrl {
+        passphrase: SecretString,
+    },
+    BackUp {
+        path: PathBuf,
+        passphrase: SecretString,
+    },
+}
+
+/// What the CA is like afterwards.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AuthorityDone {
+    /// `None`: there is none.
+    pub overview: Option<Box<AuthorityOverview>>,
+    /// The file that was written for the engineer.
+    pub saved: Option<PathBuf>,
+}
+
+impl AuthorityWork {
+    /// Blocks for as long as it takes.
+    pub(super) fn run(self, files: &AuthorityFiles) -> Result<AuthorityDone, Problem> {
+        let now = Utc::now();
+        let mut saved = None;
+        match self {
+            Self::Look => {}
+            Self::Create { new, passphrase } => drop(files.create(&new, &passphrase, now)?),
+            Self::Restore { path, passphrase } => drop(files.restore(&path, &passphrase)?),
+            Self::Unlock { passphrase } => drop(files.open(&passphrase)?),
+            Self::Sign { csr, request, passphrase } => {
+                saved = Some(files.open(&passphrase)?.sign(&csr, &request, false, now)?.1);
+            }
+            Self::Revoke { serial_numbers, reason, passphrase } => {
+                files.open(&passphrase)?.revoke(&serial_numbers, reason, now)?;
+            }
+            Self::PublishCrl { passphrase } => files.open(&passphrase)?.publish_crl(None, now)?,
+            Self::BackUp { path, passphrase } => {
+                files.open(&passphrase)?.back_up(&path, now)?;
+                saved = Some(path);
+            }
+        }
+        let overview = match files.overview() {
+            Ok(overview) => Some(Box::new(overview)),
+            Err(AuthorityError::Missing(_)) => None,
+            Err(error) => return Err(error.into()),
+        };
+        Ok(AuthorityDone { overview, saved })
+    }
+}
