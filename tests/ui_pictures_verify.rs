@@ -77,7 +77,8 @@ fn troubled() -> VerifyReport {
         Verdict::Works,
         Verdict::NotTried(NotTried::NoPassword),
     )];
-    for policy in [SecurityPolicy::Basic256Sha256, SecurityPolicy::Aes128Sha256RsaOaep, SecurityPolicy::Aes256Sha256RsaPss]
+    for policy in
+        [SecurityPolicy::Basic256Sha256, SecurityPolicy::Aes128Sha256RsaOaep, SecurityPolicy::Aes256Sha256RsaPss]
     {
         for mode in [MessageSecurity::Sign, MessageSecurity::SignAndEncrypt] {
             endpoints.push(endpoint(policy, mode, untrusted(), Verdict::NotTried(NotTried::NoPassword)));
@@ -123,7 +124,10 @@ fn answer(window: &mut W, results: Vec<Result<VerifyReport, Problem>>) {
     for (index, result) in results.into_iter().enumerate() {
         let info = result.is_ok().then(|| info(index, now(), ControllerSeries::Rc800));
         let result = result.map(|report| Outcome::Verified(Box::new(report)));
-        tell(window, Event::Job { job, event: JobEvent::Finished { index, report: Box::new(Report { result, info }) } });
+        tell(
+            window,
+            Event::Job { job, event: JobEvent::Finished { index, report: Box::new(Report { result, info }) } },
+        );
     }
     tell(window, Event::JobEnded { job, summary: Summary { done, failed, not_started: 0 } });
 }

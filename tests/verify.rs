@@ -99,7 +99,8 @@ fn of(report: opcua_configurator::jobs::Report) -> VerifyReport {
 }
 
 fn verdict<'a>(report: &'a VerifyReport, endpoint: &str, kind: TokenKind) -> &'a Verdict {
-    let endpoint = report.endpoints.iter().find(|found| found.name() == endpoint).unwrap_or_else(|| panic!("{report:?}"));
+    let endpoint =
+        report.endpoints.iter().find(|found| found.name() == endpoint).unwrap_or_else(|| panic!("{report:?}"));
     &endpoint.tokens.iter().find(|token| token.kind == kind).unwrap().verdict
 }
 

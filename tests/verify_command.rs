@@ -15,7 +15,8 @@ fn desk() -> Desk {
     let subject = ["--country", "JP", "--state", "Nagano", "--locality", "Suwa", "--organisation", "Example"];
     let make = [&["cert", "self-signed"][..], &subject, &["--yes", "--all"]].concat();
     assert_eq!(desk.json(&make).0, Some(0));
-    let set = ["settings", "set", "--policies", "None,Basic256Sha256", "--tokens", "anonymous,username", "--yes", "--all"];
+    let set =
+        ["settings", "set", "--policies", "None,Basic256Sha256", "--tokens", "anonymous,username", "--yes", "--all"];
     assert_eq!(desk.json(&set).0, Some(0));
     desk
 }
@@ -41,7 +42,8 @@ fn what_works_and_why_not_is_said_to_scripts_and_to_people() {
     assert_eq!(lines[0]["result"]["server_certificate"]["status"], "Good");
     let told = desk.run(&["verify", "cell1"]);
     assert_eq!(told.code, Some(1));
-    for words in ["cell1: opc.tcp://127.0.0.1:", "Basic256Sha256 – Sign ", "✗ The server does not trust", "--trust-me"] {
+    for words in ["cell1: opc.tcp://127.0.0.1:", "Basic256Sha256 – Sign ", "✗ The server does not trust", "--trust-me"]
+    {
         assert!(told.stdout.contains(words), "{words}\n{}", told.stdout);
     }
     assert!(told.stderr.is_empty(), "{}", told.stderr);

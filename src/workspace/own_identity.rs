@@ -92,9 +92,8 @@ impl OwnPaths {
     fn load(&self, now: DateTime<Utc>) -> Result<Option<OwnIdentity>, Problem> {
         let Some(certificate) = read(&self.certificate, MAX_CERTIFICATE_BYTES)? else { return Ok(None) };
         let Some(key) = read(&self.key, MAX_KEY_FILE_BYTES)?.map(zeroize::Zeroizing::new) else { return Ok(None) };
-        let (_, certificate) = read_pair(&certificate, &key, None).map_err(|e| {
-            Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", self.certificate.display()))
-        })?;
+        let (_, certificate) = read_pair(&certificate, &key, None)
+            .map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", self.certificate.display())))?;
         Ok((certificate.not_after() > now).then(|| self.identity(certificate)))
     }
 }

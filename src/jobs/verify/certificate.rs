@@ -28,7 +28,8 @@ pub(super) struct Wanted<'a> {
 /// asked for.
 pub(super) fn judge(shown: &Certificate, chain: &[Certificate], wanted: &Wanted<'_>) -> CertificateVerdict {
     let lists = TrustLists::new(wanted.selected.cloned().into_iter().collect(), Vec::new(), Vec::new());
-    let vouched = TrustPolicy { allow_unknown_revocation: true, allow_incomplete_chain: true, ..TrustPolicy::default() };
+    let vouched =
+        TrustPolicy { allow_unknown_revocation: true, allow_incomplete_chain: true, ..TrustPolicy::default() };
     let check = |security_policy| -> Option<Rejection> {
         let presented = Presented {
             certificate: shown,

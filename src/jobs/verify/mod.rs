@@ -71,13 +71,8 @@ impl Operation for Verify {
         let selected = held.of(held.selected).and_then(|der| Certificate::from_der(der).ok());
         let known = Known { info, settings, selected, users };
         let target = Target { host: run.controller.address.host().to_owned(), port: known.settings.port.get() };
-        let mut report = VerifyReport {
-            url: target.url(),
-            own,
-            findings: Vec::new(),
-            certificate: None,
-            endpoints: Vec::new(),
-        };
+        let mut report =
+            VerifyReport { url: target.url(), own, findings: Vec::new(), certificate: None, endpoints: Vec::new() };
         self.fill(&mut report, run, &known, &target).await?;
         report.findings.sort_by_key(VerifyFinding::severity);
         Ok(Outcome::Verified(Box::new(report)))

@@ -57,7 +57,12 @@ impl Probe<'_> {
         Ok(EndpointVerdict { policy: endpoint.policy.clone(), mode: endpoint.mode, tokens })
     }
 
-    fn login_for(&self, endpoint: &Endpoint, kind: TokenKind, protected: bool) -> Result<(&Certificate, Login), NotTried> {
+    fn login_for(
+        &self,
+        endpoint: &Endpoint,
+        kind: TokenKind,
+        protected: bool,
+    ) -> Result<(&Certificate, Login), NotTried> {
         let Ok(policy) = endpoint.policy else { return Err(NotTried::UnknownSecurity) };
         let secured = match (policy, endpoint.mode) {
             (SecurityPolicy::None, Some(MessageSecurity::None)) => false,
@@ -82,10 +87,9 @@ impl Probe<'_> {
             (TokenKind::UserName, None) => Err(NotTried::NoPassword),
             (TokenKind::UserName, Some(_)) if !protected => Err(NotTried::PasswordInTheClear),
             (TokenKind::UserName, Some(_)) if self.password_refused => Err(NotTried::PasswordRefused),
-            (TokenKind::UserName, Some(Credential { name, password })) => Ok((
-                selected,
-                Login::User { name: name.as_str().to_owned(), password: password.secret().clone() },
-            )),
+            (TokenKind::UserName, Some(Credential { name, password })) => {
+                Ok((selected, Login::User { name: name.as_str().to_owned(), password: password.secret().clone() }))
+            }
         }
     }
 
@@ -194,3 +198,41 @@ const BUSY: [&str; 5] = [
     "BadMaxConnectionsReached",
     "BadResourceUnavailable",
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn status(stage: Stage, name: &str) -> Failure {
+        Failure { stage, cause: Cause::Status { code: 0, name: name.into(), reason: String::new() } }
+    }
+
+    #[test]
+    fn a_server_without_room_is_told_from_one_that_refuses() {
+        assert_eq!(
+            refusal_of(&status(Stage::Channel, "BadTcpServerTooBusy")),
+            Refusal::Busy("BadTcpServerTooBusy".into())
+        );
+        assert!(matches!(refusal_of(&status(Stage::Channel, "BadSecurityPolicyRejected")), Refusal::Status { .. }));
+        assert!(is_about_a_certificate("BadSecurityChecksFailed") && !is_about_a_certificate("BadTimeout"));
+    }
+
+    #[test]
+    fn a_status_that_tells_nothing_is_no_reason() {
+        assert_eq!(told_plainly(&status(Stage::Channel, "BadSecurityChecksFailed")), None);
+        let told = told_plainly(&status(Stage::Channel, "BadCertificateRevoked"));
+        assert_eq!(told.map(|(status, _)| status), Some(CertificateStatus::Revoked));
+    }
+
+    #[test]
+    fn clocks_a_few_minutes_apart_are_nothing_to_talk_about() {
+        let here = Utc::now();
+        assert_eq!(clock(here + TimeDelta::minutes(9), here), None);
+        assert_eq!(clock(here - TimeDelta::minutes(11), here), Some(VerifyFinding::Clock(TimeDelta::minutes(-11))));
+    }
+
+    #[test]
+    fn a_server_without_endpoints_is_not_compared() {
+        assert_eq!(compare(&[], &ServerSettings::default()), [VerifyFinding::NoEndpoints]);
+    }
+}

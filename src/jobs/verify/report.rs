@@ -1,8 +1,6 @@
 use chrono::TimeDelta;
 
-use crate::model::{
-    CertificateStatus, CertificateSummary, ErrorCode, SecurityPolicy, ServerStatus, UserTokenPolicy,
-};
+use crate::model::{CertificateStatus, CertificateSummary, ErrorCode, SecurityPolicy, ServerStatus, UserTokenPolicy};
 use crate::pki::{Finding, Severity};
 use crate::session::opcua_client::{MessageSecurity, TokenKind};
 use crate::workspace::OwnIdentity;

@@ -51,8 +51,12 @@ impl Refusal {
             }
             Self::Password => "User name or password is wrong, or the user is locked out for a minute".to_owned(),
             Self::Anonymous => "Nobody is let in without a user name, although it is offered".to_owned(),
-            Self::Busy(name) => format!("The server has no room for another client ({name}); close some, then verify again"),
-            Self::State(state) => format!("A client gets in, but the server says it is in state {state} instead of Running"),
+            Self::Busy(name) => {
+                format!("The server has no room for another client ({name}); close some, then verify again")
+            }
+            Self::State(state) => {
+                format!("A client gets in, but the server says it is in state {state} instead of Running")
+            }
             Self::Status { name, reason } if reason.is_empty() => format!("The server refuses it: {name}"),
             Self::Status { name, reason } => format!("The server refuses it: {name}, {reason}"),
         }
@@ -136,9 +140,9 @@ impl VerifyFinding {
             Self::PolicyMissing(policy) => format!(
                 "{policy} is ticked in the basic settings, but the server does not offer it; start the server again"
             ),
-            Self::PolicyNotTicked(policy) => format!(
-                "The server offers {policy}, which is not ticked in the basic settings; start the server again"
-            ),
+            Self::PolicyNotTicked(policy) => {
+                format!("The server offers {policy}, which is not ticked in the basic settings; start the server again")
+            }
             Self::TokenMissing(token) => format!(
                 "\"{}\" is ticked in the basic settings, but the server does not offer it; start the server again",
                 TokenKind::from(*token).text(Language::En)
@@ -157,7 +161,9 @@ impl VerifyFinding {
                 "None is offered: whoever listens reads everything, and can change it".to_owned()
             }
             Self::WeakPolicy(policy) => format!("{policy} is offered, which is deprecated and can be broken"),
-            Self::NoUsers => "Only users with a password are let in, and the controller has none; add a user".to_owned(),
+            Self::NoUsers => {
+                "Only users with a password are let in, and the controller has none; add a user".to_owned()
+            }
             Self::Clock(ahead) => format!(
                 "The controller's clock is {} {}; set it, or certificates may be refused",
                 span(ahead.num_minutes().unsigned_abs(), Language::En),
@@ -192,9 +198,7 @@ impl VerifyFinding {
             Self::OtherAddress { url, reachable: false } => {
                 format!("服务器公布的地址为 {url}，本机无法连接，使用该地址的客户端将失败")
             }
-            Self::WeakPolicy(policy) if policy.as_str() == "None" => {
-                "提供 None：通信内容可被他人读取和篡改".to_owned()
-            }
+            Self::WeakPolicy(policy) if policy.as_str() == "None" => "提供 None：通信内容可被他人读取和篡改".to_owned(),
             Self::WeakPolicy(policy) => format!("提供已弃用的 {policy}，可被破解"),
             Self::NoUsers => "仅允许用户名和密码登录，但控制器尚无用户，请添加用户".to_owned(),
             Self::Clock(ahead) => format!(

@@ -35,9 +35,7 @@ impl Attempt {
         let close = async |secure: &_| {
             CloseSession::new_manual(0, REQUEST, session.clone(), 0).delete_subscriptions(true).send(secure).await
         };
-        if let Ok(Err(failure)) =
-            tokio::time::timeout(CLOSE, channel.drive(Stage::CreateSession, close)).await
-        {
+        if let Ok(Err(failure)) = tokio::time::timeout(CLOSE, channel.drive(Stage::CreateSession, close)).await {
             tracing::debug!(cause = %failure.cause, "session not closed");
         }
         channel.close().await;

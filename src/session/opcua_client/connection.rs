@@ -111,10 +111,9 @@ impl Connection {
             ResponseMessage::GetEndpoints(response) if response.response_header.service_result.is_good() => {
                 Ok(response.endpoints.into_iter().flatten().filter_map(Endpoint::new).collect())
             }
-            ResponseMessage::GetEndpoints(response) => Err(Failure::of(
-                Stage::Endpoints,
-                super::failure::status(response.response_header.service_result, ""),
-            )),
+            ResponseMessage::GetEndpoints(response) => {
+                Err(Failure::of(Stage::Endpoints, super::failure::status(response.response_header.service_result, "")))
+            }
             ResponseMessage::ServiceFault(fault) => {
                 Err(Failure::of(Stage::Endpoints, super::failure::status(fault.response_header.service_result, "")))
             }

@@ -249,7 +249,11 @@ mod tests {
             ("Basic256Sha256", Mode::SignAndEncrypt, Some("None"), true),
         ] {
             let endpoint = described("opc.tcp://robot", policy, mode, password).unwrap();
-            assert_eq!(endpoint.tokens, [OfferedToken { kind: TokenKind::UserName, protected }], "{policy} {password:?}");
+            assert_eq!(
+                endpoint.tokens,
+                [OfferedToken { kind: TokenKind::UserName, protected }],
+                "{policy} {password:?}"
+            );
         }
     }
 }

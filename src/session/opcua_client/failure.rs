@@ -118,9 +118,6 @@ mod tests {
         assert_eq!(failure.cause.to_string(), "BadSecurityChecksFailed: [2Jno");
         assert_eq!(Failure::from_library(Stage::Channel, &error, &Heard::default()).cause, Cause::Closed);
         let heard = Heard { fault: Some("a web server".into()), ..heard };
-        assert_eq!(
-            Failure::from_library(Stage::Channel, &error, &heard).cause,
-            Cause::NotOpcUa("a web server".into())
-        );
+        assert_eq!(Failure::from_library(Stage::Channel, &error, &heard).cause, Cause::NotOpcUa("a web server".into()));
     }
 }

@@ -114,10 +114,16 @@ impl OpcUaClient {
     pub fn new(identity: &OwnIdentity, patience: Patience) -> Result<Self, Problem> {
         let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
         // The library reads both again for every connection; the paths are absolute, so that the key is not copied.
-        let absolute = |path: &Path| std::path::absolute(path).map_err(|e| Problem::with_detail(ErrorCode::Internal, e));
+        let absolute =
+            |path: &Path| std::path::absolute(path).map_err(|e| Problem::with_detail(ErrorCode::Internal, e));
         let (certificate, key) = (absolute(&identity.certificate_path)?, absolute(&identity.key_path)?);
-        let (mut store, certificate, key) =
-            CertificateStore::new_with_x509_data(folder.path(), false, Some(&certificate), Some(&key), None::<X509Data>);
+        let (mut store, certificate, key) = CertificateStore::new_with_x509_data(
+            folder.path(),
+            false,
+            Some(&certificate),
+            Some(&key),
+            None::<X509Data>,
+        );
         // It knows exact copies only, and no issuers; the caller judges the certificate before this client sees it.
         store.set_skip_verify_certs(true);
         store.set_trust_unknown_certs(true);

@@ -87,10 +87,8 @@ async fn what_answers_sends_without_end() {
     let target = server(|_| Some(frame(b"ACKF", &[0; 60_000]).repeat(100))).await;
     let failure = ask(&target).await;
     assert!(!matches!(failure.cause, Cause::Internal(_)), "{failure:?}");
-    let target = server(|round| {
-        Some(if round == 0 { acknowledge() } else { frame(b"MSGC", &[0; 60_000]).repeat(100) })
-    })
-    .await;
+    let target =
+        server(|round| Some(if round == 0 { acknowledge() } else { frame(b"MSGC", &[0; 60_000]).repeat(100) })).await;
     assert!(matches!(ask(&target).await.cause, Cause::NotOpcUa(_) | Cause::Status { .. } | Cause::Closed));
     let target = server(|_| Some([&b"ACKF"[..], &0xffff_ffff_u32.to_le_bytes()].concat())).await;
     let Cause::NotOpcUa(why) = ask(&target).await.cause else { panic!("taken for a server") };

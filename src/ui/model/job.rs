@@ -83,9 +83,7 @@ impl Task {
                 trust_first: false,
                 patience: Patience::default(),
             }),
-            Self::TrustConfigurator => {
-                Arc::new(jobs::TrustConfigurator { identity: workspace.own_identity() })
-            }
+            Self::TrustConfigurator => Arc::new(jobs::TrustConfigurator { identity: workspace.own_identity() }),
             Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
             Self::DeleteLog => Arc::new(jobs::SetSettings {
                 change: jobs::SettingsChange { delete_log: true, ..Default::default() },

@@ -36,8 +36,8 @@ pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, Task};
 pub use reduce::reduce;
 pub use rows::{Column, Expiry, Row, RowId, Rows};
 pub use server_log::LogView;
-pub use verify::VerifyView;
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
+pub use verify::VerifyView;
 
 use super::backend::Event;
 use super::command::UiCommand;

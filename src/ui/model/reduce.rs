@@ -239,7 +239,8 @@ impl Model {
                 let purpose = job.purpose;
                 let Some(row) = job.rows.get_mut(index) else { return vec![] };
                 let Report { result, info } = *report;
-                let each = matches!(purpose, Purpose::LoadCertificates | Purpose::Check | Purpose::Verify).then(|| result.clone());
+                let each = matches!(purpose, Purpose::LoadCertificates | Purpose::Check | Purpose::Verify)
+                    .then(|| result.clone());
                 let (state, outcome) = match result {
                     Ok(outcome) => (RowState::Done, Some(outcome)),
                     Err(problem) if problem.code == ErrorCode::Cancelled => (RowState::NotStarted, None),

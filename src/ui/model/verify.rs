@@ -32,7 +32,8 @@ impl VerifyView {
 
     /// The controllers that do not trust this program.
     pub fn lacking_trust(&self) -> Vec<RowId> {
-        let lacks = |found: &Result<Box<VerifyReport>, Problem>| found.as_ref().is_ok_and(|report| report.lacks_trust());
+        let lacks =
+            |found: &Result<Box<VerifyReport>, Problem>| found.as_ref().is_ok_and(|report| report.lacks_trust());
         self.of.iter().filter(|(_, found)| lacks(found)).map(|(row, _)| *row).collect()
     }
 
@@ -150,7 +151,8 @@ impl Model {
             Some(Err(_)) => true,
             None => false,
         };
-        let first = view.rows.iter().find(worth_a_look).or_else(|| view.rows.iter().find(|row| view.of.contains_key(row)));
+        let first =
+            view.rows.iter().find(worth_a_look).or_else(|| view.rows.iter().find(|row| view.of.contains_key(row)));
         view.shown = view.shown.filter(|row| view.of.contains_key(row)).or(first.copied());
         match view.of.values().next() {
             None => self.drop_verify(),
