@@ -23,6 +23,8 @@ pub(super) struct Probe<'a> {
     pub since: DateTime<Utc>,
     /// A password that was refused is not sent a second time.
     pub password_refused: bool,
+    /// How this program's certificate was refused at another endpoint.
+    pub certificate_refused: Option<Refusal>,
 }
 
 impl Probe<'_> {
@@ -47,6 +49,9 @@ impl Probe<'_> {
                                 shut = Some(refusal.clone());
                             }
                             self.password_refused |= refusal == Refusal::Password;
+                            if matches!(refusal, Refusal::OwnCertificate(Some(_))) {
+                                self.certificate_refused = Some(refusal.clone());
+                            }
                             Verdict::Fails(refusal)
                         }
                     }
@@ -102,6 +107,10 @@ impl Probe<'_> {
             let why = self.told_why(run).await;
             if why.is_some() || !closed {
                 return Refusal::OwnCertificate(why.or_else(|| told_plainly(failure)));
+            }
+            // A server says no more to an address it has refused too often.
+            if let Some(before) = &self.certificate_refused {
+                return before.clone();
             }
         }
         match (refusal_of(failure), failure.stage, kind) {
