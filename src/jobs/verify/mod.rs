@@ -125,6 +125,7 @@ impl Verify {
             login: self.login.as_ref(),
             since: info.clock,
             password_refused: false,
+            certificate_refused: None,
         };
         for endpoint in &endpoints {
             report.endpoints.push(probe.endpoint(run, endpoint).await?);

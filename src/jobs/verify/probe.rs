@@ -23,6 +23,8 @@ pub(super) struct Probe<'a> {
     pub since: DateTime<Utc>,
     /// A password that was refused is not sent a second time.
     pub password_refused: bool,
+    /// How this program's certificate was refused at another endpoint.
+    pub certificate_refused: Option<Refusal>,
 }
 
 impl Probe<'_> {
@@ -47,6 +49,9 @@ impl Probe<'_> {
                                 shut = Some(refusal.clone());
                             }
                             self.password_refused |= refusal == Refusal::Password;
+                            if matches!(refusal, Refusal::OwnCertificate(Some(_))) {
+                                self.certificate_refused = Some(refusal.clone());
+                            }
                             Verdict::Fails(refusal)
                         }
                     }
@@ -102,6 +107,10 @@ impl Probe<'_> {
             let why = self.told_why(run).await;
             if why.is_some() || !closed {
                 return Refusal::OwnCertificate(why.or_else(|| told_plainly(failure)));
+            }
+            // A server says no more to an address it has refused too often.
+            if let Some(before) = &self.certificate_refused {
+                return before.clone();
             }
         }
         match (refusal_of(failure), failure.stage, kind) {
@@ -198,3 +207,41 @@ const BUSY: [&str; 5] = [
     "BadMaxConnectionsReached",
     "BadResourceUnavailable",
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn status(stage: Stage, name: &str) -> Failure {
+        Failure { stage, cause: Cause::Status { code: 0, name: name.into(), reason: String::new() } }
+    }
+
+    #[test]
+    fn a_server_without_room_is_told_from_one_that_refuses() {
+        assert_eq!(
+            refusal_of(&status(Stage::Channel, "BadTcpServerTooBusy")),
+            Refusal::Busy("BadTcpServerTooBusy".into())
+        );
+        assert!(matches!(refusal_of(&status(Stage::Channel, "BadSecurityPolicyRejected")), Refusal::Status { .. }));
+        assert!(is_about_a_certificate("BadSecurityChecksFailed") && !is_about_a_certificate("BadTimeout"));
+    }
+
+    #[test]
+    fn a_status_that_tells_nothing_is_no_reason() {
+        assert_eq!(told_plainly(&status(Stage::Channel, "BadSecurityChecksFailed")), None);
+        let told = told_plainly(&status(Stage::Channel, "BadCertificateRevoked"));
+        assert_eq!(told.map(|(status, _)| status), Some(CertificateStatus::Revoked));
+    }
+
+    #[test]
+    fn clocks_a_few_minutes_apart_are_nothing_to_talk_about() {
+        let here = Utc::now();
+        assert_eq!(clock(here + TimeDelta::minutes(9), here), None);
+        assert_eq!(clock(here - TimeDelta::minutes(11), here), Some(VerifyFinding::Clock(TimeDelta::minutes(-11))));
+    }
+
+    #[test]
+    fn a_server_without_endpoints_is_not_compared() {
+        assert_eq!(compare(&[], &ServerSettings::default()), [VerifyFinding::NoEndpoints]);
+    }
+}

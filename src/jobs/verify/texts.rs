@@ -33,7 +33,9 @@ impl Refusal {
             }
             Self::TimedOut => "There is no answer in time; check the network, or start the server again".to_owned(),
             Self::NotOpcUa(why) => format!("What answers is not a sound OPC UA server: {why}"),
-            Self::Closed => "The server closes the connection without a word; its log may say why".to_owned(),
+            Self::Closed => "The server closes the connection without a word; its log may say why, and after many \
+                             refusals it says nothing for a minute"
+                .to_owned(),
             Self::OwnCertificate(None) => "The server refuses the certificate of this configurator and does not say \
                                            why; most often it is not trusted yet"
                 .to_owned(),
@@ -67,7 +69,7 @@ impl Refusal {
             Self::NotReachable(why) => format!("该地址无应答（{why}），请检查端口、防火墙和网线"),
             Self::TimedOut => "未在规定时间内应答，请检查网络或重新启动服务器".to_owned(),
             Self::NotOpcUa(why) => format!("应答方不是正常的 OPC UA 服务器：{why}"),
-            Self::Closed => "服务器未说明原因即断开连接，请查看服务器日志".to_owned(),
+            Self::Closed => "服务器未说明原因即断开连接，请查看服务器日志；多次拒绝后一分钟内不再说明原因".to_owned(),
             Self::OwnCertificate(None) => "服务器拒绝本配置工具的证书且未说明原因，通常是尚未信任该证书".to_owned(),
             Self::OwnCertificate(Some((CertificateStatus::Untrusted, _))) => {
                 "服务器尚未信任本配置工具的证书，请将其添加到[信任]后重新验证".to_owned()

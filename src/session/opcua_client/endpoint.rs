@@ -187,7 +187,7 @@ mod tests {
     fn described(url: &str, policy: &str, mode: MessageSecurityMode, password: Option<&str>) -> Option<Endpoint> {
         let token = WireToken {
             token_type: UserTokenType::UserName,
-            security_policy_uri: password.map(|p| uri(p)).unwrap_or_default().as_str().into(),
+            security_policy_uri: password.map(uri).unwrap_or_default().as_str().into(),
             ..Default::default()
         };
         Endpoint::new(EndpointDescription {

@@ -26,13 +26,17 @@ pub fn show(ui: &Ui, view: &mut VerifyView, model: &Model, messages: &mut Vec<Me
             controllers(ui, view, model);
         }
         match view.report() {
-            Some(Ok(report)) => self::report(ui, report, model),
+            Some(Ok(report)) => headline(ui, report, model),
             Some(Err(problem)) => not_asked(ui, problem, model),
             None => {}
         }
+        // What helps most often comes first.
         let lacking = view.lacking_trust().len();
         if lacking > 0 {
             trust(ui, view, lacking, model, messages);
+        }
+        if let Some(Ok(report)) = view.report() {
+            self::report(ui, report, model);
         }
         if view.asks_for_login() {
             login(ui, view, model);
@@ -70,7 +74,7 @@ fn not_asked(ui: &mut Ui, problem: &Problem, model: &Model) {
     });
 }
 
-fn report(ui: &mut Ui, report: &VerifyReport, model: &Model) {
+fn headline(ui: &mut Ui, report: &VerifyReport, model: &Model) {
     let palette = palette(ui);
     let (key, color) = if report.all_works() { (T::VerifyWorks, palette.ok) } else { (T::VerifyFails, palette.error) };
     ui.horizontal(|ui| {
@@ -80,6 +84,9 @@ fn report(ui: &mut Ui, report: &VerifyReport, model: &Model) {
     for finding in &report.findings {
         line(ui, finding.severity(), &finding.explain(model.language), model);
     }
+}
+
+fn report(ui: &mut Ui, report: &VerifyReport, model: &Model) {
     if let Some(verdict) = &report.certificate {
         ui.add_space(theme::SPACE);
         certificate(ui, verdict, model);
@@ -139,7 +146,8 @@ fn matrix(ui: &mut Ui, report: &VerifyReport, model: &Model) {
     kinds.sort_unstable();
     kinds.dedup();
     framed(ui, palette.line, |ui| {
-        let spacing = vec2(theme::SPACE_LARGE * 2.0, theme::SPACE / 2.0);
+        ui.spacing_mut().interact_size.y = theme::DENSE_HEIGHT;
+        let spacing = vec2(theme::SPACE_LARGE * 2.0, 0.0);
         Grid::new("verify matrix").num_columns(kinds.len() + 1).spacing(spacing).striped(true).show(ui, |ui| {
             let heading = |ui: &mut Ui, text: &str| {
                 ui.label(RichText::new(text).size(theme::HEADER_TEXT).color(palette.weak));
@@ -165,16 +173,17 @@ fn cell(ui: &mut Ui, endpoint: &EndpointVerdict, kind: TokenKind, model: &Model)
         ui.label("");
         return;
     };
-    let (key, color) = look(&token.verdict, palette(ui));
+    let (mark, key, color) = look(&token.verdict, palette(ui));
     let said = token.verdict.explain(model.language);
-    ui.label(RichText::new(key.text(model.language)).color(color)).on_hover_text(said);
+    let shown = RichText::new(format!("{mark} {}", key.text(model.language))).color(color);
+    ui.label(shown).on_hover_text(said);
 }
 
-fn look(verdict: &Verdict, palette: &Palette) -> (T, Color32) {
+fn look(verdict: &Verdict, palette: &Palette) -> (char, T, Color32) {
     match verdict {
-        Verdict::Works => (T::VerdictWorks, palette.ok),
-        Verdict::Fails(_) => (T::VerdictFails, palette.error),
-        Verdict::NotTried(_) => (T::VerdictNotTried, palette.off),
+        Verdict::Works => ('✓', T::VerdictWorks, palette.ok),
+        Verdict::Fails(_) => ('×', T::VerdictFails, palette.error),
+        Verdict::NotTried(_) => ('–', T::VerdictNotTried, palette.off),
     }
 }
 
@@ -189,10 +198,12 @@ fn reasons(ui: &mut Ui, report: &VerifyReport, model: &Model) {
             match said.iter_mut().find(|(known, ..)| *known == sentence) {
                 Some((.., names)) if names.contains(&name) => {}
                 Some((.., names)) => names.push(name),
-                None => said.push((sentence, look(&token.verdict, palette).1, vec![name])),
+                None => said.push((sentence, look(&token.verdict, palette).2, vec![name])),
             }
         }
     }
+    // What fails before what was left out.
+    said.sort_by_key(|(_, color, _)| *color == palette.off);
     for (sentence, color, names) in said {
         ui.add_space(theme::SPACE / 2.0);
         ui.add(Label::new(RichText::new(sentence).color(color)).wrap().selectable(true));
@@ -202,7 +213,7 @@ fn reasons(ui: &mut Ui, report: &VerifyReport, model: &Model) {
 
 fn trust(ui: &mut Ui, view: &VerifyView, lacking: usize, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
-    ui.add_space(theme::SPACE);
+    ui.add_space(theme::SPACE / 2.0);
     note(ui, palette(ui).warning, |ui| {
         ui.add(Label::new(text(T::VerifyTrustText)).wrap());
         let own = view.of.values().find_map(|found| found.as_ref().ok()).map(|report| &report.own);
