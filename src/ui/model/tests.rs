@@ -2,6 +2,7 @@
 
 mod server_log;
 mod transfer;
+mod trust;
 
 use chrono::Duration;
 
