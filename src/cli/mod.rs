@@ -14,6 +14,7 @@ mod demo;
 mod log;
 mod output;
 mod passwords;
+mod pki;
 mod select;
 mod server;
 mod settings;
@@ -100,6 +101,9 @@ enum Command {
     /// Make, request, import, select and export server certificates
     #[command(subcommand)]
     Cert(cert::CertCommand),
+    /// Look into certificate files, and check certificates without a controller
+    #[command(subcommand)]
+    Pki(pki::PkiCommand),
     /// List, add, trust and remove the certificates of clients and authorities
     #[command(subcommand)]
     Clients(clients::ClientsCommand),
@@ -168,6 +172,7 @@ pub fn main() -> ExitCode {
         Some(Command::Settings(command)) => settings::run(&settled, command),
         Some(Command::Users(command)) => users::run(&settled, command),
         Some(Command::Cert(command)) => cert::run(&settled, command),
+        Some(Command::Pki(command)) => pki::run(&settled, command),
         Some(Command::Clients(command)) => clients::run(&settled, command),
         Some(Command::Crl(command)) => crl::run(&settled, command),
         Some(Command::Log(command)) => log::run(&settled, command),

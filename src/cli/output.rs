@@ -16,6 +16,10 @@ impl Output {
         Self { json, language }
     }
 
+    pub fn language(self) -> Language {
+        self.language
+    }
+
     pub fn is_json(self) -> bool {
         self.json
     }

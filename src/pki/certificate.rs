@@ -7,10 +7,10 @@ use rsa::pkcs8::PrivateKeyInfo;
 use sha1::{Digest as _, Sha1};
 use x509_parser::prelude::{FromDer, X509Certificate};
 
-use super::PkiError;
 use super::facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, Facts, KeyUsage};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
 use super::signature::{PublicKey, Verdict};
+use super::{PkiError, tlv};
 use crate::model::CertificateSummary;
 
 /// The largest certificate that is read, in bytes of DER.
@@ -35,7 +35,8 @@ impl Certificate {
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
-        Ok(Self { der: der.into(), facts: Arc::new(Facts::of(der, &parsed)?) })
+        let facts = Arc::new(Facts::of(der, &parsed)?);
+        if tlv::is_signed_object(der) { Ok(Self { der: der.into(), facts }) } else { Err(PkiError::NotACertificate) }
     }
 
     /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one certificate, in DER or PEM.
@@ -95,7 +96,7 @@ impl Certificate {
 
     /// The first URI of the subject alternative name, without control characters.
     pub fn application_uri(&self) -> Option<String> {
-        self.facts.application_uri.clone()
+        self.facts.extensions.application_uri().map(str::to_owned)
     }
 
     /// Whether subject and issuer have the same name. The signature is not looked at.
@@ -121,28 +122,28 @@ impl Certificate {
     /// Whether it says of itself that it is the certificate of a CA, and does not say that its key signs none.
     pub fn is_ca(&self) -> bool {
         self.facts.version == 3
-            && self.facts.basic_constraints.is_some_and(|constraints| constraints.ca)
-            && self.facts.key_usages.as_ref().is_none_or(|usages| usages.contains(&KeyUsage::KeyCertSign))
+            && self.facts.extensions.basic_constraints.is_some_and(|constraints| constraints.ca)
+            && self.facts.extensions.key_usages.as_ref().is_none_or(|usages| usages.contains(&KeyUsage::KeyCertSign))
     }
 
     /// What its basic constraints say, if there are any.
     pub fn basic_constraints(&self) -> Option<BasicConstraints> {
-        self.facts.basic_constraints
+        self.facts.extensions.basic_constraints
     }
 
     /// What its key may be used for; `None` if it does not say.
     pub fn key_usages(&self) -> Option<&[KeyUsage]> {
-        self.facts.key_usages.as_deref()
+        self.facts.extensions.key_usages.as_deref()
     }
 
     /// What the certificate is for; `None` if it does not say.
     pub fn extended_key_usages(&self) -> Option<&[ExtendedKeyUsage]> {
-        self.facts.extended_key_usages.as_deref()
+        self.facts.extensions.extended_key_usages.as_deref()
     }
 
     /// The subject alternative name, in its order.
     pub fn alternative_names(&self) -> &[AlternativeName] {
-        &self.facts.alternative_names
+        &self.facts.extensions.alternative_names
     }
 
     /// Whether one of the addresses or DNS names of the subject alternative name is this one. Case, a dot at the end,
@@ -150,7 +151,7 @@ impl Certificate {
     pub fn names_host(&self, host: &str) -> bool {
         let address = host.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>().ok();
         let plain = host.strip_suffix('.').unwrap_or(host);
-        self.facts.alternative_names.iter().any(|name| match name {
+        self.facts.extensions.alternative_names.iter().any(|name| match name {
             AlternativeName::Ip(named) => address == Some(*named),
             AlternativeName::Dns(named) => named.strip_suffix('.').unwrap_or(named).eq_ignore_ascii_case(plain),
             _ => false,
@@ -159,12 +160,12 @@ impl Certificate {
 
     /// The subject key identifier, if there is one.
     pub fn subject_key_id(&self) -> Option<&[u8]> {
-        self.facts.subject_key_id.as_deref()
+        self.facts.extensions.subject_key_id.as_deref()
     }
 
     /// The key identifier of its issuer, if there is one.
     pub fn authority_key_id(&self) -> Option<&[u8]> {
-        self.facts.authority_key_id.as_deref()
+        self.facts.extensions.authority_key_id.as_deref()
     }
 
     /// Whether its signature was made with the key of `issuer`. Names, dates and usages are not looked at.
@@ -199,7 +200,7 @@ impl Certificate {
             not_after: self.facts.not_after,
             thumbprint: self.thumbprint_sha1(),
             key_bits: self.facts.public_key.bits(),
-            application_uri: self.facts.application_uri.clone(),
+            application_uri: self.facts.extensions.application_uri().map(str::to_owned),
         }
     }
 
@@ -254,6 +255,26 @@ mod tests {
         assert_eq!(Certificate::from_any(&der), Err(too_large));
         let text = vec![b' '; MAX_CERTIFICATE_FILE_BYTES + 1];
         assert!(matches!(Certificate::from_any(&text), Err(PkiError::TooLarge { .. })));
+    }
+
+    /// Nothing that is read of a certificate can be changed, and nothing changed can be read, with its signature right.
+    #[test]
+    fn every_missing_end_and_every_damaged_byte_is_noticed() {
+        let identity = crate::pki::tls_identity("robot", samples::now()).unwrap();
+        let elliptic = Certificate::from_der(&identity.certificate_der).unwrap();
+        for whole in [samples::certificate(), &elliptic] {
+            assert!(whole.verify_signed_by(whole));
+            for at in 0..whole.der().len() {
+                assert!(Certificate::from_der(&whole.der()[..at]).is_err(), "first {at} bytes");
+                for bit in 0..8 {
+                    let mut damaged = whole.der().to_vec();
+                    damaged[at] ^= 1 << bit;
+                    if let Ok(read) = Certificate::from_der(&damaged) {
+                        assert!(!read.verify_signed_by(whole), "byte {at} bit {bit}");
+                    }
+                }
+            }
+        }
     }
 
     #[test]

@@ -139,7 +139,17 @@ pub(super) struct Facts {
     pub not_before: DateTime<Utc>,
     pub not_after: DateTime<Utc>,
     pub public_key: PublicKey,
-    pub application_uri: Option<String>,
+    pub extensions: Extensions,
+    pub signature_algorithm: SignatureAlgorithm,
+    /// Where in the DER lies what is signed.
+    pub signed: Range<usize>,
+    pub signature: Vec<u8>,
+    pub sha256: [u8; 32],
+}
+
+/// What the extensions say, of a certificate or as a signing request asks for them.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Extensions {
     pub alternative_names: Vec<AlternativeName>,
     pub basic_constraints: Option<BasicConstraints>,
     pub key_usages: Option<Vec<KeyUsage>>,
@@ -149,11 +159,6 @@ pub(super) struct Facts {
     /// Why nobody should act on this certificate, though it can be shown: an extension that is critical and not
     /// understood, or one that contradicts its own definition.
     pub not_understood: Option<String>,
-    pub signature_algorithm: SignatureAlgorithm,
-    /// Where in the DER lies what is signed.
-    pub signed: Range<usize>,
-    pub signature: Vec<u8>,
-    pub sha256: [u8; 32],
 }
 
 impl Facts {
@@ -162,7 +167,11 @@ impl Facts {
             return Err(PkiError::SignatureAlgorithms);
         }
         parsed.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;
-        let mut facts = Self {
+        let mut extensions = Extensions::default();
+        for extension in parsed.extensions() {
+            extensions.read_extension(extension);
+        }
+        Ok(Self {
             common_name: name::common_name(parsed.subject()),
             issued_to: name::title(parsed.subject()),
             issued_by: name::title(parsed.issuer()),
@@ -177,31 +186,39 @@ impl Facts {
             not_before: date(parsed.validity().not_before)?,
             not_after: date(parsed.validity().not_after)?,
             public_key: PublicKey::of(parsed.public_key())?,
-            application_uri: None,
-            alternative_names: Vec::new(),
-            basic_constraints: None,
-            key_usages: None,
-            extended_key_usages: None,
-            subject_key_id: None,
-            authority_key_id: None,
-            not_understood: None,
+            extensions,
             signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
             signed: range_within(der, parsed.tbs_certificate.as_ref()).ok_or(PkiError::NotACertificate)?,
             signature: parsed.signature_value.data.to_vec(),
             sha256: *Fingerprint::of(der).as_bytes(),
-        };
-        for extension in parsed.extensions() {
-            facts.read(extension);
-        }
-        facts.application_uri = facts.alternative_names.iter().find_map(|name| match name {
-            AlternativeName::Uri(uri) => Some(uri.clone()),
+        })
+    }
+}
+
+impl Extensions {
+    /// The first URI among the alternative names.
+    pub fn application_uri(&self) -> Option<&str> {
+        self.alternative_names.iter().find_map(|name| match name {
+            AlternativeName::Uri(uri) => Some(uri.as_str()),
             _ => None,
-        });
-        Ok(facts)
+        })
     }
 
-    fn read(&mut self, extension: &X509Extension<'_>) {
+    fn read_extension(&mut self, extension: &X509Extension<'_>) {
+        let oid = || extension.oid.to_id_string();
         match extension.parsed_extension() {
+            ParsedExtension::ParseError { .. } => self.not_understood(format!("the extension {} is damaged", oid())),
+            known if self.read(known) => {}
+            _ if extension.critical => {
+                self.not_understood(format!("the extension {} is critical and not understood", oid()));
+            }
+            _ => {}
+        }
+    }
+
+    /// Whether the extension is understood.
+    pub fn read(&mut self, extension: &ParsedExtension<'_>) -> bool {
+        match extension {
             ParsedExtension::BasicConstraints(constraints) => {
                 self.basic_constraints =
                     Some(BasicConstraints { ca: constraints.ca, path_length: constraints.path_len_constraint });
@@ -228,15 +245,9 @@ impl Facts {
                 // Whoever wrote them wanted them to hold, critical or not.
                 self.not_understood("name constraints are not supported".to_owned());
             }
-            ParsedExtension::ParseError { .. } => {
-                self.not_understood(format!("the extension {} is damaged", extension.oid.to_id_string()));
-            }
-            _ if extension.critical => {
-                let oid = extension.oid.to_id_string();
-                self.not_understood(format!("the extension {oid} is critical and not understood"));
-            }
-            _ => {}
+            _ => return false,
         }
+        true
     }
 
     fn not_understood(&mut self, why: String) {

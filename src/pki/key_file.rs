@@ -81,7 +81,7 @@ fn from_pkcs1(der: &[u8]) -> Result<PrivateKey, PkiError> {
 }
 
 /// An EncryptedPrivateKeyInfo: a sequence of an algorithm and an octet string, and nothing else.
-fn is_encrypted(der: &[u8]) -> bool {
+pub(super) fn is_encrypted(der: &[u8]) -> bool {
     let parts = match tlv::all(der).as_deref() {
         Some([whole]) if whole.tag == tlv::SEQUENCE => tlv::all(whole.content),
         _ => None,

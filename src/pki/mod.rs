@@ -8,6 +8,7 @@
 //! | `crl` | [`Crl`]: one certificate revocation list, indexed |
 //! | `bundle` | [`read_bundle`]: any file with certificates and revocation lists |
 //! | `trust` | [`TrustLists`]: whether a certificate may be trusted (OPC 10000-4 §6.1.3) |
+//! | `describe` | [`describe`]: everything public inside a file, to be read |
 //! | `pem` | the text armour around DER, both ways |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
@@ -34,6 +35,7 @@ mod bundle;
 mod certificate;
 mod crl;
 mod csr;
+mod describe;
 mod error;
 mod facts;
 mod fingerprint;
@@ -59,6 +61,9 @@ pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
 pub use crl::{Crl, MAX_CRL_BYTES, RevocationReason, Revoked};
 pub use csr::{Csr, make_csr};
+pub use describe::{
+    CertificateDescription, CrlDescription, CrlEntry, CsrDescription, Description, KeyDescription, describe,
+};
 pub use error::PkiError;
 pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use fingerprint::{Fingerprint, FingerprintError};

@@ -127,7 +127,8 @@ pub(super) fn csr(der: &[u8]) -> String {
     armour("CERTIFICATE REQUEST", der)
 }
 
-fn armour(label: &str, der: &[u8]) -> String {
+/// DER under that label.
+pub(super) fn armour(label: &str, der: &[u8]) -> String {
     let body = STANDARD.encode(der);
     let mut text = format!("-----BEGIN {label}-----\n");
     text.reserve(body.len() + body.len() / 64 + 64);

@@ -1,6 +1,7 @@
 use p12_keystore::error::Error;
 use p12_keystore::{EncryptionAlgorithm, KeyStore, KeyStoreEntry, MacAlgorithm, Pkcs12Archive, PrivateKeyChain};
 use sha1::{Digest as _, Sha1};
+use zeroize::Zeroizing;
 
 use super::{Certificate, PkiError, PrivateKey, tlv};
 
@@ -87,6 +88,36 @@ pub fn pkcs12_read_key(bytes: &[u8], password: &str) -> Result<PrivateKey, PkiEr
     single_key(&open(bytes, password)?)
 }
 
+/// Whether it looks like one from outside.
+pub(super) fn is_pkcs12(bytes: &[u8]) -> bool {
+    inside(bytes).is_some_and(|inside| inside.starts_with(VERSION_3))
+}
+
+/// What stands behind the head of the outermost sequence.
+fn inside(bytes: &[u8]) -> Option<&[u8]> {
+    match bytes {
+        [SEQUENCE, 0x00..=0x80, inside @ ..]
+        | [SEQUENCE, 0x81, _, inside @ ..]
+        | [SEQUENCE, 0x82, _, _, inside @ ..]
+        | [SEQUENCE, 0x83, _, _, _, inside @ ..] => Some(inside),
+        _ => None,
+    }
+}
+
+/// Every key and every certificate of a PKCS#12, whether they belong together or not.
+pub(super) struct Contents {
+    /// Of whatever kind, in PKCS#8 without encryption.
+    pub keys: Vec<Zeroizing<Vec<u8>>>,
+    pub certificates: Vec<Certificate>,
+}
+
+pub(super) fn contents(bytes: &[u8], password: &str) -> Result<Contents, PkiError> {
+    let archive = open(bytes, password)?;
+    let keys = archive.keys.iter().map(|bag| Zeroizing::new(bag.key.as_der().to_vec())).collect();
+    let certificates: Result<_, _> = archive.certs.iter().map(|bag| Certificate::from_der(bag.cert.as_der())).collect();
+    Ok(Contents { keys, certificates: certificates? })
+}
+
 fn open(bytes: &[u8], password: &str) -> Result<Pkcs12Archive, PkiError> {
     let has_mac = check_outside(bytes)?;
     Pkcs12Archive::from_pkcs12(bytes, password).map_err(|error| reading(&error, has_mac))
@@ -121,15 +152,10 @@ fn check_outside(bytes: &[u8]) -> Result<bool, PkiError> {
     if bytes.len() > MAX_PKCS12_BYTES {
         return Err(PkiError::TooLarge { bytes: bytes.len(), max: MAX_PKCS12_BYTES });
     }
-    let inside = match bytes {
-        [SEQUENCE, 0x80, ..] => return Err(PkiError::UnsupportedPkcs12("it is in BER, not in DER")),
-        [SEQUENCE, 0x00..0x80, inside @ ..]
-        | [SEQUENCE, 0x81, _, inside @ ..]
-        | [SEQUENCE, 0x82, _, _, inside @ ..]
-        | [SEQUENCE, 0x83, _, _, _, inside @ ..] => inside,
-        _ => return Err(PkiError::NotPkcs12),
-    };
-    if !inside.starts_with(VERSION_3) {
+    if bytes.starts_with(&[SEQUENCE, 0x80]) {
+        return Err(PkiError::UnsupportedPkcs12("it is in BER, not in DER"));
+    }
+    if !is_pkcs12(bytes) {
         return Err(PkiError::NotPkcs12);
     }
     let parts = match tlv::all(bytes).as_deref() {

@@ -4,8 +4,8 @@ use aws_lc_rs::signature::{self, UnparsedPublicKey, VerificationAlgorithm};
 use rsa::pkcs1::DecodeRsaPublicKey as _;
 use rsa::{Pkcs1v15Sign, RsaPublicKey};
 use sha2::{Digest as _, Sha384};
-use x509_parser::prelude::{AlgorithmIdentifier, SubjectPublicKeyInfo};
-use x509_parser::public_key::PublicKey as Parsed;
+use x509_parser::prelude::{AlgorithmIdentifier, FromDer as _, SubjectPublicKeyInfo};
+use x509_parser::public_key::{PublicKey as Parsed, RSAPublicKey};
 use x509_parser::signature_algorithm::RsaSsaPssParams;
 
 use super::PkiError;
@@ -139,19 +139,25 @@ impl PublicKey {
     pub fn of(info: &SubjectPublicKeyInfo<'_>) -> Result<Self, PkiError> {
         let bytes = info.subject_public_key.data.to_vec();
         match info.parsed().map_err(|_| PkiError::NotACertificate)? {
-            Parsed::RSA(rsa) => Ok(Self::Rsa {
-                pkcs1: bytes,
-                bits: u16::try_from(bit_length(rsa.modulus)).unwrap_or(u16::MAX),
-                exponent_fits: rsa.exponent.last().is_some_and(|last| last & 1 == 1) && bit_length(rsa.exponent) > 1,
-            }),
+            Parsed::RSA(_) => Self::rsa(&bytes),
             Parsed::EC(point) => {
                 let oid = info.algorithm.parameters.as_ref().and_then(|parameters| parameters.as_oid().ok());
                 let curve = oid.and_then(|oid| Curve::from_oid(&oid.to_id_string()));
-                let bits = curve.map_or(point.key_size(), Curve::bits);
-                Ok(Self::Ec { curve, bits: u16::try_from(bits).unwrap_or(u16::MAX), point: bytes })
+                let bits = curve.map_or_else(|| u16::try_from(point.key_size()).unwrap_or(u16::MAX), Curve::bits);
+                Ok(Self::Ec { curve, bits, point: bytes })
             }
             _ => Ok(Self::Other { oid: info.algorithm.algorithm.to_id_string() }),
         }
+    }
+
+    /// From PKCS#1.
+    pub fn rsa(pkcs1: &[u8]) -> Result<Self, PkiError> {
+        let (_, rsa) = RSAPublicKey::from_der(pkcs1).map_err(|_| PkiError::NotACertificate)?;
+        Ok(Self::Rsa {
+            pkcs1: pkcs1.to_vec(),
+            bits: u16::try_from(bit_length(rsa.modulus)).unwrap_or(u16::MAX),
+            exponent_fits: rsa.exponent.last().is_some_and(|last| last & 1 == 1) && bit_length(rsa.exponent) > 1,
+        })
     }
 
     /// 0 if its kind is not known.
@@ -164,7 +170,7 @@ impl PublicKey {
 }
 
 impl Curve {
-    fn from_oid(oid: &str) -> Option<Self> {
+    pub fn from_oid(oid: &str) -> Option<Self> {
         match oid {
             "1.2.840.10045.3.1.7" => Some(Self::P256),
             "1.3.132.0.34" => Some(Self::P384),
@@ -173,7 +179,7 @@ impl Curve {
         }
     }
 
-    const fn bits(self) -> usize {
+    pub const fn bits(self) -> u16 {
         match self {
             Self::P256 => 256,
             Self::P384 => 384,

@@ -27,7 +27,7 @@ pub(super) type Failure = (Step, Rejection);
 /// Step 1, of one certificate.
 pub(super) fn structure(certificate: &Certificate, depth: usize) -> Result<(), Rejection> {
     let invalid = |reason: &str| Err(Rejection::new(Status::CertificateInvalid, certificate, depth, reason));
-    match &certificate.facts().not_understood {
+    match &certificate.facts().extensions.not_understood {
         Some(why) => invalid(why),
         None if certificate.not_after() < certificate.not_before() => invalid("it ends before it begins"),
         None => Ok(()),
@@ -58,7 +58,7 @@ pub(super) fn chain(
     uri(leaf, presented).map_err(|rejection| (Step::Uri, rejection))?;
     application(leaf, chain.len() > 1, presented.role, policy).map_err(|rejection| (Step::Usage, rejection))?;
     for depth in 1..chain.len() {
-        issuer(chain, depth).map_err(|rejection| (Step::Usage, rejection))?;
+        issuer(chain, depth, presented.role).map_err(|rejection| (Step::Usage, rejection))?;
     }
     Ok(())
 }
@@ -162,20 +162,26 @@ fn application(leaf: &Certificate, is_issued: bool, role: Role, policy: &TrustPo
     if !missing.is_empty() {
         return refused(format!("its key may not be used for {}", missing.join(", ")));
     }
-    let Some(purposes) = leaf.extended_key_usages() else { return Ok(()) };
+    match excluded_role(leaf, role) {
+        Some(who) => refused(format!("it is not for {who}")),
+        None => Ok(()),
+    }
+}
+
+/// Whom the extended key usages leave out, if they leave out the role.
+fn excluded_role(certificate: &Certificate, role: Role) -> Option<&'static str> {
+    let purposes = certificate.extended_key_usages()?;
     let allows = |purpose| purposes.contains(&purpose) || purposes.contains(&ExtendedKeyUsage::AnyExtendedKeyUsage);
+    let (client, server) = (allows(ExtendedKeyUsage::ClientAuth), allows(ExtendedKeyUsage::ServerAuth));
     match role {
-        Role::Client if !allows(ExtendedKeyUsage::ClientAuth) => refused("it is not for clients".to_owned()),
-        Role::Server if !allows(ExtendedKeyUsage::ServerAuth) => refused("it is not for servers".to_owned()),
-        Role::Either if !allows(ExtendedKeyUsage::ClientAuth) && !allows(ExtendedKeyUsage::ServerAuth) => {
-            refused("it is neither for clients nor for servers".to_owned())
-        }
-        _ => Ok(()),
+        Role::Client => (!client).then_some("clients"),
+        Role::Server => (!server).then_some("servers"),
+        Role::Either => (!client && !server).then_some("clients or servers"),
     }
 }
 
 /// Whether the certificate at that depth may have issued what stands below it (RFC 5280 §6.1.4).
-fn issuer(chain: &[&Certificate], depth: usize) -> Result<(), Rejection> {
+fn issuer(chain: &[&Certificate], depth: usize, role: Role) -> Result<(), Rejection> {
     let certificate = chain[depth];
     let refused = |reason: String| Err(Rejection::new(Status::IssuerUseNotAllowed, certificate, depth, reason));
     let Some(constraints) = certificate.basic_constraints().filter(|constraints| constraints.ca) else {
@@ -183,6 +189,10 @@ fn issuer(chain: &[&Certificate], depth: usize) -> Result<(), Rejection> {
     };
     if !certificate.is_ca() {
         return refused("it issued a certificate, but its key may not sign certificates".to_owned());
+    }
+    // Whoever gave a CA extended key usages wanted its certificates to be for nothing else; everybody reads it so.
+    if let Some(who) = excluded_role(certificate, role) {
+        return refused(format!("it may not issue certificates for {who}"));
     }
     if let Some(most) = constraints.path_length {
         // A CA that issued a new certificate to itself is the same CA, and does not count.

@@ -44,7 +44,7 @@ impl TrustLists {
             crls_by_issuer.entry(crl.issuer_folded().to_vec()).or_default().push(index);
         }
         for same_issuer in crls_by_issuer.values_mut() {
-            same_issuer.sort_by_key(|index| std::cmp::Reverse(crls[*index].this_update()));
+            same_issuer.sort_by(|one, other| crls[*other].age_key().cmp(&crls[*one].age_key()));
         }
         let crl_signatures = Mutex::default();
         Self(Arc::new(Inner { trusted, issuers, crls, trusted_ids, by_subject, crls_by_issuer, crl_signatures }))

@@ -1,0 +1,391 @@
+//! Everything public inside a file, for people and scripts to read.
+
+use chrono::{DateTime, Utc};
+use rsa::pkcs8::PrivateKeyInfo;
+use rsa::pkcs8::der::Encode as _;
+use serde::{Deserialize, Serialize};
+use sha1::{Digest as _, Sha1};
+use x509_parser::certification_request::X509CertificationRequest;
+use x509_parser::prelude::{FromDer as _, SubjectPublicKeyInfo};
+
+use super::certificate::check_size;
+use super::facts::Extensions;
+use super::signature::{Curve, PublicKey, SignatureAlgorithm, Verdict};
+use super::{
+    AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, KeyUsage, MAX_BUNDLE_BYTES,
+    PkiError, RevocationReason, key_file, name, pem, pkcs12, read_bundle, read_key_file, tlv,
+};
+
+/// One thing inside a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Description {
+    Certificate(Box<CertificateDescription>),
+    Crl(Box<CrlDescription>),
+    Csr(Box<CsrDescription>),
+    PrivateKey(KeyDescription),
+    PublicKey(KeyDescription),
+}
+
+/// Everything a certificate says. Texts hold no control characters.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CertificateDescription {
+    pub subject: String,
+    pub issuer: String,
+    pub common_name: Option<String>,
+    /// Upper-case hexadecimal.
+    pub serial_number: String,
+    pub version: u32,
+    pub not_before: DateTime<Utc>,
+    pub not_after: DateTime<Utc>,
+    /// The first URI of the alternative names.
+    pub application_uri: Option<String>,
+    pub alternative_names: Vec<AlternativeName>,
+    pub basic_constraints: Option<BasicConstraints>,
+    pub key_usages: Option<Vec<KeyUsage>>,
+    pub extended_key_usages: Option<Vec<ExtendedKeyUsage>>,
+    /// Upper-case hexadecimal.
+    pub subject_key_id: Option<String>,
+    /// Upper-case hexadecimal.
+    pub authority_key_id: Option<String>,
+    pub key: KeyDescription,
+    pub signature_algorithm: String,
+    /// Whether its own key signed it: not only its names are the same, its signature was checked.
+    pub self_signed: bool,
+    /// The SHA-1 thumbprint of the certificate in the same file whose key signed this one, itself aside.
+    pub signed_by: Option<String>,
+    /// Why an OPC UA application must refuse it whoever signed it, if it must.
+    pub not_understood: Option<String>,
+    /// Upper-case hexadecimal: the thumbprint of OPC UA.
+    pub sha1: String,
+    /// Upper-case hexadecimal.
+    pub sha256: String,
+}
+
+/// Everything a revocation list says.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CrlDescription {
+    pub issuer: String,
+    pub number: Option<String>,
+    pub this_update: DateTime<Utc>,
+    pub next_update: Option<DateTime<Utc>>,
+    /// Upper-case hexadecimal.
+    pub authority_key_id: Option<String>,
+    pub signature_algorithm: String,
+    /// The SHA-1 thumbprint of the certificate in the same file whose key signed it.
+    pub signed_by: Option<String>,
+    /// Why it cannot be used for a full check, if it cannot.
+    pub unusable: Option<String>,
+    pub sha1: String,
+    pub entries: Vec<CrlEntry>,
+}
+
+/// One revoked certificate.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CrlEntry {
+    /// Upper-case hexadecimal.
+    pub serial_number: String,
+    pub date: DateTime<Utc>,
+    pub reason: RevocationReason,
+}
+
+/// Everything a certificate signing request asks for.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CsrDescription {
+    pub subject: String,
+    pub alternative_names: Vec<AlternativeName>,
+    pub basic_constraints: Option<BasicConstraints>,
+    pub key_usages: Option<Vec<KeyUsage>>,
+    pub extended_key_usages: Option<Vec<ExtendedKeyUsage>>,
+    pub key: KeyDescription,
+    pub signature_algorithm: String,
+    /// Whether whoever made it holds the key.
+    pub signature_is_right: bool,
+    pub sha1: String,
+}
+
+/// What everybody may know of a key, the private half of which may be in the file or not.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeyDescription {
+    /// `RSA`, `EC`, or an object identifier.
+    pub algorithm: String,
+    pub bits: Option<u16>,
+    pub curve: Option<String>,
+    /// SHA-1 of the public key in upper-case hexadecimal (RFC 5280 §4.2.1.2, method 1): the same for a key, its request
+    /// and its certificates.
+    pub key_id: Option<String>,
+}
+
+/// Describes everything in a file of any kind this program reads, in its order: certificates, chains, revocation lists,
+/// signing requests, keys, PKCS#7 and PKCS#12, in DER or PEM.
+///
+/// The password is that of a PKCS#12 or of an encrypted key. Of private keys only the public half is told. Blocks while
+/// it hashes the password.
+pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>, PkiError> {
+    check_size(bytes, MAX_BUNDLE_BYTES)?;
+    let mut found = Found::default();
+    if pem::is_pem(bytes) {
+        for block in pem::all_blocks(bytes)? {
+            found.block(&block, password)?;
+        }
+        if found.things.is_empty() {
+            return Err(PkiError::NoCertificate);
+        }
+    } else {
+        found.der(bytes, password)?;
+    }
+    Ok(found.described())
+}
+
+/// A thing that was found; certificates and lists wait for their signers, which may come later in the file.
+enum Thing {
+    Certificate(Certificate),
+    Crl(Crl),
+    Other(Description),
+}
+
+#[derive(Default)]
+struct Found {
+    things: Vec<Thing>,
+}
+
+impl Found {
+    fn block(&mut self, block: &pem::Block, password: Option<&str>) -> Result<(), PkiError> {
+        match block.label.as_str() {
+            "CERTIFICATE REQUEST" | "NEW CERTIFICATE REQUEST" => {
+                self.other(Description::Csr(Box::new(request(&block.der)?)))
+            }
+            "PUBLIC KEY" => {
+                let (_, info) = SubjectPublicKeyInfo::from_der(&block.der).map_err(|_| PkiError::BadPem)?;
+                self.other(Description::PublicKey(PublicKey::of(&info).map_err(|_| PkiError::BadPem)?.describe()));
+            }
+            "PRIVATE KEY" => self.other(Description::PrivateKey(pkcs8(&block.der)?)),
+            _ if block.encrypted => return Err(PkiError::TraditionalEncryption),
+            "RSA PRIVATE KEY" => self.other(Description::PrivateKey(pkcs1(&block.der)?)),
+            "EC PRIVATE KEY" => {
+                self.other(Description::PrivateKey(sec1(&block.der, None).ok_or(PkiError::NotAPrivateKey)?));
+            }
+            _ if block.is_private_key() => {
+                let key = read_key_file(pem::armour(&block.label, &block.der).as_bytes(), password)?;
+                self.other(Description::PrivateKey(rsa_key(key.public_key())));
+            }
+            _ => self.bundle(read_bundle(pem::armour(&block.label, &block.der).as_bytes())?),
+        }
+        Ok(())
+    }
+
+    fn der(&mut self, der: &[u8], password: Option<&str>) -> Result<(), PkiError> {
+        if pkcs12::is_pkcs12(der) {
+            let pkcs12::Contents { keys, certificates } =
+                pkcs12::contents(der, password.ok_or(PkiError::PasswordNeeded)?)?;
+            for key in keys {
+                self.other(Description::PrivateKey(pkcs8(&key)?));
+            }
+            self.bundle(Bundle { certificates, crls: Vec::new() });
+        } else if PrivateKeyInfo::try_from(der).is_ok() {
+            self.other(Description::PrivateKey(pkcs8(der)?));
+        } else if rsa::pkcs1::RsaPrivateKey::try_from(der).is_ok() {
+            self.other(Description::PrivateKey(pkcs1(der)?));
+        } else if let Some(key) = sec1(der, None) {
+            self.other(Description::PrivateKey(key));
+        } else if key_file::is_encrypted(der) {
+            self.other(Description::PrivateKey(rsa_key(read_key_file(der, password)?.public_key())));
+        } else {
+            match read_bundle(der) {
+                Ok(bundle) => self.bundle(bundle),
+                Err(error) => self.other(Description::Csr(Box::new(request(der).map_err(|_| error)?))),
+            }
+        }
+        Ok(())
+    }
+
+    fn other(&mut self, description: Description) {
+        self.things.push(Thing::Other(description));
+    }
+
+    fn bundle(&mut self, bundle: Bundle) {
+        self.things.extend(bundle.certificates.into_iter().map(Thing::Certificate));
+        self.things.extend(bundle.crls.into_iter().map(Thing::Crl));
+    }
+
+    fn described(&self) -> Vec<Description> {
+        let certificates: Vec<&Certificate> = self
+            .things
+            .iter()
+            .filter_map(|thing| match thing {
+                Thing::Certificate(certificate) => Some(certificate),
+                _ => None,
+            })
+            .collect();
+        self.things
+            .iter()
+            .map(|thing| match thing {
+                Thing::Certificate(certificate) => {
+                    Description::Certificate(Box::new(certificate.describe_among(certificates.iter().copied())))
+                }
+                Thing::Crl(crl) => Description::Crl(Box::new(crl.describe_among(certificates.iter().copied()))),
+                Thing::Other(description) => description.clone(),
+            })
+            .collect()
+    }
+}
+
+impl Certificate {
+    /// Everything it says.
+    pub fn describe(&self) -> CertificateDescription {
+        self.describe_among(std::iter::empty())
+    }
+
+    /// Everything it says, and which of these certificates signed it.
+    pub fn describe_among<'a>(&self, others: impl IntoIterator<Item = &'a Self>) -> CertificateDescription {
+        let facts = self.facts();
+        let mut others = others.into_iter();
+        let signer = others.find(|other| {
+            *other != self && other.facts().subject_folded == facts.issuer_folded && self.verify_signed_by(other)
+        });
+        CertificateDescription {
+            subject: facts.subject.clone(),
+            issuer: facts.issuer.clone(),
+            common_name: facts.common_name.clone(),
+            serial_number: facts.serial_number.clone(),
+            version: facts.version,
+            not_before: facts.not_before,
+            not_after: facts.not_after,
+            application_uri: self.application_uri(),
+            alternative_names: facts.extensions.alternative_names.clone(),
+            basic_constraints: facts.extensions.basic_constraints,
+            key_usages: facts.extensions.key_usages.clone(),
+            extended_key_usages: facts.extensions.extended_key_usages.clone(),
+            subject_key_id: self.subject_key_id().map(hex::encode_upper),
+            authority_key_id: self.authority_key_id().map(hex::encode_upper),
+            key: facts.public_key.describe(),
+            signature_algorithm: facts.signature_algorithm.name().to_owned(),
+            self_signed: facts.subject_folded == facts.issuer_folded && self.verify_signed_by(self),
+            signed_by: signer.map(Self::thumbprint_sha1),
+            not_understood: facts.extensions.not_understood.clone(),
+            sha1: self.thumbprint_sha1(),
+            sha256: hex::encode_upper(self.sha256()),
+        }
+    }
+}
+
+impl Crl {
+    /// Everything it says, and which of these certificates signed it.
+    pub fn describe_among<'a>(&self, certificates: impl IntoIterator<Item = &'a Certificate>) -> CrlDescription {
+        let mut certificates = certificates.into_iter();
+        let signer =
+            certificates.find(|one| one.facts().subject_folded == self.issuer_folded() && self.verify_signed_by(one));
+        CrlDescription {
+            issuer: self.issuer().to_owned(),
+            number: self.number().map(str::to_owned),
+            this_update: self.this_update(),
+            next_update: self.next_update(),
+            authority_key_id: self.authority_key_id().map(hex::encode_upper),
+            signature_algorithm: self.signature_algorithm().to_owned(),
+            signed_by: signer.map(Certificate::thumbprint_sha1),
+            unusable: self.unusable().map(str::to_owned),
+            sha1: self.id(),
+            entries: self
+                .entries()
+                .map(|(serial_number, revoked)| CrlEntry { serial_number, date: revoked.date, reason: revoked.reason })
+                .collect(),
+        }
+    }
+}
+
+impl PublicKey {
+    fn describe(&self) -> KeyDescription {
+        let key_id = |key: &[u8]| Some(hex::encode_upper(Sha1::digest(key)));
+        match self {
+            Self::Rsa { pkcs1, bits, .. } => {
+                KeyDescription { algorithm: "RSA".to_owned(), bits: Some(*bits), curve: None, key_id: key_id(pkcs1) }
+            }
+            Self::Ec { curve, point, bits } => KeyDescription {
+                algorithm: "EC".to_owned(),
+                bits: Some(*bits).filter(|bits| *bits > 0),
+                curve: curve.map(|curve| curve.name().to_owned()),
+                key_id: key_id(point),
+            },
+            Self::Other { oid } => KeyDescription { algorithm: oid.clone(), bits: None, curve: None, key_id: None },
+        }
+    }
+}
+
+fn request(der: &[u8]) -> Result<CsrDescription, PkiError> {
+    check_size(der, super::MAX_CERTIFICATE_BYTES)?;
+    let (rest, parsed) = X509CertificationRequest::from_der(der).map_err(|_| PkiError::NotACsr)?;
+    if !rest.is_empty() {
+        return Err(PkiError::TrailingBytes(rest.len()));
+    }
+    let info = &parsed.certification_request_info;
+    let key = PublicKey::of(&info.subject_pki).map_err(|_| PkiError::NotACsr)?;
+    let algorithm = SignatureAlgorithm::of(&parsed.signature_algorithm);
+    let mut extensions = Extensions::default();
+    for extension in parsed.requested_extensions().into_iter().flatten() {
+        extensions.read(extension);
+    }
+    Ok(CsrDescription {
+        subject: name::full(&info.subject),
+        alternative_names: extensions.alternative_names,
+        basic_constraints: extensions.basic_constraints,
+        key_usages: extensions.key_usages,
+        extended_key_usages: extensions.extended_key_usages,
+        key: key.describe(),
+        signature_algorithm: algorithm.name().to_owned(),
+        signature_is_right: algorithm.verify(&key, info.raw, &parsed.signature_value.data) == Verdict::Right,
+        sha1: hex::encode_upper(Sha1::digest(der)),
+    })
+}
+
+/// The public half of an unencrypted PKCS#8.
+fn pkcs8(der: &[u8]) -> Result<KeyDescription, PkiError> {
+    let info = PrivateKeyInfo::try_from(der).map_err(|_| PkiError::NotAPrivateKey)?;
+    if info.algorithm.oid == rsa::pkcs1::ALGORITHM_OID {
+        return pkcs1(info.private_key);
+    }
+    let oid = info.algorithm.oid.to_string();
+    if oid != EC_PUBLIC_KEY {
+        return Ok(PublicKey::Other { oid }.describe());
+    }
+    let curve = info.algorithm.parameters_oid().ok().and_then(|oid| Curve::from_oid(&oid.to_string()));
+    sec1(info.private_key, curve).ok_or(PkiError::NotAPrivateKey)
+}
+
+/// The public half of an elliptic key in the form of RFC 5915: a version, the private number, and perhaps the curve
+/// and the public point.
+fn sec1(der: &[u8], curve: Option<Curve>) -> Option<KeyDescription> {
+    let (key, []) = tlv::first(der)? else { return None };
+    let parts = tlv::all(key.content)?;
+    let [version, number, more @ ..] = parts.as_slice() else { return None };
+    if version.content != [1] || number.tag != tlv::OCTET_STRING {
+        return None;
+    }
+    let inside = |tag| more.iter().find(|part| part.tag == tag).and_then(|part| tlv::first(part.content));
+    let curve = curve.or_else(|| {
+        let (oid, _) = inside(tlv::CONTEXT_0)?;
+        Curve::from_oid(&x509_parser::asn1_rs::Oid::new(oid.content.into()).to_id_string())
+    });
+    let point = inside(CONTEXT_1).and_then(|(bits, _)| bits.content.split_first()).map(|(_, point)| point.to_vec());
+    let is_known = point.is_some();
+    let bits = curve.map_or(0, Curve::bits);
+    let known = PublicKey::Ec { curve, bits, point: point.unwrap_or_default() }.describe();
+    Some(KeyDescription { key_id: known.key_id.filter(|_| is_known), ..known })
+}
+
+/// The public half of an RSA key in PKCS#1.
+fn pkcs1(der: &[u8]) -> Result<KeyDescription, PkiError> {
+    let key = rsa::pkcs1::RsaPrivateKey::try_from(der).map_err(|_| PkiError::NotAPrivateKey)?;
+    Ok(rsa_key(&key.public_key().to_der().map_err(|_| PkiError::NotAPrivateKey)?))
+}
+
+fn rsa_key(pkcs1: &[u8]) -> KeyDescription {
+    PublicKey::rsa(pkcs1).map(|key| key.describe()).unwrap_or_else(|_| KeyDescription {
+        algorithm: "RSA".to_owned(),
+        bits: None,
+        curve: None,
+        key_id: None,
+    })
+}
+
+const EC_PUBLIC_KEY: &str = "1.2.840.10045.2.1";
+const CONTEXT_1: u8 = 0xa1;
