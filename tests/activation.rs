@@ -146,6 +146,6 @@ async fn an_activation_whose_answer_was_lost_is_found_in_the_row() {
     assert!(!activated(&plant, 0));
     plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
     let reports = plant.run(from(&file)).await;
-    assert_eq!(code(&reports[0]), Some(ErrorCode::ConnectionLost));
+    assert_eq!(code(&reports[0]), Some(ErrorCode::AnswerLost));
     assert!(reports[0].info.as_ref().is_some_and(|info| info.activated));
 }

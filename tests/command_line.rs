@@ -67,8 +67,8 @@ fn from_an_empty_workspace_to_three_running_servers() {
 
 #[test]
 fn a_request_that_is_wrong_sends_nothing_and_ends_with_2() {
-    let desk = Desk::start(1);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
+    let desk = Desk::start(2);
+    assert_eq!((desk.add(0, "weld").0, desk.add(1, "paint").0), (Some(0), Some(0)));
     let user_password = desk.file("user-password");
     for (arguments, code) in [
         (&["start", "wled"][..], "unknown-controller"),
@@ -81,6 +81,7 @@ fn a_request_that_is_wrong_sends_nothing_and_ends_with_2() {
         (&["stop", "weld"], "not-confirmed"),
         (&["cert", "import-ca", "--file", "/nowhere.der", "--yes", "weld"], "file-not-found"),
         (&["cert", "import-ca", "--file", &user_password, "--yes", "weld"], "file-format"),
+        (&["cert", "import-ca", "--file", &user_password, "--yes", "weld", "paint"], "one-controller-only"),
         (&["cert", "import-user", "/nowhere.pfx", "--yes", "weld"], "file-not-found"),
         (&["cert", "import-user", &user_password, "--yes", "weld"], "file-format"),
         (&["cert", "import-user", "a", "b", "c", "--yes", "weld"], "several-files"),
@@ -283,4 +284,27 @@ fn controllers_killed_in_mid_change_come_back_whole() {
             revision = now;
         }
     }
+}
+
+#[test]
+fn one_workspace_is_for_one_program_at_a_time() {
+    let desk = Desk::start(1);
+    assert_eq!(desk.add(0, "weld").0, Some(0));
+    let held = opcua_configurator::workspace::Workspace::new(desk.workspace()).lock().unwrap();
+    let (exit, lines) = desk.json(&["controllers", "remove", "weld"]);
+    assert_eq!(exit, Some(2));
+    assert_error(&lines, "workspace-busy");
+    drop(held);
+    assert_eq!(desk.json(&["controllers", "remove", "weld"]).0, Some(0));
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_window_without_a_display_says_so() {
+    let desk = Desk::start(1);
+    let mut command = desk.command();
+    command.arg("--json").env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
+    let finished = Running::start(&mut command).unwrap().finish(DONE);
+    assert_eq!(finished.code, Some(2), "{}", finished.stderr);
+    assert_error(&[serde_json::from_str(&finished.stdout).unwrap()], "no-display");
 }

@@ -137,7 +137,10 @@ async fn a_connection_lost_before_the_change_leaves_the_controller_as_it_was() {
     plant.run(StartServer).await;
     let before = plant.controller(0).info();
     plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::BeforeApply));
-    assert_eq!(codes(&plant.run(user("operator1")).await), [Some(ErrorCode::ConnectionLost)]);
+    let reports = plant.run(user("operator1")).await;
+    assert_eq!(codes(&reports), [Some(ErrorCode::ConnectionLost)]);
+    let detail = reports[0].result.as_ref().unwrap_err().detail.clone().unwrap();
+    assert!(detail.contains("not applied when it was read again"), "{detail}");
     let after = plant.controller(0).info();
     assert_eq!((after.revision, after.status), (before.revision, ServerStatus::Run));
     let users = plant.run(ListUsers).await;
@@ -150,8 +153,19 @@ async fn a_lost_answer_is_said_to_be_lost_and_the_row_shows_what_was_done() {
     let before = plant.controller(0).info().revision;
     plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
     let reports = plant.run(user("operator1")).await;
-    assert_eq!(codes(&reports), [Some(ErrorCode::ConnectionLost)]);
+    assert_eq!(codes(&reports), [Some(ErrorCode::AnswerLost)]);
     assert_eq!(reports[0].info.as_ref().map(|i| i.revision), Some(before + 1));
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_key_the_security_policies_do_not_allow_keeps_the_server_from_starting() {
+    let plant = Plant::start(1, FleetFirmware::Legacy).await;
+    let fields = SelfSignedFields { key_length: KeyLength::Rsa4096, ..certificate().fields };
+    assert_eq!(codes(&plant.run(policies(&[SecurityPolicy::Basic256Sha256])).await), [None]);
+    assert_eq!(codes(&plant.run(SelfSigned { fields, backup: None }).await), [None]);
+    assert_eq!(codes(&plant.run(policies(&[SecurityPolicy::Basic128Rsa15])).await), [None]);
+    assert_eq!(codes(&plant.run(StartServer).await), [Some(ErrorCode::InvalidParameter)]);
+    assert_eq!(plant.controller(0).info().error, Some(ErrorCode::InvalidParameter));
 }
 
 #[tokio::test(flavor = "multi_thread")]

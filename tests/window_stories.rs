@@ -223,8 +223,9 @@ fn a_failing_controller_is_explained_with_cause_and_remedy() {
     type_into(&mut desk.window, "Password", "Passw0rd1");
     desk.click("Add");
     desk.click("OK");
-    desk.wait_for("The connection was lost during the operation");
+    desk.wait_for("The change was applied, but its answer was lost");
     desk.click("Close");
+    desk.wait_for("operator2");
 }
 
 #[test]

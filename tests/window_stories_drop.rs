@@ -111,17 +111,17 @@ fn an_activation_file_is_announced_and_opens_its_dialog_also_for_one_controller(
     let file = desk.put("from the mail.txt", format!("OPCUA.Activation.Ver.1.0\r\n{lines}"));
 
     // With no controller ticked there is nobody to activate: said before and after dropping.
-    desk.hold(&[file.clone()]);
+    desk.hold(std::slice::from_ref(&file));
     desk.wait_for("Tick at least one controller first");
     assert!(shows(&desk.window, "from the mail.txt") && shows(&desk.window, "Activation file"));
-    desk.drop(&[file.clone()]);
+    desk.drop(std::slice::from_ref(&file));
     desk.wait_for("Dropped files");
     assert!(shows(&desk.window, "Tick at least one controller first") && !is_enabled(&desk.window, "Open"));
     desk.click("Close");
     assert!(desk.window.state().model.dialogs.is_empty());
 
     desk.tick(&["cell 2"]);
-    desk.hold(&[file.clone()]);
+    desk.hold(std::slice::from_ref(&file));
     desk.wait_for("Opens: Activation");
     // Carried away again, nothing remains.
     desk.hold(&[]);
@@ -157,12 +157,12 @@ fn a_settings_export_from_anywhere_is_put_back() {
     fs::remove_file(&export).unwrap();
 
     desk.tick(&["cell 2"]);
-    desk.drop(&[elsewhere.clone()]);
+    desk.drop(std::slice::from_ref(&elsewhere));
     desk.wait_for("tick only that one");
     desk.click("Close");
     // Another controller's.
     desk.tick(&["cell 1"]);
-    desk.drop(&[elsewhere.clone()]);
+    desk.drop(std::slice::from_ref(&elsewhere));
     desk.wait_for("Import settings – cell 2");
     desk.wait_for("Remedy");
     assert!(!is_enabled(&desk.window, "Import"));
@@ -193,9 +193,9 @@ fn a_certificate_goes_where_it_is_told_and_is_imported() {
     let signed = Certificate::from_der(&Ca::new().sign(&csr)).unwrap();
     let file = desk.put("answer of the CA", signed.to_pem());
 
-    desk.hold(&[file.clone()]);
+    desk.hold(std::slice::from_ref(&file));
     desk.wait_for("Several dialogs take this");
-    desk.drop(&[file.clone()]);
+    desk.drop(std::slice::from_ref(&file));
     desk.wait_for("Use as");
     for part in ["CA-signed certificate", "User-specified certificate", "Client certificates"] {
         assert!(shows(&desk.window, part), "no {part:?} among the choices");
@@ -206,7 +206,7 @@ fn a_certificate_goes_where_it_is_told_and_is_imported() {
     assert!(shows(&desk.window, "Key file"));
     desk.click("Cancel");
 
-    desk.drop(&[file.clone()]);
+    desk.drop(std::slice::from_ref(&file));
     desk.wait_for("Use as");
     desk.click("CA-signed certificate");
     desk.click("Open");
@@ -232,12 +232,12 @@ fn a_pfx_and_a_pair_of_files_fill_the_user_specified_dialog() {
 
     // Later firmware makes its own keys.
     desk.tick(&[&other]);
-    desk.drop(&[pfx.clone()]);
+    desk.drop(std::slice::from_ref(&pfx));
     desk.wait_for("Only for firmware before 8.0.0");
     desk.click("Close");
     desk.tick(&[&other, &name]);
 
-    desk.drop(&[pfx.clone()]);
+    desk.drop(std::slice::from_ref(&pfx));
     desk.wait_for_value(&pfx.display().to_string());
     type_into(&mut desk.window, "Password of the file", "secret");
     desk.click("Import…");
@@ -246,7 +246,7 @@ fn a_pfx_and_a_pair_of_files_fill_the_user_specified_dialog() {
     desk.click("Cancel");
 
     // The key alone, then both in whatever order.
-    desk.drop(&[key_file.clone()]);
+    desk.drop(std::slice::from_ref(&key_file));
     desk.wait_for_value(&key_file.display().to_string());
     desk.click("Cancel");
     desk.drop(&[key_file.clone(), certificate_file.clone()]);
@@ -320,7 +320,7 @@ fn what_cannot_be_used_is_said_with_its_reason() {
         (folder, "The file cannot be read"),
         (desk.folder.path().join("gone.csv"), "The file cannot be read"),
     ] {
-        desk.drop(&[path.clone()]);
+        desk.drop(std::slice::from_ref(&path));
         desk.wait_for("Dropped files");
         assert!(shows(&desk.window, said), "{path:?}: no {said:?}");
         desk.click("Close");
@@ -335,9 +335,9 @@ fn what_cannot_be_used_is_said_with_its_reason() {
     desk.wait_for("Import 1 of 1 controller");
 
     // A dialog is open: it stays as it is.
-    desk.hold(&[list.clone()]);
+    desk.hold(std::slice::from_ref(&list));
     assert!(shows(&desk.window, "A dialog is open"));
-    desk.drop(&[list.clone()]);
+    desk.drop(std::slice::from_ref(&list));
     assert!(shows(&desk.window, "A dialog is open"));
     desk.click("Close");
     assert!(shows(&desk.window, "Import 1 of 1 controller"));

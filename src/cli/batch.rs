@@ -14,6 +14,7 @@ use super::table::table;
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Operation, Outcome, Report};
 use crate::model::{ControllerInfo, ErrorCode, Problem};
+use crate::pki::Severity;
 use crate::session::ManagementConnector;
 use crate::workspace::{Configuration, ControllerEntry, Passwords, Retrieved};
 
@@ -91,13 +92,71 @@ impl Settled {
         presentation: &Presentation,
     ) -> Result<Vec<Report>, Problem> {
         if let Some(confirmation) = operation.confirmation() {
-            self.confirm(confirmation, chosen)?;
+            self.confirm(confirmation, chosen, &[])?;
         }
+        self.confirmed(configuration, chosen, operation, presentation)
+    }
+
+    /// As [`Settled::reports`], once everything was agreed to.
+    fn confirmed(
+        &self,
+        configuration: &Configuration,
+        chosen: &[ControllerEntry],
+        operation: impl Operation + 'static,
+        presentation: &Presentation,
+    ) -> Result<Vec<Report>, Problem> {
         let context = self.context(configuration.options.parallelism)?;
         let controllers: Vec<JobController> = chosen.iter().map(JobController::from).collect();
         let reports = self.run_job(controllers, Arc::new(operation), context, presentation)?;
         self.remember(chosen, &reports);
         Ok(reports)
+    }
+
+    /// Whether there is a person to ask, and reason to.
+    fn asks(&self) -> bool {
+        !self.yes && std::io::stdin().is_terminal()
+    }
+
+    /// An import of server certificates. Whoever sits at a terminal is shown what clients will say of them, and asked
+    /// about it together with the rest; else that is agreed to with `--yes` or not at all.
+    pub fn import<I: Operation + 'static>(
+        &self,
+        configuration: &Configuration,
+        chosen: &[ControllerEntry],
+        check: impl Operation + 'static,
+        import: impl FnOnce(bool) -> I,
+        presentation: &Presentation,
+    ) -> Result<Ending, Problem> {
+        if self.output.is_json() || !self.asks() {
+            return self.batch(configuration, chosen, import(self.yes), presentation);
+        }
+        let checked = self.confirmed(configuration, chosen, check, presentation)?;
+        let mut good = 0;
+        let mut remarks = Vec::new();
+        for (entry, report) in chosen.iter().zip(&checked) {
+            let Ok(Outcome::Checked { findings, .. }) = &report.result else { continue };
+            self.output.findings(entry.name.as_str(), findings);
+            if findings.iter().all(|finding| finding.severity() == Severity::Warning) {
+                good += 1;
+                if !findings.is_empty() {
+                    remarks.push("clients may complain about what is listed above");
+                }
+            }
+        }
+        if good == 0 {
+            // The import says for each why it is refused, and sends nothing.
+            let reports = self.confirmed(configuration, chosen, import(false), presentation)?;
+            self.print(chosen, &reports, presentation);
+            return Ok(Ending::of(&reports));
+        }
+        remarks.dedup();
+        let import = import(true);
+        if let Some(confirmation) = import.confirmation() {
+            self.confirm(confirmation, chosen, &remarks)?;
+        }
+        let reports = self.confirmed(configuration, chosen, import, presentation)?;
+        self.print(chosen, &reports, presentation);
+        Ok(Ending::of(&reports))
     }
 
     fn run_job(
@@ -120,7 +179,8 @@ impl Settled {
                 if output.is_json() {
                     match (&report.result, &report.info) {
                         (Ok(outcome), Some(info)) => output.done(&names[index], &show(outcome, info).json),
-                        (Ok(_), None) => output.failed(&names[index], &ErrorCode::ConnectionLost.into()),
+                        // Done, but what the controller is like now could not be read.
+                        (Ok(_), None) => output.done(&names[index], &Value::Null),
                         (Err(problem), _) => output.failed(&names[index], problem),
                     }
                 }
@@ -178,6 +238,10 @@ impl Settled {
                 let mut row = vec![entry.name.to_string()];
                 row.extend((presentation.show)(outcome, info).cells);
                 rows.push(row);
+            } else if report.result.is_ok() {
+                // Done, but what the controller is like now could not be read.
+                let unknown = presentation.header.iter().map(|_| "-".to_owned());
+                rows.push(std::iter::once(entry.name.to_string()).chain(unknown).collect());
             }
         }
         if !rows.is_empty() {
@@ -192,11 +256,11 @@ impl Settled {
     }
 
     /// Asks on a terminal; without one, `--yes` must have been given.
-    fn confirm(&self, confirmation: Confirmation, chosen: &[ControllerEntry]) -> Result<(), Problem> {
+    fn confirm(&self, confirmation: Confirmation, chosen: &[ControllerEntry], remarks: &[&str]) -> Result<(), Problem> {
         if self.yes || confirmation == Confirmation::default() {
             return Ok(());
         }
-        if !std::io::stdin().is_terminal() {
+        if !self.asks() {
             return Err(ErrorCode::NotConfirmed.into());
         }
         let names: Vec<&str> = chosen.iter().map(|c| c.name.as_str()).collect();
@@ -212,11 +276,17 @@ impl Settled {
             (confirmation.overwrites_files, "files of the same name on this computer are replaced"),
             (confirmation.deletes_log, "the server log is deleted"),
             (confirmation.disconnects_clients, "clients that are not trusted any more are disconnected at once"),
-            (confirmation.replaces_settings, "settings and users are replaced by those that were exported"),
+            (
+                confirmation.replaces_settings,
+                "settings and users are replaced by those that were exported, and so are the activation keys if the export holds any",
+            ),
         ] {
             if applies {
                 eprintln!("  - {says}");
             }
+        }
+        for remark in remarks {
+            eprintln!("  - {remark}");
         }
         eprint!("Go on? [y/N] ");
         let mut answer = String::new();

@@ -8,8 +8,9 @@ use super::passwords::read_secret;
 use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
 use crate::jobs::{
-    CaCertificateSource, CreateCsr, CsrFields, ExportSelfSigned, ImportCaCertificate, ImportUserCertificate, Outcome,
-    SelectCertificateType, SelfSigned, SelfSignedFields, UserCertificateFiles,
+    CaCertificateSource, CheckCaCertificate, CheckUserCertificate, CreateCsr, CsrFields, ExportSelfSigned,
+    ImportCaCertificate, ImportUserCertificate, Outcome, SelectCertificateType, SelfSigned, SelfSignedFields,
+    UserCertificateFiles,
 };
 use crate::model::{CertificateType, ErrorCode, FileFormat, KeyLength, Language, Problem, Validity};
 use crate::pki::{Finding, Severity};
@@ -240,8 +241,9 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
                     source
                 }
             };
-            let operation = ImportCaCertificate { source, accept_warnings: settled.yes };
-            settled.batch(&configuration, &chosen, operation, &IMPORTED)
+            let check = CheckCaCertificate(source.clone());
+            let import = |accept_warnings| ImportCaCertificate { source, accept_warnings };
+            settled.import(&configuration, &chosen, check, import, &IMPORTED)
         }
         CertCommand::ImportUser { password_file, arguments } => {
             let (files, chosen) = arguments.resolve(&configuration)?;
@@ -253,8 +255,9 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
             };
             let password = password_file.as_deref().map(read_secret).transpose()?;
             files.read(password.as_ref())?;
-            let operation = ImportUserCertificate { files, password, accept_warnings: settled.yes };
-            settled.batch(&configuration, &chosen, operation, &IMPORTED)
+            let check = CheckUserCertificate { files: files.clone(), password: password.clone() };
+            let import = |accept_warnings| ImportUserCertificate { files, password, accept_warnings };
+            settled.import(&configuration, &chosen, check, import, &IMPORTED)
         }
         CertCommand::SelectType { kind, select } => {
             let chosen = select.resolve(&configuration)?;

@@ -3,6 +3,7 @@ use std::io::{IsTerminal as _, Write as _};
 use serde_json::{Value, json};
 
 use crate::model::{Language, Problem};
+use crate::pki::{Finding, Severity};
 
 /// Standard output and error, in the form that was asked for.
 #[derive(Debug, Clone, Copy)]
@@ -63,6 +64,19 @@ impl Output {
         let who = who.map(|w| format!("{w}: ")).unwrap_or_default();
         let detail = problem.detail.as_ref().map(|d| format!(" ({d})")).unwrap_or_default();
         eprintln!("{who}{}{detail}\n    {}\n    {}", explained.message, explained.cause, explained.remedy);
+    }
+
+    /// What clients will say about a certificate, on standard error.
+    pub fn findings(self, who: &str, findings: &[Finding]) {
+        for finding in findings {
+            let severity = match (finding.severity(), self.language) {
+                (Severity::Error, Language::En) => "error",
+                (Severity::Warning, Language::En) => "warning",
+                (Severity::Error, Language::Zh) => "错误",
+                (Severity::Warning, Language::Zh) => "警告",
+            };
+            eprintln!("{who}: {severity}: {} ({})", finding.explain(self.language), finding.status());
+        }
     }
 
     /// The request itself was wrong.

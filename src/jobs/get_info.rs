@@ -17,4 +17,8 @@ impl Operation for GetInfo {
     async fn run(&self, _run: &mut Run<'_>) -> Result<Outcome, Problem> {
         Ok(Outcome::Done)
     }
+
+    fn is_information(&self) -> bool {
+        true
+    }
 }

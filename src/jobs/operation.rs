@@ -5,7 +5,7 @@ use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
 use super::{JobController, TrustChange, TrustSnapshot};
-use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, UserName};
+use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, ServerStatus, UserName};
 use crate::pki::{Finding, Issuers};
 use crate::protocol::{HeldCertificates, LogChunk, Revisioned};
 use crate::session::ControllerSession;
@@ -23,6 +23,16 @@ pub trait Operation: Send + Sync {
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem>;
+
+    /// The status in which it leaves the server, for an operation that changes nothing else. Default: none.
+    fn wanted_status(&self) -> Option<ServerStatus> {
+        None
+    }
+
+    /// The information the runner reads afterwards is all that is wanted. Default: it is not.
+    fn is_information(&self) -> bool {
+        false
+    }
 }
 
 /// What an operation does that a person must agree to.

@@ -1,5 +1,6 @@
 use std::collections::HashMap;
 use std::sync::Arc;
+use std::time::Duration;
 
 use secrecy::SecretString;
 use tokio::sync::Semaphore;
@@ -209,15 +210,86 @@ async fn one(
             on_step,
         })
         .await;
+    let unanswered = session.unanswered();
+    let again = Again { controller, context, fingerprint, password: &password };
     // Also after a failure: the row must show what the controller is like now.
     let report = match result {
+        Err(problem) if unanswered.is_some() || (is_silence(&problem) && operation.wanted_status().is_some()) => {
+            again.find_out(problem, unanswered, operation, cancel).await
+        }
         Err(problem) if matches!(problem.code, ErrorCode::Timeout | ErrorCode::Unreachable) => {
             Report { result: Err(problem), info: None }
         }
         result => match (result, session.info().await) {
-            (Ok(_), Err(problem)) => Report { result: Err(problem), info: None },
+            (Ok(_), Err(problem)) if operation.is_information() => Report { result: Err(problem), info: None },
+            // What was done is done, whatever became of the connection since.
+            (Ok(outcome), Err(_)) => Report { result: Ok(outcome), info: again.read().await.ok() },
             (result, info) => Report { result, info: info.ok() },
         },
     };
     Turn { report, session: Some(session) }
+}
+
+/// Nothing came back.
+fn is_silence(problem: &Problem) -> bool {
+    matches!(problem.code, ErrorCode::Timeout | ErrorCode::ConnectionLost)
+}
+
+/// When a controller that did not answer is read again, each after the one before.
+const READ_AGAIN: [Duration; 3] = [Duration::ZERO, Duration::from_secs(1), Duration::from_secs(2)];
+
+/// A way to a controller besides the session that failed.
+struct Again<'a> {
+    controller: &'a JobController,
+    context: &'a JobContext,
+    fingerprint: Fingerprint,
+    password: &'a SecretString,
+}
+
+impl Again<'_> {
+    async fn read(&self) -> Result<ControllerInfo, Problem> {
+        let mut session =
+            self.context.connector.connect(&self.controller.address, self.fingerprint, self.password).await?;
+        let info = session.info().await;
+        session.close().await;
+        info
+    }
+
+    /// A change was sent and nothing came back. The controller is read again, a few times at most:
+    ///
+    /// - Its revision is later than the one the change was based on: [`ErrorCode::AnswerLost`]. Not a success, because
+    ///   what the answer carried is lost (a certificate to be backed up, a request to be saved), and because in rare
+    ///   cases it was somebody else's change; the row shows how it is.
+    /// - It is where a start or a stop should bring it: done, whoever did it.
+    /// - Neither: what went wrong, saying that the change was not seen. The controller may still be at work on it.
+    async fn find_out(
+        &self,
+        problem: Problem,
+        based_on: Option<u64>,
+        operation: &dyn Operation,
+        cancel: &CancellationToken,
+    ) -> Report {
+        let mut last = None;
+        for pause in READ_AGAIN {
+            if cancel.is_cancelled() && last.is_some() {
+                break;
+            }
+            tokio::time::sleep(pause).await;
+            let Ok(info) = self.read().await else { continue };
+            if operation.wanted_status() == Some(info.status) {
+                return Report { result: Ok(Outcome::Done), info: Some(info) };
+            }
+            if let Some(before) = based_on.filter(|before| info.revision > *before) {
+                let detail = format!("{}; revision {before} is now {}", problem.code.as_str(), info.revision);
+                return Report { result: Err(Problem::with_detail(ErrorCode::AnswerLost, detail)), info: Some(info) };
+            }
+            last = Some(info);
+        }
+        let seen = match &last {
+            Some(info) => format!("not applied when it was read again, revision {}", info.revision),
+            None => "whether it was applied could not be read".to_owned(),
+        };
+        let detail = problem.detail.map_or(seen.clone(), |detail| format!("{detail}; {seen}"));
+        Report { result: Err(Problem::with_detail(problem.code, detail)), info: last }
+    }
 }

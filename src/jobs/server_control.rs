@@ -1,7 +1,7 @@
 use async_trait::async_trait;
 
 use super::{Confirmation, Operation, Outcome, Run, Step};
-use crate::model::Problem;
+use crate::model::{Problem, ServerStatus};
 
 /// Starts the OPC UA server (manual 2.4.3).
 #[derive(Debug, Clone, Copy)]
@@ -17,6 +17,10 @@ impl Operation for StartServer {
         run.begin(Step::Apply)?;
         run.session.start_server().await?;
         Ok(Outcome::Done)
+    }
+
+    fn wanted_status(&self) -> Option<ServerStatus> {
+        Some(ServerStatus::Run)
     }
 }
 
@@ -34,5 +38,9 @@ impl Operation for StopServer {
         run.begin(Step::Apply)?;
         run.session.stop_server().await?;
         Ok(Outcome::Done)
+    }
+
+    fn wanted_status(&self) -> Option<ServerStatus> {
+        Some(ServerStatus::Stop)
     }
 }

@@ -96,7 +96,7 @@ mod tests {
         let issuers = issuers_of(&leaf, &known);
         assert_eq!(issuers, Issuers { chain: vec![middle.clone(), root], complete: true });
         assert_eq!(issuers_of(&leaf, &[impostor]), Issuers { chain: vec![], complete: false });
-        assert_eq!(issuers_of(&leaf, &[middle.clone()]), Issuers { chain: vec![middle], complete: false });
+        assert_eq!(issuers_of(&leaf, std::slice::from_ref(&middle)), Issuers { chain: vec![middle], complete: false });
         assert_eq!(issuers_of(samples::certificate(), &[]), Issuers { chain: vec![], complete: true });
     }
 

@@ -6,6 +6,8 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use async_trait::async_trait;
+use parking_lot::Mutex;
+use reqwest::header::CONTENT_TYPE;
 use reqwest::{Method, StatusCode};
 use secrecy::SecretString;
 use serde::de::DeserializeOwned;
@@ -86,6 +88,15 @@ struct Link {
     pin: Option<Fingerprint>,
     token: Option<WireSecret>,
     timeouts: Timeouts,
+    /// See [`ControllerSession::unanswered`].
+    unanswered: Mutex<Option<u64>>,
+}
+
+/// What every change says of itself.
+#[derive(Deserialize)]
+struct BasedOn {
+    #[serde(default)]
+    revision: Option<u64>,
 }
 
 impl Link {
@@ -103,7 +114,8 @@ impl Link {
             .pool_max_idle_per_host(1)
             .build()
             .map_err(|e| internal(&e))?;
-        Ok(Self { client, verifier, base: format!("https://{}", address.authority()), pin, token: None, timeouts })
+        let base = format!("https://{}", address.authority());
+        Ok(Self { client, verifier, base, pin, token: None, timeouts, unanswered: Mutex::new(None) })
     }
 
     async fn send<B: Serialize + Sync, R: DeserializeOwned>(
@@ -117,16 +129,29 @@ impl Link {
         if let Some(token) = &self.token {
             request = request.bearer_auth(token.expose());
         }
+        let mut based_on = None;
         if let Some(body) = body {
-            request = request.json(body);
+            let json = serde_json::to_vec(body).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
+            based_on = serde_json::from_slice(&json).ok().and_then(|BasedOn { revision }| revision);
+            request = request.header(CONTENT_TYPE, "application/json").body(json);
         }
-        let response = request.send().await.map_err(|e| self.explain(&e))?;
+        let lost = || *self.unanswered.lock() = based_on;
+        let response = request.send().await.map_err(|e| {
+            // Without a connection nothing was sent.
+            if !e.is_connect() {
+                lost();
+            }
+            self.explain(&e)
+        })?;
         let status = response.status();
-        let bytes = self.read_bounded(response).await?;
+        let bytes = self.read_bounded(response).await.inspect_err(|_| lost())?;
         if status.is_success() {
             // An answer without content is JSON `null`.
             let json: &[u8] = if bytes.is_empty() { b"null" } else { &bytes };
-            return serde_json::from_slice(json).map_err(|e| Problem::with_detail(ErrorCode::NotAController, e));
+            return serde_json::from_slice(json).map_err(|e| {
+                lost();
+                Problem::with_detail(ErrorCode::NotAController, e)
+            });
         }
         if let Ok(failure) = serde_json::from_slice::<Failure>(&bytes) {
             return Err(failure.into());
@@ -332,6 +357,10 @@ impl ControllerSession for Link {
 
     async fn import_settings(&mut self, change: ImportSettings) -> Result<Changed, Problem> {
         self.change(protocol::SETTINGS_IMPORT, &change).await
+    }
+
+    fn unanswered(&self) -> Option<u64> {
+        *self.unanswered.lock()
     }
 
     async fn close(&mut self) {

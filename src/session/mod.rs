@@ -124,6 +124,10 @@ pub trait ControllerSession: Send + Sync {
     async fn import_settings(&mut self, _change: ImportSettings) -> Result<Changed, Problem> {
         not_offered()
     }
+    /// The revision that a change was based on which was sent and whose answer did not come: it may have been applied.
+    fn unanswered(&self) -> Option<u64> {
+        None
+    }
     /// Ends the session in the controller. Failing to do so is harmless: it expires there.
     async fn close(&mut self);
 }

@@ -1,6 +1,7 @@
 use std::fs;
 use std::io::Write as _;
 use std::path::Path;
+use std::time::{Duration, SystemTime};
 
 use super::WorkspaceError;
 
@@ -17,18 +18,83 @@ pub(super) fn create_folder(path: &Path) -> Result<(), WorkspaceError> {
 ///
 /// The file is readable by its owner only (0600); missing folders are made.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), WorkspaceError> {
-    let folder = path.parent().unwrap_or(Path::new("."));
-    create_folder(folder)?;
-    let failed = |e| WorkspaceError::writing(path, e);
-    // `tempfile` makes it 0600, and removes it if anything below fails.
-    let mut file = tempfile::Builder::new().prefix(".writing-").tempfile_in(folder).map_err(failed)?;
-    file.write_all(bytes).map_err(failed)?;
-    file.as_file().sync_all().map_err(failed)?;
-    file.persist(path).map_err(|e| failed(e.error))?;
-    #[cfg(unix)]
-    fs::File::open(folder).and_then(|f| f.sync_all()).map_err(failed)?;
-    Ok(())
+    Staged::new(path, bytes)?.persist()
 }
+
+/// Writes two files that belong together: both are whole on the disk before the first takes its name.
+///
+/// No file system renames two files at once. Between the two renames the program can be killed or the power fail, and
+/// then the first is new and the second old; so the first should be the one that is of use alone.
+pub fn write_pair_atomic(first: (&Path, &[u8]), second: (&Path, &[u8])) -> Result<(), WorkspaceError> {
+    let (first, second) = (Staged::new(first.0, first.1)?, Staged::new(second.0, second.1)?);
+    first.persist()?;
+    second.persist()
+}
+
+/// A file that is whole on the disk and has only to take its name; removed if it does not.
+struct Staged<'a> {
+    path: &'a Path,
+    folder: &'a Path,
+    file: tempfile::NamedTempFile,
+}
+
+impl<'a> Staged<'a> {
+    fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, WorkspaceError> {
+        let folder = path.parent().unwrap_or(Path::new("."));
+        create_folder(folder)?;
+        let failed = |e| WorkspaceError::writing(path, e);
+        // `tempfile` makes it 0600.
+        let mut file = tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder).map_err(failed)?;
+        file.write_all(bytes).map_err(failed)?;
+        file.as_file().sync_all().map_err(failed)?;
+        Ok(Self { path, folder, file })
+    }
+
+    fn persist(self) -> Result<(), WorkspaceError> {
+        let failed = |e| WorkspaceError::writing(self.path, e);
+        self.file.persist(self.path).map_err(|e| failed(e.error))?;
+        #[cfg(unix)]
+        fs::File::open(self.folder).and_then(|f| f.sync_all()).map_err(failed)?;
+        Ok(())
+    }
+}
+
+/// Removes temporary files that a program which was killed left under a folder: only files, only under the names
+/// [`write_atomic`] gives them, and only when nobody can still be writing them. Returns how many.
+pub(super) fn remove_leftovers(root: &Path, now: SystemTime) -> usize {
+    let mut removed = 0;
+    let mut folders = vec![(root.to_owned(), 0)];
+    while let Some((folder, depth)) = folders.pop() {
+        let Ok(entries) = fs::read_dir(&folder) else { continue };
+        for entry in entries.take(MAX_ENTRIES).flatten() {
+            // Of the entry itself: a link leads out of the workspace.
+            let Ok(meta) = entry.metadata() else { continue };
+            if meta.is_dir() && depth < MAX_DEPTH {
+                folders.push((entry.path(), depth + 1));
+            }
+            let age = meta.modified().ok().and_then(|modified| now.duration_since(modified).ok());
+            let is_leftover = meta.is_file()
+                && entry.file_name().to_str().is_some_and(is_temporary_name)
+                && age.is_some_and(|age| age > LEFTOVER_AGE);
+            if is_leftover && fs::remove_file(entry.path()).is_ok() {
+                removed += 1;
+            }
+        }
+    }
+    removed
+}
+
+fn is_temporary_name(name: &str) -> bool {
+    let random = |rest: &str| rest.len() == 6 && rest.bytes().all(|byte| byte.is_ascii_alphanumeric());
+    name.strip_prefix(TEMPORARY).is_some_and(random)
+}
+
+const TEMPORARY: &str = ".writing-";
+/// Nobody takes so long to write a file.
+const LEFTOVER_AGE: Duration = Duration::from_secs(60 * 60);
+/// `<workspace>/<serial>/Cert/<kind>`.
+const MAX_DEPTH: usize = 3;
+const MAX_ENTRIES: usize = 20_000;
 
 #[cfg(test)]
 mod tests {
@@ -49,5 +115,40 @@ mod tests {
             assert_eq!(mode(&path), 0o600);
             assert_eq!(mode(path.parent().unwrap()), 0o700);
         }
+    }
+
+    #[test]
+    fn a_pair_is_written_whole_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let (key, certificate) = (folder.path().join("1_key.pfx"), folder.path().join("1_cert.der"));
+        write_pair_atomic((&key, b"k1"), (&certificate, b"c1")).unwrap();
+        // The second cannot even be staged: the first stays what it was.
+        let nowhere = key.join("below a file/1_cert.der");
+        write_pair_atomic((&key, b"k2"), (&nowhere, b"c2")).unwrap_err();
+        assert_eq!((fs::read(&key).unwrap(), fs::read(&certificate).unwrap()), (b"k1".to_vec(), b"c1".to_vec()));
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no temporary file is left");
+    }
+
+    #[test]
+    fn only_old_files_of_our_own_are_leftovers() {
+        let root = tempfile::tempdir().unwrap();
+        let deep = root.path().join("SN1/Cert/SelfSigned");
+        fs::create_dir_all(deep.join(".writing-folder")).unwrap();
+        let outside = tempfile::tempdir().unwrap();
+        fs::write(outside.path().join(".writing-abc123"), "x").unwrap();
+        for name in [".writing-abc123", ".writing-abc", ".writing-../x", "writing-abc123", ".writing-abc123.json"] {
+            fs::write(deep.join(name.replace('/', "_")), "x").unwrap();
+        }
+        fs::write(root.path().join(".writing-Zz09aA"), "x").unwrap();
+        #[cfg(unix)]
+        {
+            std::os::unix::fs::symlink(outside.path(), root.path().join("link")).unwrap();
+            std::os::unix::fs::symlink(outside.path(), root.path().join(".writing-linked")).unwrap();
+        }
+        assert_eq!(remove_leftovers(root.path(), SystemTime::now()), 0, "somebody may still be writing them");
+        let later = SystemTime::now() + LEFTOVER_AGE + Duration::from_secs(60);
+        assert_eq!(remove_leftovers(root.path(), later), 2);
+        assert!(!deep.join(".writing-abc123").exists() && outside.path().join(".writing-abc123").exists());
+        assert_eq!(fs::read_dir(&deep).unwrap().count(), 5);
     }
 }

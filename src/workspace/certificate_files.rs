@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use secrecy::{ExposeSecret as _, SecretString};
 
-use super::{WorkspaceError, write_atomic};
+use super::{WorkspaceError, write_atomic, write_pair_atomic};
 use crate::model::{ErrorCode, FileFormat, Problem, SerialNumber};
 use crate::pki::{Certificate, Csr, PrivateKey, pkcs12_write, pkcs12_write_key};
 
@@ -129,18 +129,21 @@ impl CertificateFiles {
         key: Option<(&PrivateKey, &SecretString)>,
     ) -> Result<SavedCertificate, Problem> {
         let folder = self.self_signed_folder(serial);
+        let path = folder.join("1_cert.der");
         let key_file = match key {
-            None => None,
+            None => {
+                write_atomic(&path, certificate.der())?;
+                None
+            }
             Some((key, password)) => {
                 let pfx = pkcs12_write(serial.as_str(), key, &[certificate], password.expose_secret())
                     .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
-                let path = folder.join("1_key.pfx");
-                write_atomic(&path, &pfx)?;
-                Some(path)
+                let key_path = folder.join("1_key.pfx");
+                // The certificate is in the key file as well.
+                write_pair_atomic((&key_path, &pfx), (&path, certificate.der()))?;
+                Some(key_path)
             }
         };
-        let path = folder.join("1_cert.der");
-        write_atomic(&path, certificate.der())?;
         Ok(SavedCertificate { certificate: path, key: key_file })
     }
 }

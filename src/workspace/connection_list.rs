@@ -79,7 +79,7 @@ pub enum Skipped {
     /// Not an error: the manual asks for it.
     #[error("the address is already in the list of controllers, as \"{0}\"")]
     AddressRegistered(ControllerName),
-    #[error("it has {0} fields; name, type and address are required")]
+    #[error("it has {0} field{s}; name, type and address are required", s = if *.0 == 1 { "" } else { "s" })]
     Fields(usize),
     #[error("\"{0}\" is not a type of connection; known are Ethernet, USB and Virtual")]
     Type(String),

@@ -49,7 +49,7 @@ pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, Problem> {
     Ok(bytes)
 }
 
-/// The contents of the other certificate files in the folder of one, of at most [`MAX_BESIDE`]. One that cannot be read
+/// The contents of the other certificate files in the folder of one, of at most 50. One that cannot be read
 /// is passed over: nobody asked for it. Blocks.
 pub fn certificate_files_beside(path: &Path) -> Vec<Vec<u8>> {
     let Some(files) = path.parent().and_then(|folder| fs::read_dir(folder).ok()) else { return Vec::new() };

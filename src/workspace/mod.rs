@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use chrono::Utc;
 use thiserror::Error;
 
-pub use atomic::write_atomic;
+pub use atomic::{write_atomic, write_pair_atomic};
 pub use certificate_files::{CertificateFiles, SavedCertificate, SavedCsr};
 pub use configuration::{
     Configuration, ControllerEntry, MAX_PARALLELISM, Options, Retrieved, ThemeChoice, WindowState,
@@ -153,6 +153,14 @@ impl Workspace {
     /// Makes a folder of the workspace, so that something can be put into it. Folders elsewhere are left alone.
     pub fn make_folder(&self, folder: &Path) -> Result<(), WorkspaceError> {
         if folder.starts_with(&self.root) { atomic::create_folder(folder) } else { Ok(()) }
+    }
+
+    /// Removes temporary files that a program which was killed left here long ago. For whoever holds the workspace.
+    pub fn remove_leftovers(&self, _lock: &WorkspaceLock) {
+        let removed = atomic::remove_leftovers(&self.root, std::time::SystemTime::now());
+        if removed > 0 {
+            tracing::info!(removed, "temporary files of a former run were removed");
+        }
     }
 
     /// Takes the right to write the configuration: the window for as long as it is open, a command for one change.

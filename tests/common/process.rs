@@ -26,7 +26,12 @@ pub struct Finished {
 impl Running {
     /// Fails only if the program cannot be started at all, as when it is not installed.
     pub fn start(command: &mut Command) -> io::Result<Self> {
-        let mut child = command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
+        Self::start_with(command, Stdio::null())
+    }
+
+    /// As [`Running::start`], with something on standard input.
+    pub fn start_with(command: &mut Command, stdin: Stdio) -> io::Result<Self> {
+        let mut child = command.stdin(stdin).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
         let stdout = child.stdout.take().expect("stdout is piped");
         let mut stderr = child.stderr.take().expect("stderr is piped");
         let (sender, lines) = channel();

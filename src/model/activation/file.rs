@@ -44,7 +44,7 @@ pub struct LineMistake {
 /// What is wrong with a line. Never carries a key.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum Mistake {
-    #[error("it has {0} fields; serial number, licence key and activation key are required")]
+    #[error("it has {0} field{s}; serial number, licence key and activation key are required", s = if *.0 == 1 { "" } else { "s" })]
     Fields(usize),
     #[error("its fields are separated by \"{found}\", those of the lines before by \"{expected}\"")]
     Separator { found: char, expected: char },
@@ -242,6 +242,8 @@ mod tests {
                 (9, Mistake::Fields(4)),
             ]
         );
+        assert!(Mistake::Fields(1).to_string().starts_with("it has 1 field;"));
+        assert!(Mistake::Fields(2).to_string().starts_with("it has 2 fields;"));
     }
 
     #[test]

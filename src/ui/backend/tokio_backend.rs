@@ -314,6 +314,7 @@ impl Saver {
     fn start(workspace: Workspace, lock: WorkspaceLock, emit: Emit) -> io::Result<Self> {
         let (queue, configurations) = mpsc::channel::<Box<Configuration>>();
         let thread = std::thread::Builder::new().name("save".into()).spawn(move || {
+            workspace.remove_leftovers(&lock);
             while let Ok(mut configuration) = configurations.recv() {
                 // Only the newest matters.
                 while let Ok(newer) = configurations.try_recv() {

@@ -72,6 +72,7 @@ fn confirm_identity(
                 ui.add_space(theme::SPACE_LARGE);
                 let waiting = form.stage == AddStage::Enrolling(fingerprint);
                 ui.add_enabled_ui(!waiting, |ui| {
+                    let focus = std::mem::take(&mut form.focus_password) || focus;
                     self::form(ui, "password", |ui| password(ui, form, focus, model));
                 });
             }

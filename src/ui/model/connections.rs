@@ -96,7 +96,7 @@ impl Model {
             .map(|new| new.entry(series))
             .collect();
         self.status = Some(texts::imported(self.language, entries.len()));
-        self.rows.add_all(entries, self.now);
+        self.rows.add_all_ticked(entries, self.now);
         self.save()
     }
 }

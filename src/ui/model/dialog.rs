@@ -90,6 +90,8 @@ pub struct AddController {
     pub address: String,
     pub password: Typed,
     pub show_password: bool,
+    /// The field for the password has just appeared and takes the keyboard.
+    pub focus_password: bool,
     pub series: ControllerSeries,
     pub stage: AddStage,
     /// Why the last attempt failed.

@@ -20,6 +20,7 @@ impl AddController {
             address: String::new(),
             password: Typed::default(),
             show_password: false,
+            focus_password: false,
             series: ControllerSeries::Rc800,
             stage: AddStage::Form,
             problem: None,

@@ -329,7 +329,10 @@ impl Model {
     pub(super) fn probed(&mut self, job: JobId, result: Result<Fingerprint, Problem>) {
         let Some(form) = self.adding(job).filter(|form| form.stage == AddStage::Probing) else { return };
         match result {
-            Ok(fingerprint) => form.stage = AddStage::Compare(fingerprint),
+            Ok(fingerprint) => {
+                form.stage = AddStage::Compare(fingerprint);
+                form.focus_password = form.identity.is_some();
+            }
             Err(problem) => {
                 form.stage = AddStage::Form;
                 form.problem = Some(problem);

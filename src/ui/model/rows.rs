@@ -300,11 +300,13 @@ impl Rows {
     }
 
     /// Many at once.
-    pub fn add_all(&mut self, entries: Vec<ControllerEntry>, now: DateTime<Utc>) {
+    /// Adds them, and ticks them and no others: whatever is done next is done to them.
+    pub fn add_all_ticked(&mut self, entries: Vec<ControllerEntry>, now: DateTime<Utc>) {
+        self.list.iter_mut().for_each(|row| row.ticked = false);
         for entry in entries {
             let id = RowId(self.next_id);
             self.next_id += 1;
-            self.list.push(Row::new(id, entry, now));
+            self.list.push(Row { ticked: true, ..Row::new(id, entry, now) });
         }
         self.rebuild();
     }
