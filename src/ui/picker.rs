@@ -45,7 +45,11 @@ pub type PickedSeveral = Box<dyn FnOnce(Result<Vec<PathBuf>, Problem>) + Send>;
 /// Lets a person choose a file. Returns at once.
 pub trait FilePicker: Send + Sync {
     fn pick(&self, kind: FileKind, title: String, done: Picked);
-    fn pick_several(&self, kind: FileKind, title: String, done: PickedSeveral);
+
+    /// Likewise, of several files; where that cannot be asked for, of one.
+    fn pick_several(&self, kind: FileKind, title: String, done: PickedSeveral) {
+        self.pick(kind, title, Box::new(move |chosen| done(chosen.map(|path| path.into_iter().collect()))));
+    }
 
     /// Shows a folder in the desktop's file manager. Blocks for a moment.
     fn open_folder(&self, folder: &Path) -> Result<(), Problem>;
@@ -124,10 +128,6 @@ pub struct FixedPicker(pub Result<Option<PathBuf>, Problem>);
 impl FilePicker for FixedPicker {
     fn pick(&self, _kind: FileKind, _title: String, done: Picked) {
         done(self.0.clone());
-    }
-
-    fn pick_several(&self, _kind: FileKind, _title: String, done: PickedSeveral) {
-        done(self.0.clone().map(|chosen| chosen.into_iter().collect()));
     }
 
     fn open_folder(&self, folder: &Path) -> Result<(), Problem> {

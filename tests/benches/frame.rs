@@ -2,26 +2,35 @@
 
 #[path = "../common/samples.rs"]
 mod samples;
+#[path = "../common/trust_samples.rs"]
+mod trust_samples;
 
 use std::time::{Duration, Instant};
 
-use egui::{Event, Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
+use chrono::{DateTime, Utc};
+use egui::{Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
 use opcua_configurator::model::Language;
 use opcua_configurator::ui::App;
-use opcua_configurator::ui::backend::RecordingBackend;
+use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
+use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
+use opcua_configurator::ui::command::UiCommand;
 use opcua_configurator::ui::model::{Column, Message, Model, reduce};
 use opcua_configurator::workspace::Workspace;
 
 const ROWS: usize = 10_000;
+const CERTIFICATES: usize = 1_000;
 const WARM_UP: usize = 30;
 const FRAMES: usize = 300;
 const TARGET: Duration = Duration::from_millis(1);
 
 fn main() {
-    let now = "2026-06-01T08:30:00Z".parse().unwrap_or_default();
+    let now: DateTime<Utc> = "2026-06-01T08:30:00Z".parse().unwrap_or_default();
     let model = || Model::new(samples::configuration(ROWS, now), Workspace::new("/nowhere"), Language::En, now);
     for (what, scrolling) in [("frame, still", false), ("frame, scrolling", true)] {
         report(what, median(frames(model(), scrolling)));
+    }
+    for (what, scrolling) in [("trust, still", false), ("trust, scrolling", true)] {
+        report(what, median(frames(trust(model(), now), scrolling)));
     }
     let mut model = model();
     let mut once = |what: &str, message: Message| {
@@ -33,6 +42,25 @@ fn main() {
     once("sort by address, once", Message::Sort(Column::Address));
     once("search, per key", Message::Filter("99".into()));
     once("tick all, once", Message::TickAll(true));
+}
+
+/// The lists of one controller, with many certificates, over the list of controllers.
+fn trust(mut model: Model, now: DateTime<Utc>) -> Model {
+    reduce(&mut model, Message::MoveCursor(0));
+    reduce(&mut model, Message::ToggleCursor);
+    let commands = reduce(&mut model, Message::Invoke(UiCommand::ClientLists));
+    let job = commands.iter().find_map(|command| match command {
+        Command::Run { job, .. } => Some(*job),
+        _ => None,
+    });
+    let job = job.expect("the lists are read");
+    let start = Instant::now();
+    let result = Ok(Outcome::TrustLists(Box::new(trust_samples::many(CERTIFICATES, now))));
+    let event = JobEvent::Finished { index: 0, report: Box::new(Report { result, info: None }) };
+    reduce(&mut model, Message::Event(Event::Job { job, event }));
+    report("trust, lists arrive", start.elapsed());
+    reduce(&mut model, Message::Event(Event::JobEnded { job, summary: Summary { done: 1, ..Summary::default() } }));
+    model
 }
 
 fn report(what: &str, took: Duration) {
@@ -55,9 +83,9 @@ fn frames(model: Model, scrolling: bool) -> Vec<Duration> {
             time: Some(frame as f64 / 60.0),
             ..RawInput::default()
         };
-        input.events.push(Event::PointerMoved(pos2(640.0, 400.0)));
+        input.events.push(egui::Event::PointerMoved(pos2(640.0, 400.0)));
         if scrolling {
-            input.events.push(Event::MouseWheel {
+            input.events.push(egui::Event::MouseWheel {
                 unit: MouseWheelUnit::Point,
                 delta: vec2(0.0, -200.0),
                 phase: egui::TouchPhase::Move,

@@ -28,7 +28,7 @@ impl Application {
         let key = rsa_key();
         let mut params = named(name);
         params.subject_alt_names = vec![
-            SanType::URI(format!("urn:{}", name.replace(' ', ":")).try_into().unwrap()),
+            SanType::URI(uri(name).try_into().unwrap()),
             SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST)),
         ];
         params.key_usages = vec![
@@ -52,7 +52,7 @@ impl Application {
     }
 
     pub fn application_uri(&self) -> String {
-        format!("urn:{}", self.name.replace(' ', ":"))
+        uri(&self.name)
     }
 
     pub fn thumbprint(&self) -> String {
@@ -106,6 +106,16 @@ impl Authority {
         };
         params.signed_by(&self.issuer).unwrap().der().to_vec()
     }
+}
+
+/// A URI is ASCII.
+fn uri(name: &str) -> String {
+    let part = |c: char| match c {
+        ' ' => ":".to_owned(),
+        c if c.is_ascii() => c.to_string(),
+        c => format!("{:x}", u32::from(c)),
+    };
+    format!("urn:{}", name.chars().map(part).collect::<String>())
 }
 
 fn rsa_key() -> KeyPair {

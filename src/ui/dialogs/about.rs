@@ -45,9 +45,11 @@ pub fn shortcuts(ui: &Ui, model: &Model) -> Answer {
                 (T::KeyArrows, T::KeyMove),
                 (T::KeySpace, T::KeyTick),
                 (T::KeyShiftClick, T::KeyRange),
+                (T::KeySideways, T::KeyPanes),
                 (T::KeyEnter, T::KeyConfirm),
                 (T::KeyEscape, T::KeyCancel),
             ];
+            line(ui, &ui.ctx().format_shortcut(&super::trust::UNDO), text(T::KeyUndo));
             for (key, what) in fixed {
                 line(ui, text(key), text(what));
             }

@@ -2,6 +2,7 @@
 
 mod server_log;
 mod transfer;
+mod trust;
 mod verify;
 
 use chrono::Duration;

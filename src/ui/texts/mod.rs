@@ -481,7 +481,6 @@ texts! {
     TrustDetails: "Details…", "详细信息…";
     TrustCutTitle: "Disconnected", "已断开的客户端";
     TrustCutNone: "Nobody was disconnected", "没有客户端被断开";
-    TrustDone: "Done", "已完成";
     TrustPickLine: "Click a line to see all of it here", "单击一行可在此查看完整内容";
     TrustMovedHere: "put here by a person, has not come since", "由人工移入，此后未再连接";
     TrustDeleteTitle: "Delete certificates", "删除证书";
@@ -562,8 +561,9 @@ texts! {
     CrlWithoutTitle: "Authorities without a usable CRL", "没有可用 CRL 的机构";
     CrlWithoutText: "Whether their certificates were revoked is not known, so clients with one may be refused.", "无法得知其证书是否已被吊销，相应客户端可能被拒绝。";
     ChooseFilesTitle: "Choose files", "选择文件";
-    KeyUndo: "Take the last change of trust back", "撤销上一次信任更改";
-    KeyPanes: "Change to the next list", "切换列表";
+    KeyUndo: "Take the last change back, in client certificates and CRLs", "撤销上一次更改（客户端证书和 CRL）";
+    KeyPanes: "Change to the next list, in client certificates", "切换列表（客户端证书）";
+    KeySideways: "Left, Right", "左、右";
 
     // backup
     BackupTitle: "Backup", "备份";

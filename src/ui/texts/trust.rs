@@ -118,6 +118,12 @@ pub fn trust_done(language: Language, done: &Done) -> String {
     }
 }
 
+/// Authorities that no usable CRL is held of.
+pub fn without_crl(language: Language, names: &str) -> String {
+    let colon = if language == Language::En { ": " } else { "：" };
+    format!("{}{colon}{names}", T::CrlWithoutTitle.text(language))
+}
+
 /// Who was disconnected, and why.
 pub fn cut(language: Language, client: &CutClient) -> String {
     let why = short_reason(language, client.status);

@@ -10,6 +10,7 @@ mod strip;
 pub use add::show as add;
 pub use delete::show as delete;
 pub use details::show as details;
+pub use keys::UNDO;
 
 use egui::{Align, Id, Label, Layout, RichText, TextEdit, Ui, vec2};
 
@@ -112,9 +113,7 @@ fn remarks(ui: &mut Ui, form: &TrustForm, model: &Model) {
     }
     if form.shows == Shows::Crls && !form.without_crl.is_empty() {
         note(ui, palette.warning, |ui| {
-            let colon = if language == crate::model::Language::En { ": " } else { "：" };
-            let names = form.without_crl.join(", ");
-            let said = format!("{}{colon}{names}", T::CrlWithoutTitle.text(language));
+            let said = texts::without_crl(language, &form.without_crl);
             ui.add(Label::new(RichText::new(&said).strong()).truncate()).on_hover_text(&said);
             ui.add(Label::new(T::CrlWithoutText.text(language)).wrap());
         });

@@ -154,6 +154,7 @@ impl Model {
         let destination = if shows == Shows::Crls { Destination::Crls } else { Destination::Trusted };
         let names = self.rows.names(&rows);
         self.dialogs.push(Dialog::AddTrust(AddTrustForm::new(rows, names, shows, destination)));
+        self.replan();
     }
 
     /// A list's own button: the desktop's dialog opens at once.
@@ -169,6 +170,7 @@ impl Model {
         if ready {
             let form = AddTrustForm::new(vec![form.row], vec![form.name.clone()], form.shows, destination);
             self.dialogs.push(Dialog::AddTrust(form));
+            self.replan();
         }
         ready
     }

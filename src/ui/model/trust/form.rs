@@ -58,8 +58,8 @@ pub struct TrustForm {
     pub done: Option<Done>,
     /// Whose connections the last change ended.
     pub cut: Vec<CutClient>,
-    /// Thumbprints of authorities that no usable CRL is held of, by name.
-    pub without_crl: Vec<String>,
+    /// The names of the authorities that no usable CRL is held of, in one line.
+    pub without_crl: String,
     /// How far the controller's clock is ahead, if it matters.
     pub clock_off: Option<Duration>,
     pub(super) doing: Option<Done>,
@@ -95,7 +95,7 @@ impl TrustForm {
             busy: false,
             done: None,
             cut: Vec::new(),
-            without_crl: Vec::new(),
+            without_crl: String::new(),
             clock_off: None,
             doing: None,
             undo: Vec::new(),
@@ -123,7 +123,8 @@ impl TrustForm {
             let mut authorities = held.trusted.iter().chain(&held.issuers);
             authorities.find(|listed| listed.summary.thumbprint == thumbprint).map(|l| l.summary.issued_to.clone())
         };
-        self.without_crl = held.health.without_crl.iter().filter_map(|thumbprint| name_of(thumbprint)).collect();
+        let without_crl = held.health.without_crl.iter().filter_map(|thumbprint| name_of(thumbprint));
+        self.without_crl = without_crl.collect::<Vec<_>>().join(", ");
         for pane in &mut self.panes {
             let listed = |list: &[crate::protocol::ListedCertificate]| -> Vec<Entry> {
                 list.iter().map(|listed| Entry::listed(listed, zone, clock)).collect()

@@ -19,8 +19,6 @@ mod entry;
 mod form;
 mod pane;
 mod task;
-#[cfg(test)]
-mod tests;
 mod watch;
 
 pub use add::{AddFile, AddTrustForm, MAX_TRUST_FILES, ReadTrustFile};
