@@ -18,6 +18,20 @@ use rcgen::{
     PKCS_RSA_SHA256, RsaKeySize, SanType,
 };
 
+const MAKE: [&str; 12] = [
+    "cert",
+    "self-signed",
+    "--country",
+    "JP",
+    "--state",
+    "Nagano",
+    "--locality",
+    "Suwa",
+    "--organisation",
+    "Example",
+    "--yes",
+    "cell",
+];
 const PATIENCE: Duration = Duration::from_secs(60);
 
 #[tokio::test(flavor = "multi_thread")]
@@ -44,7 +58,7 @@ fn running(more: &[&str]) -> Desk {
     assert_eq!(desk.add(0, "cell").0, Some(0));
     for arguments in [
         &["settings", "set", "--policies", "Basic256Sha256", "--tokens", "anonymous", "--yes", "cell"][..],
-        &["cert", "self-signed", "--country", "JP", "--organisation", "Example", "--yes", "cell"],
+        &MAKE,
         &["start", "cell"],
     ] {
         let (code, lines) = desk.json(arguments);

@@ -26,19 +26,24 @@ fn hello() -> Vec<u8> {
     hello
 }
 
-/// An OpenSecureChannel request without security.
+/// The first OpenSecureChannel request of a connection, without security.
 fn open_plain(channel: u32) -> Vec<u8> {
+    open_again(channel, 1, 0)
+}
+
+/// Any OpenSecureChannel request without security; `kind` 0 asks for a channel, 1 for its renewal.
+fn open_again(channel: u32, sequence: u32, kind: u32) -> Vec<u8> {
     let mut body = Vec::new();
     // Sequence number, request id, type 446.
-    body.extend([1_u32.to_le_bytes(), 1_u32.to_le_bytes()].concat());
+    body.extend([sequence.to_le_bytes(), sequence.to_le_bytes()].concat());
     body.extend([1, 0, 0xbe, 0x01]);
     // Request header: token, time, handle, diagnostics, audit entry, timeout, additional header.
     body.extend([0, 0]);
     body.extend([0; 8]);
     body.extend([1_u32.to_le_bytes(), 0_u32.to_le_bytes(), u32::MAX.to_le_bytes(), 5000_u32.to_le_bytes()].concat());
     body.extend([0, 0, 0]);
-    // Version, issue, mode None, no nonce, lifetime.
-    for number in [0, 0, 1, u32::MAX, 60_000_u32] {
+    // Version, kind, mode None, no nonce, lifetime.
+    for number in [0, kind, 1, u32::MAX, 60_000_u32] {
         body.extend(number.to_le_bytes());
     }
     open(channel, NONE, b"", b"", &body)
@@ -151,10 +156,21 @@ async fn a_stolen_certificate_is_worth_nothing_without_its_key() {
 async fn opened(address: SocketAddr) -> (TcpStream, u32) {
     let mut peer = dial(address).await;
     peer.write_all(&[hello(), open_plain(0)].concat()).await.unwrap();
-    let mut answer = [0; 28 + 12];
-    timeout(PATIENCE, peer.read_exact(&mut answer)).await.unwrap().unwrap();
-    assert_eq!(&answer[28..32], b"OPNF");
-    (peer, u32::from_le_bytes(answer[36..].try_into().unwrap()))
+    let mut acknowledge = [0; 28];
+    timeout(PATIENCE, peer.read_exact(&mut acknowledge)).await.unwrap().unwrap();
+    let channel = channel_answered(&mut peer).await;
+    (peer, channel)
+}
+
+/// Reads the answer to an OpenSecureChannel request.
+async fn channel_answered(peer: &mut TcpStream) -> u32 {
+    let mut head = [0; 12];
+    timeout(PATIENCE, peer.read_exact(&mut head)).await.unwrap().unwrap();
+    assert_eq!(&head[..4], b"OPNF");
+    let size = u32::from_le_bytes(head[4..8].try_into().unwrap()) as usize;
+    let mut rest = vec![0; size - head.len()];
+    timeout(PATIENCE, peer.read_exact(&mut rest)).await.unwrap().unwrap();
+    u32::from_le_bytes(head[8..].try_into().unwrap())
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -169,11 +185,12 @@ async fn a_channel_is_renewed_by_nobody_but_its_owner() {
     ] {
         let (mut peer, channel) = opened(address).await;
         let renewal = match renewal {
-            None => open_plain(channel),
+            None => open_again(channel, 2, 1),
             Some((policy, certificate, plus)) => open(channel + plus, policy, certificate, &thumbprint, &[7; 512]),
         };
         peer.write_all(&renewal).await.unwrap();
         if expected.is_none() {
+            assert_eq!(channel_answered(&mut peer).await, channel, "{what}");
             peer.shutdown().await.unwrap();
         }
         assert_eq!(error_of(peer).await, expected, "{what}");
