@@ -165,6 +165,7 @@ fn files(window: &mut W, files: &[(&str, &[u8])]) {
 
 struct Pki {
     chain: Vec<u8>,
+    issuing: Vec<u8>,
     client: Vec<u8>,
     crl: Vec<u8>,
     root: Vec<u8>,
@@ -178,6 +179,7 @@ fn pki() -> Pki {
     Pki {
         chain: p7b(&[&client.der, &issuing.der, &root.der]),
         crl: issuing.crl(7, &[&client], at),
+        issuing: issuing.der,
         client: client.der,
         root: root.der,
     }
@@ -255,6 +257,23 @@ fn details_of_a_certificate() {
     picture(&mut window, "trust_details");
     chinese(&mut window);
     picture(&mut window, "trust_details_chinese");
+}
+
+#[test]
+fn details_of_a_revoked_certificate_with_its_chain() {
+    let (pki, mut held) = (pki(), trust_samples::plant(now()));
+    held.trusted[0].certificate.0.clone_from(&pki.client);
+    held.issuers[0].certificate.0.clone_from(&pki.root);
+    held.issuers[1].certificate.0.clone_from(&pki.issuing);
+    held.issuers[1].summary.issued_to = "Plant issuing CA 2".into();
+    let crl = &mut held.crls[1];
+    crl.summary.issuer = "Plant issuing CA 2".into();
+    crl.crl.as_mut().expect("a CRL").0.clone_from(&pki.crl);
+    let mut window = lists(CURRENT, CLIENTS, held, SIZE);
+    click(&mut window, "Tick HMI line 3");
+    click(&mut window, "Details…");
+    fix(&mut window);
+    picture(&mut window, "trust_details_chain");
 }
 
 #[test]

@@ -34,8 +34,13 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
             (replaces_settings, T::ConfirmReplacesSettings),
             (disconnects_clients, T::ConfirmDisconnectsClients),
         ];
-        note(ui, palette(ui).warning, |ui| {
-            for (_, remark) in remarks.into_iter().filter(|(applies, _)| *applies) {
+        let mut remarks: Vec<T> = remarks.into_iter().filter_map(|(applies, remark)| applies.then_some(remark)).collect();
+        let color = if remarks.is_empty() { palette(ui).accent } else { palette(ui).warning };
+        if remarks.is_empty() {
+            remarks.push(T::ConfirmDisturbsNobody);
+        }
+        note(ui, color, |ui| {
+            for remark in remarks {
                 ui.add(Label::new(text(remark)).wrap());
             }
         });

@@ -206,6 +206,7 @@ texts! {
     ConfirmBackup: "Backup files of the same name in the workspace are overwritten.", "工作区中的同名备份文件将被覆盖。";
     ConfirmInvalidatesCaSigned: "The present CA-signed certificate becomes invalid. Firmware 8.0.0 and later goes on using it until the new one is imported.", "当前的 CA 签名证书将失效。固件 8.0.0 及以上版本在导入新证书之前仍使用原证书。";
     ConfirmReplacesSettings: "Settings and users in the controller are replaced by those of the file, and so are the activation keys if it holds any.", "控制器中的设置和用户将被文件中的内容替换；若文件含激活密钥，也将一并替换。";
+    ConfirmDisturbsNobody: "The OPC UA server goes on running. Nobody is disconnected.", "OPC UA 服务器继续运行，不会断开任何客户端。";
     ConfirmDisconnectsClients: "Clients that are not trusted any more are disconnected at once. The OPC UA server goes on running.", "不再受信任的客户端将立即断开连接。OPC UA 服务器继续运行。";
     ConfirmOverwrites: "Files of the same name on this computer are overwritten.", "本机上的同名文件将被覆盖。";
     ConfirmDeletesLog: "The server log in the controller is deleted.", "将删除控制器中的服务器日志。";
@@ -449,6 +450,7 @@ texts! {
     TrustRejectedEmpty: "No client was refused. One that tries to connect and is not let in appears here by itself.", "没有被拒绝的客户端。尝试连接但未被允许的客户端会自动显示在此处。";
     TrustIssuersEmpty: "No authorities. Add the certificates of those that issued the certificates of clients, where these do not send them along.", "没有发行人证书。若客户端不随附证书链，请在此添加签发客户端证书的机构的证书。";
     TrustIssuersLegacy: "Firmware before 8.0.0 has no list of issuers. There, add authorities to Trusted.", "8.0.0 之前的固件没有发行人列表，请将机构证书添加到[信任]。";
+    TrustLegacyTrusted: "Firmware before 8.0.0 has no list of issuers; there, authorities go to Trusted", "8.0.0 之前的固件没有发行人列表，机构证书将添加到[信任]";
     TrustFull: "The list is full: delete what is no longer needed first", "列表已满，请先删除不再需要的项";
     TrustIssuersWhy: "Only for firmware 8.0.0 and later", "仅适用于 8.0.0 及更高版本的固件";
     TrustChoose: "Tick something, or click a line first", "请先勾选或单击一行";

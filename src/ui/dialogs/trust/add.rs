@@ -156,8 +156,9 @@ fn plans(ui: &mut Ui, form: &AddTrustForm, model: &Model) {
                 ui.add(Label::new(RichText::new(said).color(palette.warning)).wrap());
             }
         }
-        if form.plans.iter().any(|(_, other)| differs(&other.items, &plan.items)) {
-            fine_print(ui, T::TrustIssuersLegacy.text(language));
+        let differs = form.plans.iter().any(|(_, other)| differs(&other.items, &plan.items));
+        if differs && form.destination != Destination::Issuers {
+            fine_print(ui, T::TrustLegacyTrusted.text(language));
         }
     } else if let Some(problem) = &form.refused {
         let explained = problem.code.explain(language);
