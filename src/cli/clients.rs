@@ -216,7 +216,7 @@ mod tests {
     fn a_thumbprint_is_taken_as_other_tools_show_it() {
         let plain = "00112233445566778899AABBCCDDEEFF00112233".to_owned();
         let colons = "00:11:22:33:44:55:66:77:88:99:aa:bb:cc:dd:ee:ff:00:11:22:33".to_owned();
-        assert_eq!(hexadecimal(&[plain.clone(), colons]).unwrap(), [plain.clone()]);
+        assert_eq!(hexadecimal(&[plain.clone(), colons]).unwrap(), std::slice::from_ref(&plain));
         for wrong in ["", "0011", &format!("{plain}00"), &plain.replace('A', "G")] {
             assert_eq!(hexadecimal(&[wrong.to_owned()]).unwrap_err().code, ErrorCode::NotInList, "{wrong}");
         }

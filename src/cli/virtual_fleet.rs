@@ -8,7 +8,7 @@ use super::passwords::read_secret;
 use super::{Ending, runtime};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};
-use crate::virtual_controller::{Fleet, FleetConfig, FleetFirmware, demo_keys};
+use crate::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, demo_keys};
 
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true)]
@@ -53,6 +53,12 @@ struct FleetArgs {
     /// Folder for what the controllers keep; a temporary one without it
     #[arg(long, value_name = "DIR")]
     data: Option<PathBuf>,
+    /// Tell OPC UA clients that are refused what is wrong with their certificate
+    #[arg(long)]
+    detailed_status: bool,
+    /// Admit OPC UA clients whose CA has given no valid revocation list
+    #[arg(long)]
+    allow_unknown_revocation: bool,
     /// The same seed makes the same controllers
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
@@ -117,6 +123,10 @@ fn fleet(args: &FleetArgs) -> Result<Ending, Problem> {
         activated: !args.not_activated,
         password: password.unwrap_or_else(|| SecretString::from("")),
         data,
+        admission: AdmissionOptions {
+            detailed_status: args.detailed_status,
+            allow_unknown_revocation: args.allow_unknown_revocation,
+        },
         seed: args.seed,
     };
     runtime()?.block_on(async {

@@ -3,7 +3,7 @@
 use rsa::pkcs8::PrivateKeyInfo;
 
 use super::certificate::check_size;
-use super::{Certificate, Crl, MAX_CRL_BYTES, PkiError, pem, tlv};
+use super::{Certificate, Crl, MAX_CRL_BYTES, PkiError, crl, pem, tlv};
 
 /// The largest file that is read for certificates and revocation lists: a revocation list of the largest size in PEM,
 /// and its certificates.
@@ -42,6 +42,9 @@ pub fn read_bundle(bytes: &[u8]) -> Result<Bundle, PkiError> {
         let mut rest = bytes;
         while !rest.is_empty() {
             let Some((_, after)) = tlv::first(rest) else {
+                if is_pkcs7(rest) {
+                    return bundle.add_pkcs7(rest).map(|()| bundle);
+                }
                 let is_first = rest.len() == bytes.len();
                 return Err(if is_first { PkiError::NotTrustMaterial } else { PkiError::TrailingBytes(rest.len()) });
             };
@@ -65,10 +68,12 @@ impl Bundle {
         }
         match Certificate::from_der(der) {
             Ok(certificate) => self.add_certificate(certificate),
-            Err(PkiError::NotACertificate | PkiError::TooLarge { .. }) => match Crl::from_der(der) {
+            Err(error @ (PkiError::NotACertificate | PkiError::TooLarge { .. })) => match Crl::from_der(der) {
                 Ok(crl) => self.add_crl(crl),
-                Err(PkiError::NotACrl(why)) if looks_like_crl(der) => Err(PkiError::NotACrl(why)),
-                Err(PkiError::NotACrl(_)) => Err(PkiError::NotTrustMaterial),
+                Err(PkiError::NotACrl(crl::UNREADABLE)) if error == PkiError::NotACertificate => {
+                    Err(PkiError::NotTrustMaterial)
+                }
+                Err(PkiError::NotACrl(crl::UNREADABLE)) => Err(error),
                 Err(error) => Err(error),
             },
             Err(error) => Err(error),
@@ -152,23 +157,6 @@ fn is_pkcs7(der: &[u8]) -> bool {
     kind.is_some_and(|(kind, _)| kind.tag == OBJECT_IDENTIFIER && kind.content.starts_with(PKCS7))
 }
 
-/// A certificate has its serial number where a revocation list has an algorithm.
-fn looks_like_crl(der: &[u8]) -> bool {
-    let signed = tlv::first(der).and_then(|(whole, _)| tlv::first(whole.content));
-    let parts = signed.and_then(|(signed, _)| tlv::all(signed.content)).unwrap_or_default();
-    match parts.as_slice() {
-        [first, second, ..] if first.tag == INTEGER => {
-            second.tag == tlv::SEQUENCE && parts.len() > 3 && {
-                // version, algorithm, issuer, date: a certificate without a version has the dates in a sequence
-                parts.get(3).is_some_and(|part| part.tag != tlv::SEQUENCE)
-            }
-        }
-        [first, ..] => first.tag == tlv::SEQUENCE,
-        [] => false,
-    }
-}
-
-const INTEGER: u8 = 0x02;
 const OBJECT_IDENTIFIER: u8 = 0x06;
 const SET: u8 = 0x31;
 /// The implicit `[1]` around a set.
@@ -176,3 +164,6 @@ const CONTEXT_1: u8 = 0xa1;
 /// 1.2.840.113549.1.7
 const PKCS7: &[u8] = &[0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 7];
 const SIGNED_DATA: &[u8] = &[0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 7, 2];
+
+#[cfg(test)]
+mod tests;

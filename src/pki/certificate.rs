@@ -7,10 +7,10 @@ use rsa::pkcs8::PrivateKeyInfo;
 use sha1::{Digest as _, Sha1};
 use x509_parser::prelude::{FromDer, X509Certificate};
 
-use super::PkiError;
 use super::facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, Facts, KeyUsage};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
 use super::signature::{PublicKey, Verdict};
+use super::{PkiError, tlv};
 use crate::model::CertificateSummary;
 
 /// The largest certificate that is read, in bytes of DER.
@@ -35,7 +35,8 @@ impl Certificate {
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
-        Ok(Self { der: der.into(), facts: Arc::new(Facts::of(der, &parsed)?) })
+        let facts = Arc::new(Facts::of(der, &parsed)?);
+        if tlv::is_signed_object(der) { Ok(Self { der: der.into(), facts }) } else { Err(PkiError::NotACertificate) }
     }
 
     /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one certificate, in DER or PEM.
@@ -254,6 +255,26 @@ mod tests {
         assert_eq!(Certificate::from_any(&der), Err(too_large));
         let text = vec![b' '; MAX_CERTIFICATE_FILE_BYTES + 1];
         assert!(matches!(Certificate::from_any(&text), Err(PkiError::TooLarge { .. })));
+    }
+
+    /// Nothing that is read of a certificate can be changed, and nothing changed can be read, with its signature right.
+    #[test]
+    fn every_missing_end_and_every_damaged_byte_is_noticed() {
+        let identity = crate::pki::tls_identity("robot", samples::now()).unwrap();
+        let elliptic = Certificate::from_der(&identity.certificate_der).unwrap();
+        for whole in [samples::certificate(), &elliptic] {
+            assert!(whole.verify_signed_by(whole));
+            for at in 0..whole.der().len() {
+                assert!(Certificate::from_der(&whole.der()[..at]).is_err(), "first {at} bytes");
+                for bit in 0..8 {
+                    let mut damaged = whole.der().to_vec();
+                    damaged[at] ^= 1 << bit;
+                    if let Ok(read) = Certificate::from_der(&damaged) {
+                        assert!(!read.verify_signed_by(whole), "byte {at} bit {bit}");
+                    }
+                }
+            }
+        }
     }
 
     #[test]

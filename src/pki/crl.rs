@@ -89,12 +89,16 @@ impl Crl {
     /// From DER and nothing but DER, of at most [`MAX_CRL_BYTES`].
     pub fn from_der(der: &[u8]) -> Result<Self, PkiError> {
         check_size(der, MAX_CRL_BYTES)?;
-        let (rest, parsed) =
-            CertificateRevocationList::from_der(der).map_err(|_| PkiError::NotACrl("it cannot be read"))?;
+        let (rest, parsed) = CertificateRevocationList::from_der(der).map_err(|_| PkiError::NotACrl(UNREADABLE))?;
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
-        Ok(Self { der: der.into(), facts: Arc::new(Facts::of(der, &parsed)?) })
+        let facts = Arc::new(Facts::of(der, &parsed)?);
+        if tlv::is_signed_object(der) {
+            Ok(Self { der: der.into(), facts })
+        } else {
+            Err(PkiError::NotACrl(UNREADABLE))
+        }
     }
 
     /// The list itself, as it was read.
@@ -286,7 +290,7 @@ impl Facts {
             unusable: None,
             indirect: false,
             signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
-            signed: range_within(der, list.as_ref()).ok_or(PkiError::NotACrl("it cannot be read"))?,
+            signed: range_within(der, list.as_ref()).ok_or(PkiError::NotACrl(UNREADABLE))?,
             signature: parsed.signature_value.data.to_vec(),
         };
         for extension in parsed.extensions() {
@@ -423,6 +427,8 @@ fn count_entries(der: &[u8]) -> Option<usize> {
     }
 }
 
+/// Nothing of it makes sense as a revocation list; it may be something else.
+pub(super) const UNREADABLE: &str = "it cannot be read";
 const UTC_TIME: u8 = 0x17;
 const GENERALIZED_TIME: u8 = 0x18;
 const TIMES: [u8; 2] = [UTC_TIME, GENERALIZED_TIME];
@@ -430,3 +436,6 @@ const TIMES: [u8; 2] = [UTC_TIME, GENERALIZED_TIME];
 const MAX_NUMBER_BYTES: usize = 20;
 const DELTA_CRL_INDICATOR: &str = "2.5.29.27";
 const CERTIFICATE_ISSUER: &str = "2.5.29.29";
+
+#[cfg(test)]
+mod tests;

@@ -20,9 +20,9 @@ use super::{
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Description {
-    Certificate(CertificateDescription),
-    Crl(CrlDescription),
-    Csr(CsrDescription),
+    Certificate(Box<CertificateDescription>),
+    Crl(Box<CrlDescription>),
+    Csr(Box<CsrDescription>),
     PrivateKey(KeyDescription),
     PublicKey(KeyDescription),
 }
@@ -152,7 +152,9 @@ struct Found {
 impl Found {
     fn block(&mut self, block: &pem::Block, password: Option<&str>) -> Result<(), PkiError> {
         match block.label.as_str() {
-            "CERTIFICATE REQUEST" | "NEW CERTIFICATE REQUEST" => self.other(Description::Csr(request(&block.der)?)),
+            "CERTIFICATE REQUEST" | "NEW CERTIFICATE REQUEST" => {
+                self.other(Description::Csr(Box::new(request(&block.der)?)))
+            }
             "PUBLIC KEY" => {
                 let (_, info) = SubjectPublicKeyInfo::from_der(&block.der).map_err(|_| PkiError::BadPem)?;
                 self.other(Description::PublicKey(PublicKey::of(&info).map_err(|_| PkiError::BadPem)?.describe()));
@@ -160,6 +162,9 @@ impl Found {
             "PRIVATE KEY" => self.other(Description::PrivateKey(pkcs8(&block.der)?)),
             _ if block.encrypted => return Err(PkiError::TraditionalEncryption),
             "RSA PRIVATE KEY" => self.other(Description::PrivateKey(pkcs1(&block.der)?)),
+            "EC PRIVATE KEY" => {
+                self.other(Description::PrivateKey(sec1(&block.der, None).ok_or(PkiError::NotAPrivateKey)?));
+            }
             _ if block.is_private_key() => {
                 let key = read_key_file(pem::armour(&block.label, &block.der).as_bytes(), password)?;
                 self.other(Description::PrivateKey(rsa_key(key.public_key())));
@@ -171,7 +176,8 @@ impl Found {
 
     fn der(&mut self, der: &[u8], password: Option<&str>) -> Result<(), PkiError> {
         if pkcs12::is_pkcs12(der) {
-            let (keys, certificates) = pkcs12::contents(der, password.ok_or(PkiError::PasswordNeeded)?)?;
+            let pkcs12::Contents { keys, certificates } =
+                pkcs12::contents(der, password.ok_or(PkiError::PasswordNeeded)?)?;
             for key in keys {
                 self.other(Description::PrivateKey(pkcs8(&key)?));
             }
@@ -180,12 +186,14 @@ impl Found {
             self.other(Description::PrivateKey(pkcs8(der)?));
         } else if rsa::pkcs1::RsaPrivateKey::try_from(der).is_ok() {
             self.other(Description::PrivateKey(pkcs1(der)?));
+        } else if let Some(key) = sec1(der, None) {
+            self.other(Description::PrivateKey(key));
         } else if key_file::is_encrypted(der) {
             self.other(Description::PrivateKey(rsa_key(read_key_file(der, password)?.public_key())));
         } else {
             match read_bundle(der) {
                 Ok(bundle) => self.bundle(bundle),
-                Err(error) => self.other(Description::Csr(request(der).map_err(|_| error)?)),
+                Err(error) => self.other(Description::Csr(Box::new(request(der).map_err(|_| error)?))),
             }
         }
         Ok(())
@@ -213,9 +221,9 @@ impl Found {
             .iter()
             .map(|thing| match thing {
                 Thing::Certificate(certificate) => {
-                    Description::Certificate(certificate.describe_among(certificates.iter().copied()))
+                    Description::Certificate(Box::new(certificate.describe_among(certificates.iter().copied())))
                 }
-                Thing::Crl(crl) => Description::Crl(crl.describe_among(certificates.iter().copied())),
+                Thing::Crl(crl) => Description::Crl(Box::new(crl.describe_among(certificates.iter().copied()))),
                 Thing::Other(description) => description.clone(),
             })
             .collect()
@@ -340,13 +348,28 @@ fn pkcs8(der: &[u8]) -> Result<KeyDescription, PkiError> {
         return Ok(PublicKey::Other { oid }.describe());
     }
     let curve = info.algorithm.parameters_oid().ok().and_then(|oid| Curve::from_oid(&oid.to_string()));
-    // RFC 5915: a sequence of a version, the private number, and perhaps the curve [0] and the public point [1].
-    let parts = tlv::first(info.private_key).and_then(|(key, _)| tlv::all(key.content)).unwrap_or_default();
-    let point = parts.iter().find(|part| part.tag == CONTEXT_1).and_then(|part| tlv::first(part.content));
-    let point = point.and_then(|(bits, _)| bits.content.split_first()).map(|(_, point)| point.to_vec());
+    sec1(info.private_key, curve).ok_or(PkiError::NotAPrivateKey)
+}
+
+/// The public half of an elliptic key in the form of RFC 5915: a version, the private number, and perhaps the curve
+/// and the public point.
+fn sec1(der: &[u8], curve: Option<Curve>) -> Option<KeyDescription> {
+    let (key, []) = tlv::first(der)? else { return None };
+    let parts = tlv::all(key.content)?;
+    let [version, number, more @ ..] = parts.as_slice() else { return None };
+    if version.content != [1] || number.tag != tlv::OCTET_STRING {
+        return None;
+    }
+    let inside = |tag| more.iter().find(|part| part.tag == tag).and_then(|part| tlv::first(part.content));
+    let curve = curve.or_else(|| {
+        let (oid, _) = inside(tlv::CONTEXT_0)?;
+        Curve::from_oid(&x509_parser::asn1_rs::Oid::new(oid.content.into()).to_id_string())
+    });
+    let point = inside(CONTEXT_1).and_then(|(bits, _)| bits.content.split_first()).map(|(_, point)| point.to_vec());
+    let is_known = point.is_some();
     let bits = curve.map_or(0, Curve::bits);
-    let known = PublicKey::Ec { curve, bits, point: point.clone().unwrap_or_default() }.describe();
-    Ok(KeyDescription { key_id: known.key_id.filter(|_| point.is_some()), ..known })
+    let known = PublicKey::Ec { curve, bits, point: point.unwrap_or_default() }.describe();
+    Some(KeyDescription { key_id: known.key_id.filter(|_| is_known), ..known })
 }
 
 /// The public half of an RSA key in PKCS#1.

@@ -128,4 +128,29 @@ mod tests {
         let (_, name) = X509Name::from_der(&der).unwrap();
         assert_eq!(title(&name), "\u{fffd}[2J\u{fffd}robot");
     }
+
+    #[test]
+    fn names_are_the_same_whatever_their_string_type_case_and_spaces() {
+        let folded_of = |tag, value: &[u8]| {
+            let der = named(tag, value);
+            folded(&X509Name::from_der(&der).unwrap().1)
+        };
+        let expected = folded_of(0x0c, "Größe 1".as_bytes());
+        for (tag, value) in [
+            (0x14, b"Gr\xf6\xdfe 1".as_slice()),
+            (0x0c, "  grÖße   1 ".as_bytes()),
+            (0x1e, b"\0G\0r\0\xf6\0\xdf\0e\0 \x001"),
+            (0x1c, b"\0\0\0G\0\0\0r\0\0\0\xf6\0\0\0\xdf\0\0\0e\0\0\0 \0\0\x001"),
+        ] {
+            assert_eq!(folded_of(tag, value), expected, "{value:02x?}");
+        }
+        assert_ne!(folded_of(0x0c, b"Gr"), expected);
+        assert_ne!(folded_of(0x04, "Größe 1".as_bytes()), expected, "no string");
+    }
+
+    #[test]
+    fn a_whole_name_is_shown_in_its_order_and_commands_no_terminal() {
+        let der = named(0x0c, b"\x1b[2Jrobot");
+        assert_eq!(full(&X509Name::from_der(&der).unwrap().1), "CN=\u{fffd}[2Jrobot");
+    }
 }

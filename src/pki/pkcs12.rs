@@ -104,13 +104,18 @@ fn inside(bytes: &[u8]) -> Option<&[u8]> {
     }
 }
 
-/// Every key, in PKCS#8 without encryption, and every certificate; of whatever kind, and whether they belong together
-/// or not.
-pub(super) fn contents(bytes: &[u8], password: &str) -> Result<(Vec<Zeroizing<Vec<u8>>>, Vec<Certificate>), PkiError> {
+/// Every key and every certificate of a PKCS#12, whether they belong together or not.
+pub(super) struct Contents {
+    /// Of whatever kind, in PKCS#8 without encryption.
+    pub keys: Vec<Zeroizing<Vec<u8>>>,
+    pub certificates: Vec<Certificate>,
+}
+
+pub(super) fn contents(bytes: &[u8], password: &str) -> Result<Contents, PkiError> {
     let archive = open(bytes, password)?;
     let keys = archive.keys.iter().map(|bag| Zeroizing::new(bag.key.as_der().to_vec())).collect();
     let certificates: Result<_, _> = archive.certs.iter().map(|bag| Certificate::from_der(bag.cert.as_der())).collect();
-    Ok((keys, certificates?))
+    Ok(Contents { keys, certificates: certificates? })
 }
 
 fn open(bytes: &[u8], password: &str) -> Result<Pkcs12Archive, PkiError> {

@@ -4,6 +4,7 @@ use rsa::pkcs8::der::asn1::{AnyRef, Null};
 
 pub(super) const SEQUENCE: u8 = 0x30;
 pub(super) const OCTET_STRING: u8 = 0x04;
+const BIT_STRING: u8 = 0x03;
 /// The explicit `[0]`.
 pub(super) const CONTEXT_0: u8 = 0xa0;
 
@@ -39,6 +40,22 @@ pub(super) fn all(mut bytes: &[u8]) -> Option<Vec<Tlv<'_>>> {
         bytes = rest;
     }
     Some(elements)
+}
+
+/// Whether it has the outside of everything X.509 signs: what is signed, the same algorithm as inside, and a signature of
+/// whole bytes. No signature covers this, and the parser is less exact here.
+pub(super) fn is_signed_object(der: &[u8]) -> bool {
+    let parts = match first(der) {
+        Some((whole, [])) if whole.tag == SEQUENCE => all(whole.content),
+        _ => None,
+    };
+    let Some([signed, algorithm, signature]) = parts.as_deref() else { return false };
+    // Before the algorithm stand only numbers.
+    let inside = all(signed.content).and_then(|parts| parts.into_iter().find(|part| part.tag == SEQUENCE));
+    signed.tag == SEQUENCE
+        && inside == Some(*algorithm)
+        && signature.tag == BIT_STRING
+        && signature.content.first() == Some(&0)
 }
 
 /// The element as DER.

@@ -9,6 +9,7 @@ use tokio::task::spawn_blocking;
 use super::controller::{ControllerSpec, VirtualController};
 use super::fleet::{FleetError, FleetFirmware, FolderLock, plausible_identity, serial_number, shutdown_all, start_all};
 use super::new_controller::{NewCertificate, NewController};
+use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::Identity;
@@ -172,7 +173,7 @@ impl Role {
             initial.settings.security_policies.insert(SecurityPolicy::None);
             initial.settings.security_policies.insert(SecurityPolicy::Basic256);
         }
-        Ok(ControllerSpec { folder, bind, management_port: 0, initial })
+        Ok(ControllerSpec { folder, bind, management_port: 0, admission: AdmissionOptions::default(), initial })
     }
 }
 

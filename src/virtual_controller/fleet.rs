@@ -11,6 +11,7 @@ use tokio::task::{JoinSet, spawn_blocking};
 use super::controller::{ControllerSpec, SwitchOnError, VirtualController};
 use super::file_limit::raise_file_limit;
 use super::new_controller::NewController;
+use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::Identity;
@@ -36,6 +37,8 @@ pub struct FleetConfig {
     pub password: SecretString,
     /// Each controller lives in a folder here, named by its serial number. One process at a time.
     pub data: PathBuf,
+    /// How the OPC UA servers admit clients.
+    pub admission: AdmissionOptions,
     /// Names, serial numbers and series follow from it alone.
     pub seed: u64,
 }
@@ -160,7 +163,7 @@ impl FleetConfig {
             0 => 0,
             first => ports(first)?,
         };
-        Ok(ControllerSpec { folder, bind: self.bind, management_port, initial })
+        Ok(ControllerSpec { folder, bind: self.bind, management_port, admission: self.admission, initial })
     }
 }
 

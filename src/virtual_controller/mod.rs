@@ -39,7 +39,11 @@
 //!
 //! # Decisions
 //! - A running task or a connected teach pendant refuses changes, start and stop, while questions are answered.
-//! - Client lists and CRLs take effect in the running server, which is not restarted for it.
+//! - Client lists and CRLs take effect in the running server, which is not restarted for it; connections that would not
+//!   be let in any more are ended once the change is on the disk.
+//! - The rejected clients are in a file of their own, written at most every few seconds: strangers fill it. A certificate
+//!   that a person puts into another list leaves it.
+//! - A CRL that its authority, if held, did not sign is refused: it could only take the place of the right one.
 //! - A CSR made in current firmware does not touch the certificate in use. Legacy firmware has room for one key of a
 //!   CA-signed certificate only: a new CSR takes the old certificate away, and a server that used it stops.
 //! - A change on a server in error leaves it in error; the next start or stop that succeeds ends that.
@@ -82,6 +86,7 @@ pub use demo::{DEMO_COUNT, DEMO_PASSWORD, DemoEntry, DemoFleet, demo_fleet};
 pub use faults::{DropPoint, Faults, Switches};
 pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyLine};
 pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
+pub use opcua::AdmissionOptions;
 pub use password::hash_connection_password;
 pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;

@@ -46,7 +46,7 @@ const FILE: &str = "controller.state";
 const TEMPORARY: &str = "controller.state.new";
 const MAGIC: &str = "opcua-virtual-controller";
 const FORMAT: u32 = 1;
-/// Far above what a full controller needs (about 300 KB); a larger file is not ours.
+/// Above what a full controller needs (about 300 KB, and up to 6 MB of CRLs); a larger file is not ours.
 const MAX_FILE_BYTES: u64 = 16 * 1024 * 1024;
 
 impl Store {

@@ -8,7 +8,7 @@ use std::time::Duration;
 use opcua_configurator::jobs::{self, JobContext, JobController, JobEvent, Operation, Report, Summary};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::session::{ManagementConnector, Timeouts};
-use opcua_configurator::virtual_controller::{Fleet, FleetConfig, FleetFirmware, VirtualController};
+use opcua_configurator::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, VirtualController};
 use opcua_configurator::workspace::{MemoryPasswords, Passwords as _};
 use parking_lot::Mutex;
 use secrecy::SecretString;
@@ -45,6 +45,7 @@ impl Plant {
             activated,
             password: SecretString::from(PASSWORD),
             data: folder.path().to_owned(),
+            admission: AdmissionOptions::default(),
             seed: 7,
         })
         .await

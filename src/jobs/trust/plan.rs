@@ -184,13 +184,7 @@ impl TrustPlan {
             }
         }
         if self.going().next().is_none() {
-            let crl = self.items.first().is_some_and(|item| matches!(item.thing, Thing::Crl { .. }));
-            return Err(match self.items.first() {
-                None => ErrorCode::BadCertificate,
-                Some(_) if crl => ErrorCode::DuplicateCrl,
-                Some(_) => ErrorCode::DuplicateCertificate,
-            }
-            .into());
+            return Err(self.why_nothing_goes().into());
         }
         let replacing = self.items.iter().filter(|item| item.replaces()).count();
         for (target, have, limit, code) in [
@@ -227,6 +221,18 @@ impl TrustPlan {
             steps.push(TrustStep::AddCrls { crls });
         }
         steps
+    }
+
+    fn why_nothing_goes(&self) -> ErrorCode {
+        let nothing_but_crls = self.items.iter().all(|item| matches!(item.thing, Thing::Crl { .. }));
+        let not_asked_for = |item: &Planned| item.fate == Fate::Skipped(SkipReason::NotAskedFor);
+        match self.items.first() {
+            None => ErrorCode::BadCertificate,
+            Some(_) if nothing_but_crls => ErrorCode::DuplicateCrl,
+            // Certificates where only CRLs were asked for.
+            Some(_) if self.items.iter().all(not_asked_for) => ErrorCode::BadCrl,
+            Some(_) => ErrorCode::DuplicateCertificate,
+        }
     }
 
     fn going(&self) -> impl Iterator<Item = (Target, &Planned)> {

@@ -10,8 +10,8 @@ use crate::pki::signature::Verdict;
 const MAX_CHAIN: usize = 10;
 /// How many signatures are checked for one peer, whatever it sends.
 const MAX_SIGNATURES: usize = 64;
-/// How many chains are looked at from end to end for one peer.
-const MAX_CHAINS: usize = 64;
+/// How many steps up a chain are made for one peer: CAs that certified one another make more chains than certificates.
+const MAX_STEPS: usize = 256;
 
 /// The search for a chain without a flaw: depth first, and bounded.
 pub(super) struct Search<'a> {
@@ -20,14 +20,14 @@ pub(super) struct Search<'a> {
     policy: &'a TrustPolicy,
     /// Who signed what, by SHA-256 of both.
     signatures: HashMap<([u8; 32], [u8; 32]), Verdict>,
-    chains: usize,
+    steps: usize,
     exhausted: bool,
     best: Option<(Step, Rejection)>,
 }
 
 impl<'a> Search<'a> {
     pub fn new(lists: &'a TrustLists, presented: &'a Presented<'a>, policy: &'a TrustPolicy) -> Self {
-        Self { lists, presented, policy, signatures: HashMap::new(), chains: 0, exhausted: false, best: None }
+        Self { lists, presented, policy, signatures: HashMap::new(), steps: 0, exhausted: false, best: None }
     }
 
     pub fn run(mut self) -> Result<Vec<Certificate>, Rejection> {
@@ -44,6 +44,11 @@ impl<'a> Search<'a> {
     /// Whether the chain is good, or can be made so; it then is.
     fn extend(&mut self, chain: &mut Vec<&'a Certificate>) -> bool {
         let Some(&last) = chain.last() else { return false };
+        self.steps += 1;
+        if self.steps > MAX_STEPS {
+            self.exhausted = true;
+            return false;
+        }
         let depth = chain.len() - 1;
         let itself = if self.names_equal(last) { Some(self.signature(last, last)) } else { None };
         if itself == Some(Verdict::Right) {
@@ -90,11 +95,6 @@ impl<'a> Search<'a> {
 
     /// Whether the chain, which is complete, has no flaw.
     fn check(&mut self, chain: &[&'a Certificate]) -> bool {
-        self.chains += 1;
-        if self.chains > MAX_CHAINS {
-            self.exhausted = true;
-            return false;
-        }
         let checked = checks::chain(chain, self.lists, self.presented, self.policy)
             .and_then(|()| revocation::check(chain, self.lists, self.presented, self.policy));
         match checked {

@@ -2,7 +2,8 @@ use chrono::{Duration, Utc};
 
 use super::*;
 use crate::model::CertificateStatus as Status;
-use crate::pki::{Certificate, samples};
+use crate::pki::samples::{self, TestCa};
+use crate::pki::{Certificate, Crl};
 
 fn presented(certificate: &Certificate) -> Presented<'_> {
     Presented {
@@ -29,9 +30,46 @@ fn a_self_signed_certificate_is_trusted_only_if_it_is_in_the_list_itself() {
     assert_eq!(status(&as_issuer, &presented(certificate)), Some(Status::Untrusted));
     let lists = TrustLists::new(vec![certificate.clone()], vec![], vec![]);
     let chain = lists.validate(&presented(certificate), &TrustPolicy::default()).unwrap();
-    assert_eq!(chain, [certificate.clone()]);
+    assert_eq!(chain, std::slice::from_ref(certificate));
     let later = Presented { now: samples::now() + Duration::days(3660), ..presented(certificate) };
     assert_eq!(status(&lists, &later), Some(Status::TimeInvalid));
     let now = Presented { now: Utc::now(), ..presented(certificate) };
     assert_eq!(status(&lists, &now), Some(Status::TimeInvalid), "made for the year 2030");
+}
+
+#[test]
+fn a_rejection_names_the_certificate_at_fault_and_how_far_up_it_stands() {
+    let (root, middle) = (TestCa::new("Root CA"), TestCa::new("Plant CA"));
+    let middle_certificate = root.certify(&middle);
+    let application = middle.application(&[0x11]);
+    let crls = || [root.crl(1, [middle_certificate.facts().serial.clone()]), middle.crl(1, [])];
+    let crls: Vec<Crl> = crls().iter().map(|der| Crl::from_der(der).unwrap()).collect();
+    let sent = [middle_certificate];
+    let presented = Presented { chain: &sent, ..presented(&application) };
+    let lists = TrustLists::new(vec![root.certificate.clone()], vec![], crls.clone());
+    let rejection = lists.validate(&presented, &TrustPolicy::default()).unwrap_err();
+    assert_eq!((rejection.status, rejection.depth), (Status::IssuerRevoked, 1));
+    assert!(rejection.subject.contains("Plant CA"), "{rejection}");
+    assert!(rejection.to_string().contains("keyCompromise"), "{rejection}");
+    let without = TrustLists::new(vec![root.certificate.clone()], vec![], crls[1..].to_vec());
+    let rejection = without.validate(&presented, &TrustPolicy::default()).unwrap_err();
+    assert_eq!((rejection.status, rejection.depth), (Status::IssuerRevocationUnknown, 1));
+    let policy = TrustPolicy { allow_unknown_revocation: true, ..TrustPolicy::default() };
+    assert_eq!(without.validate(&presented, &policy).map(|chain| chain.len()), Ok(3));
+}
+
+/// CAs that all certified one another make millions of chains, none of which ends.
+#[test]
+fn whoever_sends_a_maze_is_refused_soon() {
+    let cas: Vec<TestCa> = (0..8).map(|number| TestCa::new(&format!("CA {number}"))).collect();
+    let crossed = |issuer: &TestCa| {
+        let others = cas.iter().filter(|ca| ca.certificate != issuer.certificate);
+        others.map(|ca| issuer.certify(ca)).collect::<Vec<_>>()
+    };
+    let sent: Vec<Certificate> = cas.iter().flat_map(crossed).collect();
+    let application = cas[0].application(&[0x11]);
+    let presented = Presented { chain: &sent, ..presented(&application) };
+    let start = std::time::Instant::now();
+    assert_eq!(status(&TrustLists::default(), &presented), Some(Status::ChainIncomplete));
+    assert!(start.elapsed() < std::time::Duration::from_secs(5), "{:?}", start.elapsed());
 }

@@ -262,6 +262,8 @@ impl Controller {
         config.refusals = Some(Arc::clone(&self.rejected) as _);
         let faults = self.faults.clone();
         config.clock = Clock::new(move || faults.now());
+        config.trust_policy = self.admission.trust_policy();
+        config.detailed_status = self.admission.detailed_status;
         if state.settings.server_log {
             if self.log.is_full() {
                 return Err(ErrorCode::ServerLogFull.into());

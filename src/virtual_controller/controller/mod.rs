@@ -30,6 +30,7 @@ use plant::Plant;
 use super::api::Api;
 use super::faults::Faults;
 use super::new_controller::NewController;
+use super::opcua::AdmissionOptions;
 use super::rejected::RejectedClients;
 use super::server_log::ServerLog;
 use super::state::{State, Surroundings};
@@ -49,6 +50,8 @@ pub struct ControllerSpec {
     pub bind: IpAddr,
     /// The port of the management protocol; 0 takes a free one.
     pub management_port: u16,
+    /// How its OPC UA server admits clients.
+    pub admission: AdmissionOptions,
     pub initial: NewController,
 }
 
@@ -119,6 +122,7 @@ impl VirtualController {
             folder: spec.folder,
             bind: spec.bind,
             management_port: address.port(),
+            admission: spec.admission,
             server: AsyncMutex::new(Plant { server: None, off: false }),
             standing: Mutex::new(Standing::Stopped),
         });
@@ -217,6 +221,7 @@ pub(super) struct Controller {
     folder: PathBuf,
     bind: IpAddr,
     management_port: u16,
+    admission: AdmissionOptions,
     server: AsyncMutex<Plant>,
     standing: Mutex<Standing>,
 }

@@ -50,6 +50,21 @@ pub struct OpcUaConfig {
     pub pki_folder: PathBuf,
 }
 
+/// How a controller admits OPC UA clients, where that is not for its engineer to say. Safe by default.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct AdmissionOptions {
+    /// Tell a refused client what is wrong with its certificate, instead of `BadSecurityChecksFailed`.
+    pub detailed_status: bool,
+    /// Admit certificates whose CA has given no valid revocation list.
+    pub allow_unknown_revocation: bool,
+}
+
+impl AdmissionOptions {
+    pub(in super::super) fn trust_policy(self) -> TrustPolicy {
+        TrustPolicy { allow_unknown_revocation: self.allow_unknown_revocation, ..TrustPolicy::default() }
+    }
+}
+
 /// A user who may log in with a password.
 #[derive(Clone, PartialEq, Eq)]
 pub struct OpcUaUser {

@@ -28,7 +28,7 @@ mod tests;
 mod users;
 
 pub use admission::{Clock, CutConnection, Refusals};
-pub use config::{DeviceIdentity, OpcUaConfig, OpcUaUser};
+pub use config::{AdmissionOptions, DeviceIdentity, OpcUaConfig, OpcUaUser};
 pub use events::{Event, Events};
 pub use server::{OpcUaServer, StartError};
 pub use users::{HashError, hash_password};

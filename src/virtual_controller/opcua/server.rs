@@ -92,6 +92,11 @@ impl OpcUaServer {
         self.gate.set_trust(lists)
     }
 
+    #[cfg(test)]
+    pub(super) fn address_behind_the_gate(&self) -> SocketAddr {
+        self.gate.server()
+    }
+
     /// False once the server has ended by itself.
     pub fn is_running(&self) -> bool {
         !self.server.is_finished() && !self.clients.is_finished()

@@ -22,7 +22,7 @@ use crate::pki::{Fingerprint, PrivateKey, ServerNames, self_signed};
 use crate::protocol::{self, Base64Bytes, Failure, Hello, Session};
 use crate::virtual_controller::ports::free_port;
 use crate::virtual_controller::{
-    ControllerSpec, Identity, NewCertificate, NewController, State, SwitchOnError, VirtualController,
+    AdmissionOptions, ControllerSpec, Identity, NewCertificate, NewController, State, SwitchOnError, VirtualController,
     hash_connection_password,
 };
 
@@ -61,7 +61,13 @@ pub fn with_certificate(mut initial: NewController) -> NewController {
 }
 
 pub async fn switch_on(folder: &Path, initial: NewController) -> Result<VirtualController, SwitchOnError> {
-    let spec = ControllerSpec { folder: folder.to_owned(), bind: LOOPBACK, management_port: 0, initial };
+    let spec = ControllerSpec {
+        folder: folder.to_owned(),
+        bind: LOOPBACK,
+        management_port: 0,
+        admission: AdmissionOptions::default(),
+        initial,
+    };
     VirtualController::start(spec).await
 }
 

@@ -3,7 +3,9 @@ use std::collections::BTreeSet;
 use super::bench::{Client, LOOPBACK, bounded};
 use crate::model::{ErrorCode, FirmwareGeneration, ServerStatus};
 use crate::protocol;
-use crate::virtual_controller::{DEMO_COUNT, DEMO_PASSWORD, Fleet, FleetConfig, FleetError, FleetFirmware, demo_fleet};
+use crate::virtual_controller::{
+    AdmissionOptions, DEMO_COUNT, DEMO_PASSWORD, Fleet, FleetConfig, FleetError, FleetFirmware, demo_fleet,
+};
 
 fn config(data: &std::path::Path, count: usize) -> FleetConfig {
     FleetConfig {
@@ -15,6 +17,7 @@ fn config(data: &std::path::Path, count: usize) -> FleetConfig {
         activated: true,
         password: "fleet".into(),
         data: data.to_owned(),
+        admission: AdmissionOptions::default(),
         seed: 7,
     }
 }

@@ -8,4 +8,5 @@ mod keys_log_and_settings;
 mod persistence;
 mod sessions;
 mod starting;
+mod trust;
 mod whole_or_nothing;

@@ -2,7 +2,7 @@ use opcua::types::StatusCode;
 
 /// Why a peer is turned away, in the words it is told.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Fault {
+pub(in super::super) struct Fault {
     pub(super) status: StatusCode,
     /// English, without anything the peer should not know.
     pub(super) reason: String,

@@ -15,7 +15,7 @@ pub(super) const MAX_SENT_CERTIFICATES: usize = 8;
 
 /// What travels on a connection (OPC 10000-6 §7.1.2.2, §6.7.2.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
+pub(in super::super) enum Kind {
     Hello,
     Acknowledge,
     Error,
@@ -26,8 +26,8 @@ pub(super) enum Kind {
 
 /// The first eight bytes of a message or chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Header {
-    pub(super) kind: Kind,
+pub(in super::super) struct Header {
+    pub(in super::super) kind: Kind,
     /// `F`, or for parts of a longer message `C` and `A`.
     pub(super) last: u8,
     /// Of the whole chunk, header included.
@@ -64,10 +64,10 @@ impl Header {
 
 /// The part of an OpenSecureChannel chunk that is not encrypted (OPC 10000-6 §6.7.2.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Open<'a> {
+pub(in super::super) struct Open<'a> {
     /// 0 in the first request of a connection.
-    pub(super) channel: u32,
-    pub(super) policy_uri: &'a str,
+    pub(in super::super) channel: u32,
+    pub(in super::super) policy_uri: &'a str,
     /// The sender's certificate, in DER, perhaps followed by its issuers.
     pub(super) certificates: &'a [u8],
     pub(super) receiver_thumbprint: &'a [u8],
@@ -77,7 +77,7 @@ pub(super) struct Open<'a> {
 
 impl<'a> Open<'a> {
     /// `chunk` is a whole one.
-    pub(super) fn parse(chunk: &'a [u8]) -> Result<Self, Fault> {
+    pub(in super::super) fn parse(chunk: &'a [u8]) -> Result<Self, Fault> {
         let mut rest = chunk.get(HEADER..).unwrap_or_default();
         let channel = number(&mut rest)?;
         let policy = byte_string(&mut rest)?;
@@ -138,13 +138,13 @@ fn truncated() -> Fault {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(in super::super) mod tests {
     use super::*;
 
     const CHUNK: usize = 65_535;
 
     /// An OpenSecureChannel chunk with these parts.
-    pub(in super::super) fn open(
+    pub(in super::super::super) fn open(
         channel: u32,
         policy: &str,
         certificates: &[u8],

@@ -194,6 +194,11 @@ impl Gate {
         Ok(Some((hello, server)))
     }
 
+    #[cfg(test)]
+    pub(in super::super) fn server(&self) -> SocketAddr {
+        self.server
+    }
+
     pub(in super::super) fn pki(&self) -> &PkiFolder {
         &self.pki
     }
@@ -396,3 +401,7 @@ fn unproven(leaf: &Certificate) -> String {
 }
 
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;

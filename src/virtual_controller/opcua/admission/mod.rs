@@ -14,6 +14,7 @@
 //! | `frame` | the parts of OPC UA's chunks that are not encrypted |
 //! | `plain` | what is looked at where nothing is encrypted: discovery, and passwords in clear |
 //! | `rewrap` | clients that send their issuers along, which the crate cannot read |
+//! | `channel_keys` | the same in CreateSession |
 //! | `guard` | sessions that do not belong to their secure channel |
 //! | `connections` | the connections there are, and who makes room for whom |
 //! | `addresses` | lock-out of addresses that are refused too often |
@@ -33,10 +34,12 @@
 //! clients. A controller can be told to give the true one.
 //!
 //! # Limits of the OPC UA crate that remain
-//! A client that sends its issuers in CreateSession too, not only in OpenSecureChannel, is let through and then refused
-//! by the crate. TransferSubscriptions and Publish reach no node, so that only the activation guards them.
+//! Issuers sent in CreateSession are left out only before the first session of a channel, and only of a client that
+//! sent them in OpenSecureChannel too. TransferSubscriptions and Publish reach no node, so that only the activation
+//! guards them.
 
 mod addresses;
+mod channel_keys;
 mod connections;
 mod downward;
 mod fault;
@@ -50,6 +53,16 @@ mod plain;
 mod report;
 mod rewrap;
 mod upward;
+
+/// For the tests of the server, which have to forge what a client would not send.
+#[cfg(test)]
+pub(super) mod wire {
+    pub(in super::super) use super::channel_keys::ChannelKeys;
+    pub(in super::super) use super::frame::tests;
+    pub(in super::super) use super::frame::{Kind, Open};
+    pub(in super::super) use super::passage::Passage;
+    pub(in super::super) use super::rewrap::{Envelope, unseal};
+}
 
 pub use gate::CutConnection;
 pub(super) use gate::{Gate, Settings};

@@ -3,7 +3,7 @@ use super::frame::Header;
 
 /// Bytes on their way in one direction, chunk by chunk: first those that may go on, then those still to be looked at.
 #[derive(Debug, Default)]
-pub(super) struct Passage {
+pub(in super::super) struct Passage {
     bytes: Vec<u8>,
     /// How many at the front may go on.
     good: usize,
@@ -12,12 +12,12 @@ pub(super) struct Passage {
 }
 
 impl Passage {
-    pub(super) fn new(bytes: Vec<u8>) -> Self {
+    pub(in super::super) fn new(bytes: Vec<u8>) -> Self {
         Self { bytes, good: 0, passing: 0 }
     }
 
     /// The header of the next chunk to look at, once what is before it was let pass. `None` if it is not there yet.
-    pub(super) fn next(&mut self, max_chunk: usize) -> Result<Option<Header>, Fault> {
+    pub(in super::super) fn next(&mut self, max_chunk: usize) -> Result<Option<Header>, Fault> {
         let here = self.passing.min(self.bytes.len() - self.good);
         self.good += here;
         self.passing -= here;
@@ -25,44 +25,44 @@ impl Passage {
     }
 
     /// From the header of the next chunk on.
-    pub(super) fn rest(&self) -> &[u8] {
+    pub(in super::super) fn rest(&self) -> &[u8] {
         &self.bytes[self.good..]
     }
 
     /// The next chunk, if all of it is here.
-    pub(super) fn chunk(&self, header: Header) -> Option<&[u8]> {
+    pub(in super::super) fn chunk(&self, header: Header) -> Option<&[u8]> {
         self.rest().get(..header.size)
     }
 
     /// Lets the next chunk pass, here or not.
-    pub(super) fn pass(&mut self, header: Header) {
+    pub(in super::super) fn pass(&mut self, header: Header) {
         self.passing = header.size;
     }
 
     /// Puts another chunk in the place of the next one, which is here, and lets it pass.
-    pub(super) fn replace(&mut self, header: Header, chunk: Vec<u8>) {
+    pub(in super::super) fn replace(&mut self, header: Header, chunk: Vec<u8>) {
         self.passing = chunk.len();
         self.bytes.splice(self.good..self.good + header.size, chunk);
     }
 
     /// What may go on.
-    pub(super) fn good(&self) -> &[u8] {
+    pub(in super::super) fn good(&self) -> &[u8] {
         &self.bytes[..self.good]
     }
 
     /// It has gone on.
-    pub(super) fn sent(&mut self) {
+    pub(in super::super) fn sent(&mut self) {
         self.bytes.drain(..self.good);
         self.good = 0;
     }
 
     /// Whether the receiver has seen whole chunks only, once what may go on has gone on.
-    pub(super) fn is_between_chunks(&self) -> bool {
+    pub(in super::super) fn is_between_chunks(&self) -> bool {
         self.passing == 0
     }
 
     /// Where to read more into.
-    pub(super) fn room(&mut self) -> &mut Vec<u8> {
+    pub(in super::super) fn room(&mut self) -> &mut Vec<u8> {
         self.bytes.reserve(READ_AT_LEAST);
         &mut self.bytes
     }

@@ -1,10 +1,13 @@
 use std::fmt;
+use std::sync::Arc;
 
 use opcua::crypto::{KeySize as _, PrivateKey, PublicKey, SecurityPolicy, X509};
 use opcua::types::StatusCode;
+use parking_lot::Mutex;
 
+use super::channel_keys::ChannelKeys;
 use super::fault::Fault;
-use super::frame::{HEADER, Open};
+use super::frame::Open;
 
 /// The server's own certificate and key, as the OPC UA crate takes them.
 pub(in super::super) struct Own {
@@ -18,11 +21,15 @@ pub(in super::super) struct Own {
 ///
 /// The server cannot read more than one certificate, so OpenSecureChannel is opened here and sealed again: for the
 /// server under its own certificate, for the client under what it expects. Both nonces pass as they are, so the two
-/// derive the same symmetric keys from them, and what follows passes untouched and unread.
+/// derive the same symmetric keys from them, and what follows passes untouched, but for CreateSession.
 pub(super) struct ChainedClient {
     policy: SecurityPolicy,
     public: PublicKey,
     thumbprint: Vec<u8>,
+    leaf: Vec<u8>,
+    /// The request under way, from its sequence header on.
+    asked: Mutex<Vec<u8>>,
+    keys: Mutex<Option<Arc<ChannelKeys>>>,
 }
 
 impl Own {
@@ -43,69 +50,119 @@ impl ChainedClient {
     pub(super) fn new(policy: SecurityPolicy, leaf: &[u8]) -> Result<Self, Fault> {
         let certificate = X509::from_der(leaf).map_err(|_| refused())?;
         let public = certificate.public_key().map_err(|_| refused())?;
-        Ok(Self { policy, public, thumbprint: certificate.thumbprint().value().to_vec() })
+        Ok(Self {
+            policy,
+            public,
+            thumbprint: certificate.thumbprint().value().to_vec(),
+            leaf: leaf.to_vec(),
+            asked: Mutex::default(),
+            keys: Mutex::default(),
+        })
     }
 
     /// The client's request as the server can read it, if the client signed it.
     pub(super) fn request(&self, own: &Own, chunk: &[u8]) -> Result<Vec<u8>, Fault> {
-        let open = Open::parse(chunk)?;
-        let body = self.unseal(chunk, open.body, own, &self.public)?;
-        self.seal(open.channel, &body, own, &own.thumbprint, &own.public)
+        let body = unseal(self.policy, chunk, &own.key, &self.public)?;
+        let sealed = self.seal(own, chunk, &body, &own.thumbprint, &own.public);
+        *self.asked.lock() = body;
+        sealed
     }
 
     /// The server's answer as the client expects it.
     pub(super) fn answer(&self, own: &Own, chunk: &[u8]) -> Result<Vec<u8>, Fault> {
-        let open = Open::parse(chunk)?;
-        let body = self.unseal(chunk, open.body, own, &own.public)?;
-        self.seal(open.channel, &body, own, &self.thumbprint, &self.public)
+        let body = unseal(self.policy, chunk, &own.key, &own.public)?;
+        let keys = ChannelKeys::new(self.policy, &std::mem::take(&mut *self.asked.lock()), &body);
+        *self.keys.lock() = keys.map(Arc::new);
+        self.seal(own, chunk, &body, &self.thumbprint, &self.public)
     }
 
-    /// Sequence header and body of a chunk that `sender` signed and encrypted for this server (OPC 10000-6 §6.7.2.5).
-    fn unseal(&self, chunk: &[u8], at: usize, own: &Own, sender: &PublicKey) -> Result<Vec<u8>, Fault> {
-        let encrypted = chunk.get(at..).unwrap_or_default();
-        if encrypted.is_empty() || !encrypted.len().is_multiple_of(own.key.size()) {
-            return Err(refused());
-        }
-        let mut plain = vec![0; encrypted.len()];
-        let size = self.policy.asymmetric_decrypt(&own.key, encrypted, &mut plain).map_err(|_| refused())?;
-        plain.truncate(size);
-        let signature_at = size.checked_sub(sender.size()).ok_or_else(refused)?;
-        let mut signed = chunk[..at].to_vec();
-        signed.extend(&plain[..signature_at]);
-        self.policy.asymmetric_verify_signature(sender, &signed, &plain[signature_at..]).map_err(|_| refused())?;
-        plain.truncate(signature_at);
-        let padding = match *plain.as_slice() {
-            // Longer keys need more padding than one byte counts.
-            [.., low, high] if own.key.size() > SHORT_KEY => usize::from(u16::from_le_bytes([low, high])) + 2,
-            [.., low] => usize::from(low) + 1,
-            [] => return Err(refused()),
-        };
-        let end = plain.len().checked_sub(padding).filter(|end| *end >= SEQUENCE_HEADER).ok_or_else(refused)?;
-        plain.truncate(end);
-        Ok(plain)
+    /// A message under the keys agreed on last, with the client's certificate alone if it is CreateSession.
+    pub(super) fn session_request(&self, chunk: &[u8]) -> Option<Vec<u8>> {
+        let keys = self.keys.lock().clone()?;
+        keys.edit_session_request(chunk, |request| {
+            // Anything else than what the channel was opened with stays, and is refused.
+            if request.client_certificate.as_ref().starts_with(&self.leaf) {
+                request.client_certificate = self.leaf.as_slice().into();
+            }
+        })
     }
 
-    /// Signed with the server's key and encrypted for `receiver`.
     fn seal(
         &self,
-        channel: u32,
-        body: &[u8],
         own: &Own,
+        chunk: &[u8],
+        body: &[u8],
         receiver_thumbprint: &[u8],
         receiver: &PublicKey,
     ) -> Result<Vec<u8>, Fault> {
+        let open = Open::parse(chunk)?;
+        let envelope = Envelope {
+            policy: self.policy,
+            channel: open.channel,
+            sender: &own.certificate,
+            sender_key: &own.key,
+            receiver_thumbprint,
+            receiver,
+        };
+        envelope.seal(body)
+    }
+}
+
+/// Sequence header and body of an OpenSecureChannel chunk that `sender` signed, and encrypted for the owner of `key`
+/// (OPC 10000-6 §6.7.2.5).
+pub(in super::super) fn unseal(
+    policy: SecurityPolicy,
+    chunk: &[u8],
+    key: &PrivateKey,
+    sender: &PublicKey,
+) -> Result<Vec<u8>, Fault> {
+    let (head, encrypted) = chunk.split_at(Open::parse(chunk)?.body);
+    if encrypted.is_empty() || !encrypted.len().is_multiple_of(key.size()) {
+        return Err(refused());
+    }
+    let mut plain = vec![0; encrypted.len()];
+    let size = policy.asymmetric_decrypt(key, encrypted, &mut plain).map_err(|_| refused())?;
+    plain.truncate(size);
+    let signature_at = size.checked_sub(sender.size()).ok_or_else(refused)?;
+    let signed = [head, &plain[..signature_at]].concat();
+    policy.asymmetric_verify_signature(sender, &signed, &plain[signature_at..]).map_err(|_| refused())?;
+    plain.truncate(signature_at);
+    let padding = match *plain.as_slice() {
+        // Longer keys need more padding than one byte counts.
+        [.., low, high] if key.size() > SHORT_KEY => usize::from(u16::from_le_bytes([low, high])) + 2,
+        [.., low] => usize::from(low) + 1,
+        [] => return Err(refused()),
+    };
+    let end = plain.len().checked_sub(padding).filter(|end| *end >= SEQUENCE_HEADER).ok_or_else(refused)?;
+    plain.truncate(end);
+    Ok(plain)
+}
+
+/// What an OpenSecureChannel chunk is put into.
+pub(in super::super) struct Envelope<'a> {
+    pub(in super::super) policy: SecurityPolicy,
+    pub(in super::super) channel: u32,
+    /// Certificate, or chain, of whom it comes from.
+    pub(in super::super) sender: &'a [u8],
+    pub(in super::super) sender_key: &'a PrivateKey,
+    pub(in super::super) receiver_thumbprint: &'a [u8],
+    pub(in super::super) receiver: &'a PublicKey,
+}
+
+impl Envelope<'_> {
+    /// The chunk, signed by its sender and encrypted for its receiver. `body` begins with the sequence header.
+    pub(in super::super) fn seal(&self, body: &[u8]) -> Result<Vec<u8>, Fault> {
         let mut chunk = b"OPNF\0\0\0\0".to_vec();
-        debug_assert_eq!(chunk.len(), HEADER);
-        chunk.extend(channel.to_le_bytes());
-        for field in [self.policy.to_uri().as_bytes(), &own.certificate, receiver_thumbprint] {
+        chunk.extend(self.channel.to_le_bytes());
+        for field in [self.policy.to_uri().as_bytes(), self.sender, self.receiver_thumbprint] {
             chunk.extend((field.len() as u32).to_le_bytes());
             chunk.extend(field);
         }
         let at = chunk.len();
         chunk.extend(body);
 
-        let padding = self.policy.asymmetric_padding_info(receiver);
-        let used = body.len() + padding.minimum_padding + own.key.size();
+        let padding = self.policy.asymmetric_padding_info(self.receiver);
+        let used = body.len() + padding.minimum_padding + self.sender_key.size();
         let count = (padding.block_size - used % padding.block_size) % padding.block_size;
         let [low, high, ..] = count.to_le_bytes();
         chunk.extend(std::iter::repeat_n(low, count + 1));
@@ -113,15 +170,16 @@ impl ChainedClient {
             chunk.push(high);
         }
 
-        let size = self.policy.calculate_cipher_text_size(chunk.len() + own.key.size() - at, receiver);
+        let plain_size = chunk.len() + self.sender_key.size() - at;
+        let size = self.policy.calculate_cipher_text_size(plain_size, self.receiver);
         chunk[4..8].copy_from_slice(&((at + size) as u32).to_le_bytes());
-        let mut signature = vec![0; own.key.size()];
-        self.policy.asymmetric_sign(&own.key, &chunk, &mut signature).map_err(|_| failed())?;
+        let mut signature = vec![0; self.sender_key.size()];
+        self.policy.asymmetric_sign(self.sender_key, &chunk, &mut signature).map_err(|_| Fault::internal())?;
         chunk.extend(signature);
-        let mut encrypted = vec![0; size + receiver.size()];
-        let written = self.policy.asymmetric_encrypt(receiver, &chunk[at..], &mut encrypted).map_err(|_| failed())?;
-        if written != size {
-            return Err(failed());
+        let mut encrypted = vec![0; size + self.receiver.size()];
+        let written = self.policy.asymmetric_encrypt(self.receiver, &chunk[at..], &mut encrypted);
+        if !matches!(written, Ok(written) if written == size) {
+            return Err(Fault::internal());
         }
         chunk.truncate(at);
         chunk.extend(&encrypted[..size]);
@@ -137,10 +195,6 @@ fn thumbprint(certificate: &[u8]) -> Option<Vec<u8>> {
 /// One answer to everything that may be wrong with a sealed request: telling more would help to guess keys.
 fn refused() -> Fault {
     Fault::new(StatusCode::BadSecurityChecksFailed, "the request is not secured as it should be")
-}
-
-fn failed() -> Fault {
-    Fault::new(StatusCode::BadInternalError, "the answer cannot be secured")
 }
 
 impl fmt::Debug for Own {

@@ -13,6 +13,7 @@ use super::frame::{Header, Kind};
 use super::gate::Gate;
 use super::passage::Passage;
 use super::plain;
+use super::rewrap::ChainedClient;
 
 /// From one client to the server: no byte reaches it before the header of its chunk was looked at.
 pub(super) struct Upward<'a> {
@@ -20,6 +21,7 @@ pub(super) struct Upward<'a> {
     connection: &'a Arc<Connection>,
     passage: Passage,
     identity: Option<Arc<Identity>>,
+    chained: Option<Arc<ChainedClient>>,
     /// A message has begun whose last chunk was not seen yet.
     in_message: bool,
 }
@@ -46,7 +48,7 @@ pub(super) async fn read_hello(from: &mut OwnedReadHalf, deadline: Instant) -> R
 impl<'a> Upward<'a> {
     /// `bytes` begin with a Hello that was looked at.
     pub(super) fn new(gate: &'a Arc<Gate>, connection: &'a Arc<Connection>, bytes: Vec<u8>) -> Self {
-        Self { gate, connection, passage: Passage::new(bytes), identity: None, in_message: false }
+        Self { gate, connection, passage: Passage::new(bytes), identity: None, chained: None, in_message: false }
     }
 
     /// Ends well when one of the two has closed the connection.
@@ -88,6 +90,9 @@ impl<'a> Upward<'a> {
                 (Kind::Message, Some(SecurityPolicy::None)) => {
                     self.plain(header).map_err(|fault| self.gate.refuse(self.connection, fault))?
                 }
+                (Kind::Message, Some(_)) if self.chained.is_some() && !self.connection.has_session() => {
+                    self.before_session(header)
+                }
                 (Kind::Message | Kind::Close, Some(_)) => {
                     self.passage.pass(header);
                     true
@@ -112,8 +117,8 @@ impl<'a> Upward<'a> {
     async fn open(&mut self, header: Header) -> Result<bool, Stop> {
         let Some(chunk) = self.passage.chunk(header) else { return Ok(false) };
         let identity = self.gate.admit(self.connection, chunk).await?;
-        let chained = self.connection.state.lock().chained.clone();
-        match chained {
+        self.chained = self.connection.state.lock().chained.clone();
+        match self.chained.clone() {
             Some(client) => {
                 let (own, chunk) = (self.gate.own().clone(), chunk.to_vec());
                 let sealed = spawn_blocking(move || client.request(&own, &chunk)).await;
@@ -125,6 +130,16 @@ impl<'a> Upward<'a> {
         }
         self.identity = Some(identity);
         Ok(true)
+    }
+
+    /// A message of a client that sent its issuers along, and may do so again. False while the chunk is not whole.
+    fn before_session(&mut self, header: Header) -> bool {
+        let Some(chunk) = self.passage.chunk(header) else { return false };
+        match self.chained.as_ref().and_then(|client| client.session_request(chunk)) {
+            Some(edited) => self.passage.replace(header, edited),
+            None => self.passage.pass(header),
+        }
+        true
     }
 
     /// A message without security. False while too little of it is here.

@@ -1,190 +1,12 @@
-//! A real server and the crate's own client, over loopback.
-
 use std::collections::BTreeSet;
 use std::fs;
-use std::net::{IpAddr, Ipv4Addr};
 use std::path::Path;
-use std::sync::{Arc, LazyLock};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
-use opcua::client::{ClientBuilder, IdentityToken, Session};
-use opcua::types::{
-    BrowseDescription, BrowseDirection, MessageSecurityMode, NodeClass, NodeClassMask, NodeId, ObjectId, ReadValueId,
-    ReferenceTypeId, StatusCode, TimestampsToReturn, VariableId, Variant, WriteValue,
-};
-use rcgen::{
-    CertificateParams, DnType, ExtendedKeyUsagePurpose, KeyPair, KeyUsagePurpose, PKCS_RSA_SHA256, RsaKeySize, SanType,
-};
-use tempfile::TempDir;
-use tokio::task::JoinHandle;
-use tokio::time::timeout;
-use zeroize::Zeroizing;
+use opcua::client::ClientBuilder;
+use opcua::types::{MessageSecurityMode, NodeId, ObjectId, StatusCode, VariableId, Variant, WriteValue};
 
 use super::*;
-use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, UserTokenPolicy};
-use crate::pki::{Certificate, TrustLists, TrustPolicy};
-
-const URI: &str = "urn:EpsonRC.SN0000123.127.000.000.001";
-const PATIENCE: Duration = Duration::from_secs(30);
-
-struct Identity {
-    der: Vec<u8>,
-    key: KeyPair,
-}
-
-impl Identity {
-    fn new(name: &str) -> Self {
-        let key = KeyPair::generate_rsa_for(&PKCS_RSA_SHA256, RsaKeySize::_2048).unwrap();
-        let mut params = CertificateParams::default();
-        params.distinguished_name.push(DnType::CommonName, name);
-        params.subject_alt_names = vec![
-            SanType::URI(format!("urn:{name}").try_into().unwrap()),
-            SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST)),
-        ];
-        params.key_usages = vec![
-            KeyUsagePurpose::DigitalSignature,
-            KeyUsagePurpose::ContentCommitment,
-            KeyUsagePurpose::KeyEncipherment,
-            KeyUsagePurpose::DataEncipherment,
-            KeyUsagePurpose::KeyCertSign,
-        ];
-        params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth, ExtendedKeyUsagePurpose::ClientAuth];
-        Self { der: params.self_signed(&key).unwrap().der().to_vec(), key }
-    }
-}
-
-fn trusting(identity: &Identity) -> TrustLists {
-    TrustLists::new(vec![Certificate::from_der(&identity.der).unwrap()], vec![], vec![])
-}
-
-static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("EpsonRC.SN0000123.127.000.000.001"));
-static CLIENT: LazyLock<Identity> = LazyLock::new(|| Identity::new("client"));
-
-fn config(folder: &TempDir) -> OpcUaConfig {
-    OpcUaConfig {
-        application_name: "EpsonRC.SN0000123.127.000.000.001".to_owned(),
-        application_uri: URI.to_owned(),
-        bind: Ipv4Addr::LOCALHOST.into(),
-        port: 0,
-        policies: SecurityPolicy::ALL.into(),
-        user_tokens: UserTokenPolicy::ALL.into(),
-        users: vec![],
-        certificate_der: SERVER.der.clone(),
-        private_key_pkcs8: Zeroizing::new(SERVER.key.serialize_der()),
-        trust: TrustLists::default(),
-        trust_policy: TrustPolicy::default(),
-        detailed_status: false,
-        refusals: None,
-        clock: Clock::default(),
-        identity: DeviceIdentity {
-            name: "Weld 1".to_owned(),
-            series: ControllerSeries::Rc800,
-            serial: "SN0000123".parse().unwrap(),
-            firmware: FirmwareVersion::new(8, 0, 1),
-        },
-        events: Events::default(),
-        pki_folder: folder.path().join("pki"),
-    }
-}
-
-struct Client {
-    session: Arc<Session>,
-    events: JoinHandle<StatusCode>,
-    _folder: TempDir,
-}
-
-impl Client {
-    async fn connect(server: &OpcUaServer, policy: SecurityPolicy, user: IdentityToken) -> Result<Self, StatusCode> {
-        let folder = tempfile::tempdir().unwrap();
-        fs::create_dir_all(folder.path().join("own")).unwrap();
-        fs::create_dir_all(folder.path().join("private")).unwrap();
-        fs::write(folder.path().join("own/cert.der"), &CLIENT.der).unwrap();
-        fs::write(folder.path().join("private/private.pem"), CLIENT.key.serialize_pem()).unwrap();
-        let mut client = ClientBuilder::new()
-            .application_name("client")
-            .application_uri("urn:client")
-            .product_uri("urn:client")
-            .pki_dir(folder.path())
-            .certificate_path("own/cert.der")
-            .private_key_path("private/private.pem")
-            .trust_server_certs(true)
-            .verify_server_certs(false)
-            .session_retry_limit(0)
-            .client()
-            .unwrap();
-        let mode = match policy {
-            SecurityPolicy::None => MessageSecurityMode::None,
-            _ => MessageSecurityMode::SignAndEncrypt,
-        };
-        let token = match user {
-            IdentityToken::Anonymous => opcua::types::UserTokenType::Anonymous,
-            _ => opcua::types::UserTokenType::UserName,
-        };
-        let token = opcua::types::UserTokenPolicy { token_type: token, ..Default::default() };
-        let endpoint = server.endpoint();
-        let endpoint = (endpoint.as_str(), endpoints::wire(policy).to_str(), mode, token);
-        let (session, events) = timeout(PATIENCE, client.connect_to_matching_endpoint(endpoint, user))
-            .await
-            .unwrap()
-            .map_err(|e| e.status())?;
-        // A refused connection shows only on the event loop.
-        let mut events = events.spawn();
-        tokio::select! {
-            _ = session.wait_for_connection() => Ok(Self { session, events, _folder: folder }),
-            status = &mut events => Err(status.unwrap()),
-            () = tokio::time::sleep(PATIENCE) => panic!("neither connected nor refused"),
-        }
-    }
-
-    async fn anonymous(server: &OpcUaServer) -> Result<Self, StatusCode> {
-        Self::connect(server, SecurityPolicy::None, IdentityToken::Anonymous).await
-    }
-
-    async fn encrypted(server: &OpcUaServer) -> Result<Self, StatusCode> {
-        Self::connect(server, SecurityPolicy::Basic256Sha256, IdentityToken::Anonymous).await
-    }
-
-    async fn log_in(server: &OpcUaServer, name: &str, password: &str) -> Result<(), StatusCode> {
-        let user = IdentityToken::new_user_name(name, password);
-        Self::connect(server, SecurityPolicy::None, user).await?.close().await;
-        Ok(())
-    }
-
-    async fn read(&self, node: impl Into<NodeId>) -> Variant {
-        let node = ReadValueId::from(node.into());
-        let values =
-            timeout(PATIENCE, self.session.read(&[node], TimestampsToReturn::Both, 0.0)).await.unwrap().unwrap();
-        values.into_iter().next().unwrap().value.unwrap_or_default()
-    }
-
-    /// Names and ids of the nodes below one node.
-    async fn browse(&self, node: impl Into<NodeId>) -> Vec<(String, NodeId)> {
-        let browse = BrowseDescription {
-            node_id: node.into(),
-            browse_direction: BrowseDirection::Forward,
-            reference_type_id: ReferenceTypeId::HierarchicalReferences.into(),
-            include_subtypes: true,
-            node_class_mask: (NodeClassMask::OBJECT | NodeClassMask::VARIABLE).bits(),
-            result_mask: 63,
-        };
-        let results = timeout(PATIENCE, self.session.browse(&[browse], 100, None)).await.unwrap().unwrap();
-        let references = results.into_iter().next().unwrap().references.unwrap_or_default();
-        references
-            .into_iter()
-            .filter(|r| matches!(r.node_class, NodeClass::Object | NodeClass::Variable))
-            .map(|r| (r.browse_name.name.to_string(), r.node_id.node_id))
-            .collect()
-    }
-
-    async fn close(self) {
-        let _ = timeout(PATIENCE, self.session.disconnect()).await;
-        let _ = timeout(PATIENCE, self.events).await;
-    }
-}
-
-async fn start(config: OpcUaConfig) -> OpcUaServer {
-    timeout(PATIENCE, OpcUaServer::start(config)).await.unwrap().unwrap()
-}
 
 fn string(value: Variant) -> String {
     match value {
@@ -302,12 +124,11 @@ async fn namespace_1_is_the_servers_own_and_the_controller_lies_in_the_device_se
 async fn a_user_is_let_in_with_the_right_password_only() {
     let folder = tempfile::tempdir().unwrap();
     let user = |name: &str| OpcUaUser { name: name.to_owned(), password_hash: hash_password("Passw0rd").unwrap() };
-    let told = std::sync::Arc::new(parking_lot::Mutex::new(String::new()));
-    let log = told.clone();
+    let told = Told::default();
     let server = start(OpcUaConfig {
         user_tokens: BTreeSet::from([UserTokenPolicy::UserName]),
         users: vec![user("operator1"), user("operator2")],
-        events: Events::new(move |event| *log.lock() += &format!("{event}\n")),
+        events: told.events(),
         ..config(&folder)
     })
     .await;
@@ -321,7 +142,7 @@ async fn a_user_is_let_in_with_the_right_password_only() {
     assert_eq!(Client::log_in(&server, "operator1", "Passw0rd").await, Err(StatusCode::BadUserAccessDenied));
     assert_eq!(Client::log_in(&server, "operator2", "Passw0rd").await, Ok(()));
     server.stop().await;
-    let told = told.lock().clone();
+    let told = told.lines();
     for line in [
         "server started: opc.tcp://127.0.0.1:",
         "session of operator1 activated: ",
@@ -356,16 +177,20 @@ async fn trust_in_a_client_changes_while_the_server_runs() {
     let server = start(config(&folder)).await;
     assert_eq!(Client::encrypted(&server).await.err(), Some(StatusCode::BadSecurityChecksFailed));
 
-    assert_eq!(server.set_trust(trusting(&CLIENT)), []);
+    assert_eq!(server.set_trust(trusting(&[&CLIENT])), []);
     Client::encrypted(&server).await.unwrap().close().await;
 
-    server.set_trust(trusting(&SERVER));
+    server.set_trust(trusting(&[&SERVER]));
     assert_eq!(Client::encrypted(&server).await.err(), Some(StatusCode::BadSecurityChecksFailed));
     server.stop().await;
 
-    let server = start(OpcUaConfig { trust: trusting(&CLIENT), ..config(&folder) }).await;
+    let server = start(OpcUaConfig { trust: trusting(&[&CLIENT]), ..config(&folder) }).await;
     for policy in SecurityPolicy::ALL {
-        let client = Client::connect(&server, policy, IdentityToken::Anonymous).await;
+        let mode = match policy {
+            SecurityPolicy::None => MessageSecurityMode::None,
+            _ => MessageSecurityMode::SignAndEncrypt,
+        };
+        let client = Dial { policy, mode, ..Dial::new(&server) }.connect().await;
         client.unwrap_or_else(|e| panic!("{policy}: {e}")).close().await;
     }
     server.stop().await;

@@ -1,0 +1,112 @@
+use super::*;
+use crate::pki::samples::{self, TestCa};
+
+struct Sample {
+    ca: TestCa,
+    application: Certificate,
+    crl: Vec<u8>,
+}
+
+fn sample() -> Sample {
+    let ca = TestCa::new("Plant CA");
+    Sample { application: ca.application(&[0x11, 1]), crl: ca.crl(1, [vec![0x11, 2]]), ca }
+}
+
+/// The signed data around nothing, as `openssl crl2pkcs7` writes it.
+fn pkcs7(certificates: &[&[u8]], crls: &[&[u8]]) -> Vec<u8> {
+    let oid = |last: u8| tlv::write(OBJECT_IDENTIFIER, &[PKCS7, &[last]]);
+    let signed = tlv::write(
+        tlv::SEQUENCE,
+        &[
+            &tlv::write(0x02, &[&[1]]),
+            &tlv::write(SET, &[]),
+            &tlv::write(tlv::SEQUENCE, &[&oid(1)]),
+            &tlv::write(tlv::CONTEXT_0, certificates),
+            &tlv::write(CONTEXT_1, crls),
+            &tlv::write(SET, &[]),
+        ],
+    );
+    tlv::write(tlv::SEQUENCE, &[&oid(2), &tlv::write(tlv::CONTEXT_0, &[&signed])])
+}
+
+#[test]
+fn every_form_holds_the_same() {
+    let Sample { ca, application, crl } = sample();
+    let p7b = pkcs7(&[application.der(), ca.certificate.der()], &[&crl]);
+    let pem_crl = pem::armour("X509 CRL", &crl);
+    let expected = Bundle {
+        certificates: vec![application.clone(), ca.certificate.clone()],
+        crls: vec![Crl::from_der(&crl).unwrap()],
+    };
+    for bytes in [
+        [application.der(), ca.certificate.der(), &crl].concat(),
+        [&crl, application.der(), ca.certificate.der()].concat(),
+        (application.to_pem() + &ca.certificate.to_pem() + &pem_crl).into_bytes(),
+        (String::from("Certificate:\n    Version: 3\n")
+            + &application.to_pem()
+            + "CA\n"
+            + &pem_crl
+            + &ca.certificate.to_pem())
+            .replace('\n', "\r\n")
+            .into_bytes(),
+        (application.to_pem() + &application.to_pem() + &ca.certificate.to_pem() + &pem_crl).into_bytes(),
+        p7b.clone(),
+        pem::armour("PKCS7", &p7b).into_bytes(),
+        ["\u{feff}".as_bytes(), pem::armour("CMS", &p7b).as_bytes()].concat(),
+    ] {
+        assert_eq!(read_bundle(&bytes).as_ref(), Ok(&expected));
+    }
+}
+
+#[test]
+fn what_does_not_belong_there_is_refused_by_its_name() {
+    let Sample { application, crl, .. } = sample();
+    let key = samples::key().to_pkcs8_der().unwrap();
+    let with = |label: &str, der: &[u8]| (application.to_pem() + &pem::armour(label, der)).into_bytes();
+    let p7b = pkcs7(&[application.der()], &[]);
+    for (bytes, expected) in [
+        (vec![], PkiError::Empty),
+        (b"hello, robot".to_vec(), PkiError::NotTrustMaterial),
+        (key.to_vec(), PkiError::PrivateKeyInside),
+        (with("PRIVATE KEY", &key), PkiError::PrivateKeyInside),
+        (with("ENCRYPTED PRIVATE KEY", b"x"), PkiError::PrivateKeyInside),
+        (with("CERTIFICATE REQUEST", b"x"), PkiError::UnexpectedBlock("CERTIFICATE REQUEST".to_owned())),
+        (with("CERTIFICATE", b"x"), PkiError::NotACertificate),
+        (with("X509 CRL", application.der()), PkiError::NotACrl(crl::UNREADABLE)),
+        (with("PKCS7", application.der()), PkiError::NotPkcs7("it cannot be read")),
+        ([application.der(), b"\0"].concat(), PkiError::TrailingBytes(1)),
+        ([&crl[..], &[0x30, 0]].concat(), PkiError::NotTrustMaterial),
+        (application.to_pem().replace("-----END", "-----TO").into_bytes(), PkiError::BadPem),
+        ([&[0x30, 0x80], &p7b[4..]].concat(), PkiError::NotPkcs7("it is in BER, not in DER")),
+        (pkcs7(&[], &[]), PkiError::NoCertificate),
+    ] {
+        assert_eq!(read_bundle(&bytes), Err(expected));
+    }
+    let too_many = vec![b' '; MAX_BUNDLE_BYTES + 1];
+    assert!(matches!(read_bundle(&too_many), Err(PkiError::TooLarge { .. })));
+}
+
+#[test]
+fn a_damaged_file_is_an_error_and_nothing_is_left_out() {
+    let Sample { ca, application, crl } = sample();
+    let p7b = pkcs7(&[application.der(), ca.certificate.der()], &[&crl]);
+    let whole = read_bundle(&p7b).unwrap();
+    for at in 0..p7b.len() {
+        assert!(read_bundle(&p7b[..at]).is_err(), "first {at} bytes");
+        let mut damaged = p7b.clone();
+        damaged[at] ^= 1 << (at % 8);
+        if let Ok(read) = read_bundle(&damaged) {
+            let count = read.certificates.len() + read.crls.len();
+            assert!(count == 3 || read != whole, "byte {at}");
+        }
+    }
+}
+
+#[test]
+fn deep_nesting_ends_in_an_error() {
+    let nested = (0..5000).fold(vec![5, 0], |inner, _| tlv::write(tlv::SEQUENCE, &[&inner]));
+    assert!(read_bundle(&nested).is_err());
+    assert!(read_bundle(&[0x30, 0x80].repeat(100_000)).is_err());
+    let crl = tlv::write(tlv::SEQUENCE, &[&tlv::write(tlv::SEQUENCE, &[&[0x22, 0x80].repeat(100_000)])]);
+    assert!(read_bundle(&crl).is_err());
+}

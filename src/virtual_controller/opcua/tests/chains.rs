@@ -1,0 +1,66 @@
+use opcua::types::MessageSecurityMode;
+use rcgen::RsaKeySize;
+
+use super::disguise::Disguise;
+use super::identity::Authority;
+use super::*;
+
+/// Connects a client that sends its issuer along, over and over renews its channel, and is served all the time.
+async fn is_served_with_its_chain(size: RsaKeySize, policies: &[SecurityPolicy]) {
+    let folder = tempfile::tempdir().unwrap();
+    let (root, authority) = (Authority::new("Root CA"), Authority::new("Plant CA"));
+    let client = authority.issue("chained", size);
+    let trust = TrustLists::new(vec![authority.certificate.clone()], vec![], vec![authority.crl(1, &[])]);
+    let server = start(OpcUaConfig { trust, ..config(&folder) }).await;
+    let chain = [authority.certificate.der(), root.certificate.der()];
+    let disguise = Disguise::start(&server, &client, &client, &chain).await;
+    for policy in policies {
+        for mode in [MessageSecurityMode::Sign, MessageSecurityMode::SignAndEncrypt] {
+            let through = Some(disguise.url.clone());
+            let dial = Dial { policy: *policy, mode, through, lifetime: 1000, ..Dial::new(&server) };
+            let client = dial.identity(&client).connect().await.unwrap_or_else(|e| panic!("{policy} {mode}: {e}"));
+            let start = tokio::time::Instant::now();
+            // Two renewals.
+            while start.elapsed() < Duration::from_millis(1800) {
+                assert!(client.is_served().await, "{policy} {mode}, after {:?}", start.elapsed());
+                tokio::time::sleep(Duration::from_millis(20)).await;
+            }
+            client.close().await;
+        }
+    }
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_client_that_sends_its_issuers_is_served_through_renewals() {
+    use SecurityPolicy::{Aes128Sha256RsaOaep, Aes256Sha256RsaPss, Basic256Sha256};
+    is_served_with_its_chain(RsaKeySize::_2048, &[Basic256Sha256, Aes128Sha256RsaOaep, Aes256Sha256RsaPss]).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_client_with_a_long_key_that_sends_its_issuers_is_served_too() {
+    is_served_with_its_chain(RsaKeySize::_4096, &[SecurityPolicy::Basic256Sha256]).await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn an_issuer_that_was_sent_completes_a_chain_but_is_not_trusted_for_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let authority = Authority::new("Plant CA");
+    let client = authority.issue("chained", RsaKeySize::_2048);
+    let recorded = Arc::new(Recorded::default());
+    let refusals: Arc<dyn Refusals> = recorded.clone();
+    let server = start(OpcUaConfig { refusals: Some(refusals), ..config(&folder) }).await;
+    let disguise = Disguise::start(&server, &client, &client, &[authority.certificate.der()]).await;
+    let through = Some(disguise.url.clone());
+    let refused = Dial { through, ..Dial::new(&server) }.identity(&client).connect().await.err();
+    assert_eq!(refused, Some(opcua::types::StatusCode::BadSecurityChecksFailed));
+    let recorded = recorded.0.lock();
+    let (sent, address, rejection) = &recorded[0];
+    assert_eq!(*sent, [client.certificate(), authority.certificate.clone()]);
+    assert_eq!(
+        (address.to_string(), rejection.status),
+        ("127.0.0.1".to_owned(), crate::model::CertificateStatus::Untrusted)
+    );
+    drop(recorded);
+    server.stop().await;
+}

@@ -1,0 +1,141 @@
+use std::sync::Arc;
+
+use opcua::crypto::{PrivateKey, SecurityPolicy as WirePolicy, X509};
+use parking_lot::Mutex;
+use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
+use tokio::net::{TcpListener, TcpStream};
+use tokio::task::JoinHandle;
+
+use super::super::OpcUaServer;
+use super::super::admission::wire::{ChannelKeys, Envelope, Kind, Open, Passage, unseal};
+use super::SERVER;
+use super::identity::Identity;
+
+/// Stands between a client and the server, and opens the client's secure channels as somebody else, or with more
+/// certificates than its own. Everything else passes untouched. Works because the test has everybody's keys.
+pub(super) struct Disguise {
+    pub url: String,
+    task: JoinHandle<()>,
+}
+
+struct Keys {
+    server: (PrivateKey, X509),
+    /// Whom the client is.
+    client: (PrivateKey, X509),
+    /// Whom it shows.
+    shown: (PrivateKey, X509),
+    shown_bytes: Vec<u8>,
+    asked: Mutex<Vec<u8>>,
+    channel: Mutex<Option<ChannelKeys>>,
+}
+
+impl Disguise {
+    /// `shown` opens the channels of `client`; `issuers` (DER) follow its certificate, in CreateSession too.
+    pub async fn start(server: &OpcUaServer, client: &Identity, shown: &Identity, issuers: &[&[u8]]) -> Self {
+        let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+        let url = format!("opc.tcp://{}", listener.local_addr().unwrap());
+        let keys = Arc::new(Keys {
+            server: SERVER.wire(),
+            client: client.wire(),
+            shown: shown.wire(),
+            shown_bytes: [&[&shown.der[..]], issuers].concat().concat(),
+            asked: Mutex::default(),
+            channel: Mutex::default(),
+        });
+        let has_issuers = !issuers.is_empty();
+        let port = server.port();
+        let task = tokio::spawn(async move {
+            while let Ok((client, _)) = listener.accept().await {
+                let server = TcpStream::connect(("127.0.0.1", port)).await.unwrap();
+                let ((from_client, to_client), (from_server, to_server)) = (client.into_split(), server.into_split());
+                let (up, down) = (keys.clone(), keys.clone());
+                tokio::spawn(pass(from_client, to_server, move |kind, chunk| match kind {
+                    Kind::Open => Some(up.request(chunk)),
+                    Kind::Message if has_issuers => up.session_request(chunk),
+                    _ => None,
+                }));
+                tokio::spawn(pass(from_server, to_client, move |kind, chunk| match kind {
+                    Kind::Open => Some(down.answer(chunk)),
+                    _ => None,
+                }));
+            }
+        });
+        Self { url, task }
+    }
+}
+
+impl Drop for Disguise {
+    fn drop(&mut self) {
+        self.task.abort();
+    }
+}
+
+impl Keys {
+    fn request(&self, chunk: &[u8]) -> Vec<u8> {
+        let (server_key, server) = &self.server;
+        let client = self.client.1.public_key().unwrap();
+        let (sealed, body) = reseal(chunk, server_key, &client, &self.shown_bytes, &self.shown.0, server);
+        *self.asked.lock() = body;
+        sealed
+    }
+
+    fn answer(&self, chunk: &[u8]) -> Vec<u8> {
+        let server = self.server.1.public_key().unwrap();
+        let (sealed, body) = reseal(chunk, &self.shown.0, &server, &SERVER.der, &self.server.0, &self.client.1);
+        let policy = WirePolicy::from_uri(Open::parse(chunk).unwrap().policy_uri);
+        *self.channel.lock() = ChannelKeys::new(policy, &self.asked.lock(), &body);
+        sealed
+    }
+
+    fn session_request(&self, chunk: &[u8]) -> Option<Vec<u8>> {
+        let channel = self.channel.lock();
+        channel.as_ref()?.edit_session_request(chunk, |request| {
+            assert_eq!(request.client_certificate.as_ref(), self.client.1.to_der().unwrap());
+            request.client_certificate = self.shown_bytes.as_slice().into();
+        })
+    }
+}
+
+fn reseal(
+    chunk: &[u8],
+    key: &PrivateKey,
+    sender: &opcua::crypto::PublicKey,
+    sender_bytes: &[u8],
+    sender_key: &PrivateKey,
+    receiver: &X509,
+) -> (Vec<u8>, Vec<u8>) {
+    let open = Open::parse(chunk).unwrap();
+    let policy = WirePolicy::from_uri(open.policy_uri);
+    let body = unseal(policy, chunk, key, sender).unwrap();
+    let thumbprint = receiver.thumbprint();
+    let envelope = Envelope {
+        policy,
+        channel: open.channel,
+        sender: sender_bytes,
+        sender_key,
+        receiver_thumbprint: thumbprint.value(),
+        receiver: &receiver.public_key().unwrap(),
+    };
+    (envelope.seal(&body).unwrap(), body)
+}
+
+async fn pass(
+    mut from: tokio::net::tcp::OwnedReadHalf,
+    mut to: tokio::net::tcp::OwnedWriteHalf,
+    edit: impl Fn(Kind, &[u8]) -> Option<Vec<u8>>,
+) {
+    let mut passage = Passage::default();
+    while matches!(from.read_buf(passage.room()).await, Ok(1..)) {
+        while let Some(header) = passage.next(65_535).unwrap() {
+            let Some(chunk) = passage.chunk(header) else { break };
+            match edit(header.kind, chunk) {
+                Some(edited) => passage.replace(header, edited),
+                None => passage.pass(header),
+            }
+        }
+        if to.write_all(passage.good()).await.is_err() {
+            return;
+        }
+        passage.sent();
+    }
+}

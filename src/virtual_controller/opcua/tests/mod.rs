@@ -1,0 +1,97 @@
+//! A real server and the crate's own client, over loopback.
+
+mod admission;
+mod chains;
+mod client;
+mod disguise;
+mod hostile;
+pub(super) mod identity;
+mod server;
+mod sessions;
+
+use std::net::{IpAddr, Ipv4Addr};
+use std::sync::{Arc, LazyLock};
+use std::time::Duration;
+
+use parking_lot::Mutex;
+use tempfile::TempDir;
+use tokio::time::timeout;
+use zeroize::Zeroizing;
+
+use super::*;
+use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, UserTokenPolicy};
+use crate::pki::{Certificate, Rejection, TrustLists, TrustPolicy};
+use client::{Client, Dial};
+use identity::{Identity, trusting};
+
+const URI: &str = "urn:EpsonRC.SN0000123.127.000.000.001";
+const PATIENCE: Duration = Duration::from_secs(30);
+
+static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("EpsonRC.SN0000123.127.000.000.001"));
+static CLIENT: LazyLock<Identity> = LazyLock::new(|| Identity::new("client"));
+
+fn config(folder: &TempDir) -> OpcUaConfig {
+    OpcUaConfig {
+        application_name: "EpsonRC.SN0000123.127.000.000.001".to_owned(),
+        application_uri: URI.to_owned(),
+        bind: Ipv4Addr::LOCALHOST.into(),
+        port: 0,
+        policies: SecurityPolicy::ALL.into(),
+        user_tokens: UserTokenPolicy::ALL.into(),
+        users: vec![],
+        certificate_der: SERVER.der.clone(),
+        private_key_pkcs8: Zeroizing::new(SERVER.key.serialize_der()),
+        trust: TrustLists::default(),
+        trust_policy: TrustPolicy::default(),
+        detailed_status: false,
+        refusals: None,
+        clock: Clock::default(),
+        identity: DeviceIdentity {
+            name: "Weld 1".to_owned(),
+            series: ControllerSeries::Rc800,
+            serial: "SN0000123".parse().unwrap(),
+            firmware: FirmwareVersion::new(8, 0, 1),
+        },
+        events: Events::default(),
+        pki_folder: folder.path().join("pki"),
+    }
+}
+
+async fn start(config: OpcUaConfig) -> OpcUaServer {
+    timeout(PATIENCE, OpcUaServer::start(config)).await.unwrap().unwrap()
+}
+
+/// What a server told, a line each.
+#[derive(Clone, Default)]
+struct Told(Arc<Mutex<String>>);
+
+impl Told {
+    fn events(&self) -> Events {
+        let log = self.0.clone();
+        Events::new(move |event| *log.lock() += &format!("{event}\n"))
+    }
+
+    fn lines(&self) -> String {
+        self.0.lock().clone()
+    }
+
+    /// Waits for a line with this in it.
+    async fn wait_for(&self, text: &str) {
+        let seen = timeout(PATIENCE, async {
+            while !self.lines().contains(text) {
+                tokio::time::sleep(Duration::from_millis(10)).await;
+            }
+        });
+        assert!(seen.await.is_ok(), "{text:?} is not in\n{}", self.lines());
+    }
+}
+
+/// The rejected clients: what was sent, from where, and why it was refused.
+#[derive(Default)]
+struct Recorded(Mutex<Vec<(Vec<Certificate>, IpAddr, Rejection)>>);
+
+impl Refusals for Recorded {
+    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection) {
+        self.0.lock().push((sent.to_vec(), address, rejection.clone()));
+    }
+}

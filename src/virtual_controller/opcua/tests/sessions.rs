@@ -1,0 +1,103 @@
+use std::collections::BTreeSet;
+
+use opcua::client::IdentityToken;
+use opcua::types::{StatusCode, VariableId};
+
+use super::disguise::Disguise;
+use super::*;
+use crate::model::CertificateStatus;
+
+const TIME: VariableId = VariableId::Server_ServerStatus_CurrentTime;
+
+/// Connected or not, it gets nothing.
+async fn gets_nothing(dial: Dial<'_>) {
+    if let Ok(client) = dial.connect().await {
+        assert!(client.try_read(TIME).await.is_err());
+        assert!(timeout(PATIENCE, client.events).await.is_ok(), "the connection is still open");
+    }
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_session_under_another_certificate_than_its_channel_ends_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = Told::default();
+    let other = Identity::new("other");
+    let trust = trusting(&[&CLIENT, &other]);
+    let server = start(OpcUaConfig { trust, events: told.events(), ..config(&folder) }).await;
+    // The crate has both certificates in its folder now.
+    for identity in [&*CLIENT, &other] {
+        Dial::new(&server).identity(identity).connect().await.unwrap().close().await;
+    }
+    let disguise = Disguise::start(&server, &CLIENT, &other, &[]).await;
+    gets_nothing(Dial { through: Some(disguise.url.clone()), ..Dial::new(&server) }).await;
+    told.wait_for("opened under another certificate").await;
+
+    // The disguise is not what it fails by.
+    let honest = Disguise::start(&server, &CLIENT, &CLIENT, &[]).await;
+    let client = Dial { through: Some(honest.url.clone()), ..Dial::new(&server) }.connect().await.unwrap();
+    assert!(client.is_served().await);
+    client.close().await;
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_client_that_gives_another_application_uri_than_its_certificate_is_cut_off_and_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let recorded = Arc::new(Recorded::default());
+    let refusals: Arc<dyn Refusals> = recorded.clone();
+    let trust = trusting(&[&CLIENT]);
+    let server = start(OpcUaConfig { trust, refusals: Some(refusals), ..config(&folder) }).await;
+    gets_nothing(Dial { application_uri: "urn:somebody:else".to_owned(), ..Dial::new(&server) }).await;
+    let recorded = recorded.0.lock().clone();
+    assert_eq!(recorded.len(), 1, "{recorded:?}");
+    assert_eq!(
+        (&recorded[0].0[..], recorded[0].2.status),
+        (&[CLIENT.certificate()][..], CertificateStatus::UriInvalid)
+    );
+    assert!(Client::encrypted(&server).await.unwrap().is_served().await);
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn whoever_finds_the_port_behind_the_gate_gets_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = start(OpcUaConfig { trust: trusting(&[&CLIENT]), ..config(&folder) }).await;
+    let through = Some(format!("opc.tcp://{}", server.address_behind_the_gate()));
+    Client::encrypted(&server).await.unwrap().close().await;
+    for dial in [Dial::plain(&server), Dial::new(&server)] {
+        let client = Dial { through: through.clone(), ..dial }.connect().await.unwrap();
+        assert_eq!(client.try_read(TIME).await, Err(StatusCode::BadSecureChannelIdInvalid));
+        assert_eq!(client.browse(opcua::types::ObjectId::ObjectsFolder).await, []);
+        client.close().await;
+    }
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn without_security_a_server_that_does_not_offer_it_only_tells_its_endpoints() {
+    let folder = tempfile::tempdir().unwrap();
+    let policies = BTreeSet::from([SecurityPolicy::Basic256Sha256]);
+    let server = start(OpcUaConfig { policies, trust: trusting(&[&CLIENT]), ..config(&folder) }).await;
+    assert_eq!(Client::anonymous(&server).await.err(), Some(StatusCode::BadSecurityModeRejected));
+    // Nor does it open channels with a policy it does not offer.
+    let other = Dial { policy: SecurityPolicy::Aes128Sha256RsaOaep, ..Dial::new(&server) };
+    assert!(other.connect().await.is_err());
+    // Which begins with a question for the endpoints.
+    Client::encrypted(&server).await.unwrap().close().await;
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_password_in_clear_is_refused_even_if_it_is_right() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = Told::default();
+    let password_hash = hash_password("Passw0rd").unwrap();
+    let users = vec![OpcUaUser { name: "operator1".to_owned(), password_hash }];
+    let server = start(OpcUaConfig { users, events: told.events(), ..config(&folder) }).await;
+    let user = || IdentityToken::new_user_name("operator1", "Passw0rd");
+    let clear = Dial { user: user(), clear_password: true, ..Dial::plain(&server) }.connect().await;
+    assert_eq!(clear.err(), Some(StatusCode::BadIdentityTokenRejected));
+    told.wait_for("whose password was not encrypted").await;
+    Dial { user: user(), ..Dial::plain(&server) }.connect().await.unwrap().close().await;
+    server.stop().await;
+}

@@ -1,0 +1,193 @@
+//! Client certificate lists and CRLs through the real command line.
+
+#[path = "common/clients.rs"]
+mod clients;
+#[path = "common/desk.rs"]
+mod desk;
+#[path = "common/process.rs"]
+mod process;
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use clients::{Authority, Client, Identity};
+use desk::{Desk, assert_error, walk};
+use opcua_configurator::pki::Bundle;
+use serde_json::{Value, json};
+
+fn write(desk: &Desk, name: &str, bytes: impl AsRef<[u8]>) -> String {
+    fs::write(desk.folder.path().join(name), bytes).unwrap();
+    desk.file(name)
+}
+
+/// A desk with one current controller, "weld", and one legacy one, "paint".
+fn mixed() -> Desk {
+    let desk = Desk::with(2, &["--seed", "3", "--firmware", "mixed"]);
+    let legacy = |index: &usize| desk.ready[*index]["firmware"].as_str().unwrap().starts_with('7');
+    let (old, new) = if legacy(&0) { (0, 1) } else { (1, 0) };
+    assert!(legacy(&old) && !legacy(&new), "{:?}", desk.ready);
+    assert_eq!((desk.add(new, "weld").0, desk.add(old, "paint").0), (Some(0), Some(0)));
+    desk
+}
+
+#[test]
+fn certificates_are_added_listed_and_removed_in_many_controllers() {
+    let desk = mixed();
+    let (one, ca) = (Identity::new("one"), Authority::new("Plant CA"));
+    let issued = ca.client("issued", 7);
+    let one_file = write(&desk, "one.pem", one.certificate.to_pem());
+    let bundle =
+        Bundle { certificates: vec![issued.certificate.clone(), ca.certificate.clone()], crls: vec![ca.crl(1, &[])] };
+    let chain = write(&desk, "chain.p7b", clients::p7b(&bundle));
+
+    let (code, lines) = desk.json(&["clients", "add", "--list", "trusted", &one_file, "--all"]);
+    assert_eq!((code, lines.len()), (Some(0), 2), "{lines:?}");
+    assert!(lines.iter().all(|line| line["result"]["trusted"] == 1), "{lines:?}");
+    let (code, lines) = desk.json(&["clients", "add", &one_file, "weld"]);
+    assert_eq!(code, Some(1));
+    assert_error(&lines, "duplicate-certificate");
+
+    // A chain means something else to each generation: without a terminal, a person must have agreed.
+    let (code, lines) = desk.json(&["clients", "add", &chain, "--all"]);
+    assert_eq!(code, Some(2));
+    assert_error(&lines, "not-confirmed");
+    let (code, lines) = desk.json(&["clients", "add", &chain, "--all", "--yes"]);
+    assert_eq!(code, Some(0), "{lines:?}");
+    let counts = |line: &Value| ["trusted", "issuers", "crls"].map(|list| line["result"][list].as_u64().unwrap());
+    assert_eq!((counts(&lines[0]), counts(&lines[1])), ([3, 0, 1], [2, 1, 1]));
+
+    let (_, lines) = desk.json(&["clients", "list", "weld"]);
+    let weld = &lines[0]["result"];
+    assert_eq!(weld["issuers"][0]["certificate"]["thumbprint"], json!(ca.certificate.thumbprint_sha1()));
+    assert_eq!(weld["trusted"][0]["file_name"], "one.pem");
+    assert_eq!(weld["rejected"], json!([]));
+    let table = desk.run(&["clients", "list", "--list", "issuers", "weld"]);
+    assert!(table.stdout.contains("Plant CA until"), "{}", table.stdout);
+
+    let lower = one.thumbprint().to_lowercase();
+    let (code, lines) = desk.json(&["clients", "remove", &lower, "--all"]);
+    assert_eq!(code, Some(2));
+    assert_error(&lines, "not-confirmed");
+    let (code, lines) = desk.json(&["clients", "remove", &lower, "--all", "--yes"]);
+    assert_eq!((code, &lines[0]["result"]["disconnected"]), (Some(0), &json!([])), "{lines:?}");
+    let (code, lines) = desk.json(&["clients", "remove", &lower, "--all", "--yes"]);
+    assert_eq!(code, Some(1));
+    assert_error(&lines, "not-in-list");
+    let (code, lines) = desk.json(&["clients", "remove", "not-hex", "--all", "--yes"]);
+    assert_eq!(code, Some(2));
+    assert_error(&lines, "not-in-list");
+}
+
+#[test]
+fn crls_are_added_replaced_listed_with_their_health_and_removed() {
+    let desk = mixed();
+    let ca = Authority::new("Plant CA");
+    let (first, second) = (ca.crl(1, &[]), ca.crl(2, &[&ca.client("gone", 9)]));
+    let first_file = write(&desk, "first.crl", first.der());
+    let second_file = write(&desk, "second.crl", second.der());
+    let ca_file = write(&desk, "ca.der", ca.certificate.der());
+    let (code, lines) = desk.json(&["crl", "add", &first_file, "--all", "--yes"]);
+    assert_eq!((code, lines.len()), (Some(0), 2), "{lines:?}");
+    let (_, lines) = desk.json(&["crl", "list", "weld"]);
+    let crl = &lines[0]["result"]["crls"][0];
+    assert_eq!((&crl["health"]["issuer"], &crl["health"]["dates"]), (&json!("missing"), &json!("current")));
+    assert!(desk.run(&["crl", "list", "weld"]).stdout.contains("ISSUER MISSING"));
+    assert_eq!(desk.json(&["clients", "add", "--list", "issuers", &ca_file, "weld"]).0, Some(0));
+
+    let (code, _) = desk.json(&["crl", "add", &second_file, "weld", "--yes"]);
+    assert_eq!(code, Some(0));
+    let (_, lines) = desk.json(&["crl", "list", "weld"]);
+    let crls = lines[0]["result"]["crls"].as_array().unwrap();
+    assert_eq!(crls.len(), 1);
+    assert_eq!((&crls[0]["crl"]["id"], &crls[0]["crl"]["entries"]), (&json!(second.id()), &json!(1)));
+    let held = json!({ "held": { "thumbprint": ca.certificate.thumbprint_sha1() } });
+    assert_eq!((&crls[0]["health"]["issuer"], &lines[0]["result"]["without_crl"]), (&held, &json!([])));
+    let (code, lines) = desk.json(&["crl", "add", &first_file, "weld", "--yes"]);
+    assert_eq!(code, Some(1));
+    assert_error(&lines, "crl-outdated");
+    let (code, lines) = desk.json(&["crl", "add", &second_file, "weld", "--yes"]);
+    assert_eq!(code, Some(1));
+    assert_error(&lines, "duplicate-crl");
+    let (code, lines) = desk.json(&["crl", "add", &second_file, "weld"]);
+    assert_eq!((code, &lines[0]["error"]["code"]), (Some(2), &json!("not-confirmed")));
+    let (code, lines) = desk.json(&["crl", "remove", &second.id(), "weld", "--yes"]);
+    assert_eq!((code, &lines[0]["result"]["crls"]), (Some(0), &json!(0)), "{lines:?}");
+    let (code, lines) = desk.json(&["crl", "remove", &second.id(), "weld", "--yes"]);
+    assert_eq!(code, Some(1));
+    assert_error(&lines, "not-in-list");
+}
+
+#[test]
+fn a_file_that_is_no_good_makes_the_request_wrong() {
+    let desk = mixed();
+    let one = Identity::new("one");
+    let good = write(&desk, "good.der", one.certificate.der());
+    let cut = write(&desk, "cut.der", &one.certificate.der()[..one.certificate.der().len() - 3]);
+    let empty = write(&desk, "empty.der", "");
+    let key = write(&desk, "key.pem", "-----BEGIN PRIVATE KEY-----\nAAAA\n-----END PRIVATE KEY-----\n");
+    for bad in [&cut, &empty, &key, &desk.file("password"), &desk.file("nowhere")] {
+        for command in [&["clients", "add"][..], &["crl", "add"]] {
+            let (code, lines) = desk.json(&[command, &[&good, bad, "--all", "--yes"]].concat());
+            assert_eq!(code, Some(2), "{bad} {lines:?}");
+            assert!(!lines[0]["error"]["code"].as_str().unwrap().is_empty());
+        }
+    }
+    let (code, lines) = desk.json(&["crl", "add", &good, "--all", "--yes"]);
+    assert_eq!(code, Some(1));
+    assert_error(&lines, "bad-crl");
+    let (code, lines) = desk.json(&["clients", "add", "--list", "issuers", &good, "--all"]);
+    assert_eq!(code, Some(1));
+    assert_eq!(
+        (&lines[0]["error"]["code"], &lines[1]["error"]["code"]),
+        (&json!("firmware-too-old"), &json!("not-an-authority"))
+    );
+    let (_, lines) = desk.json(&["info", "--all"]);
+    assert!(lines.iter().all(|line| line["result"]["revision"] == 1), "nothing was changed: {lines:?}");
+}
+
+#[test]
+fn a_refused_client_is_remembered_by_a_killed_controller_and_can_be_trusted() {
+    let data = tempfile::tempdir().unwrap();
+    let folder = data.path().display().to_string();
+    let stranger = Identity::new("stranger");
+    let runtime = tokio::runtime::Runtime::new().unwrap();
+    let knock = |desk: &Desk| {
+        let endpoint = desk.ready[0]["opcua"].as_str().unwrap().to_owned();
+        runtime.block_on(async { Client::connect(&endpoint, &stranger).await })
+    };
+    {
+        let desk = Desk::with(1, &["--seed", "3", "--firmware", "current", "--data", &folder]);
+        assert_eq!(desk.add(0, "weld").0, Some(0));
+        let words =
+            ["cert", "self-signed", "--country", "jp", "--state", "N", "--locality", "S", "--organisation", "E"];
+        let (code, lines) = desk.json(&[&words[..], &["--years", "5", "--yes", "weld"]].concat());
+        assert_eq!(code, Some(0), "{lines:?}");
+        let settings = ["settings", "set", "--tokens", "anonymous", "--startup", "auto", "--yes", "weld"];
+        assert_eq!(desk.json(&settings).0, Some(0));
+        assert_eq!(desk.json(&["start", "weld"]).0, Some(0));
+        assert!(knock(&desk).is_err());
+        let (_, lines) = desk.json(&["clients", "list", "--list", "rejected", "weld"]);
+        let seen = &lines[0]["result"]["rejected"][0];
+        assert_eq!((&seen["status"], &seen["address"]), (&json!("BadCertificateUntrusted"), &json!("127.0.0.1")));
+        assert_eq!(seen["certificate"]["thumbprint"], json!(stranger.thumbprint()));
+        let begun = Instant::now();
+        while !walk(data.path()).iter().any(|file| file.ends_with("rejected.json")) {
+            assert!(begun.elapsed() < Duration::from_secs(10), "never written");
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        // Dropped, the desk kills its controllers.
+    }
+    let desk = Desk::with(1, &["--seed", "3", "--firmware", "current", "--data", &folder]);
+    assert_eq!(desk.add(0, "weld").0, Some(0));
+    let table = desk.run(&["clients", "list", "--list", "rejected", "weld"]);
+    assert!(table.stdout.contains("stranger from 127.0.0.1: BadCertificateUntrusted"), "{}", table.stdout);
+    let (code, lines) = desk.json(&["clients", "trust", &stranger.thumbprint(), "weld"]);
+    assert_eq!((code, &lines[0]["result"]["trusted"]), (Some(0), &json!(1)), "{lines:?}");
+    assert_eq!(lines[0]["result"]["rejected"], 0);
+    let inside = knock(&desk).expect("trusted now");
+    let (code, lines) = desk.json(&["clients", "remove", &stranger.thumbprint(), "weld", "--yes"]);
+    assert_eq!(code, Some(0), "{lines:?}");
+    let gone = &lines[0]["result"]["disconnected"][0];
+    assert_eq!((&gone["issued_to"], &gone["status"]), (&json!("stranger"), &json!("BadCertificateUntrusted")));
+    runtime.block_on(inside.ended());
+}
