@@ -27,6 +27,8 @@ pub struct AuthorityView {
     pub ticked: BTreeSet<String>,
     /// What was written last.
     pub saved: Option<PathBuf>,
+    /// A signing request that was dropped onto the window, to be signed once it is known that there is a CA.
+    csr: Option<PathBuf>,
 }
 
 /// Something the CA is asked for, together with its passphrase.
@@ -219,8 +221,29 @@ impl Model {
             overview: None,
             ticked: BTreeSet::new(),
             saved: None,
+            csr: None,
         }));
         self.look_at_authority()
+    }
+
+    /// For a file with a signing request.
+    pub(super) fn open_authority_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+        let commands = self.open_authority();
+        if let Some(view) = self.authority_view() {
+            view.csr = paths.into_iter().next();
+        }
+        commands
+    }
+
+    /// Goes on with a request that was dropped, if there is a CA by now.
+    fn sign_dropped(&mut self) -> Vec<Command> {
+        let Some(view) = self.authority_view().filter(|view| view.overview.is_some()) else { return vec![] };
+        let Some(path) = view.csr.take() else { return vec![] };
+        self.ask_authority(AuthorityCommand::SignFile);
+        if let Some(file) = self.dialogs.last_mut().and_then(Dialog::file) {
+            file.path = path.display().to_string();
+        }
+        self.read_typed()
     }
 
     /// Reads it again for the dialog that shows it, if it is open.
@@ -354,7 +377,9 @@ impl Model {
             view.saved = done.saved;
             view.overview.clone_from(&done.overview);
         }
-        let Some(Dialog::AuthorityForm(form)) = form.map(|index| self.dialogs.remove(index)) else { return vec![] };
+        let Some(Dialog::AuthorityForm(form)) = form.map(|index| self.dialogs.remove(index)) else {
+            return self.sign_dropped();
+        };
         match (form.action, done.overview) {
             (AuthorityAction::SignControllers(signing), _) => {
                 let passphrase = SecretString::from(form.passphrase.0.clone());
@@ -366,7 +391,7 @@ impl Model {
             (AuthorityAction::PublishCrl { rows, push: true, trust, .. }, Some(overview)) => {
                 self.start(Task::PushAuthority(PushAuthority::new(&overview, trust)), rows, Purpose::Show, None)
             }
-            _ => vec![],
+            _ => self.sign_dropped(),
         }
     }
 

@@ -58,7 +58,7 @@ const ROUTES: &[Route] = &[
     Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::Not(KEY_AND_CERTIFICATE, TextKey::WhySplitKey), of_one: true, open: Model::open_nothing },
     Route { command: UiCommand::ClientLists, title: TextKey::MenuClients, takes: Takes::Any(&[CERTIFICATE, CHAIN, BUNDLE]), of_one: false, open: Model::open_clients_of },
     Route { command: UiCommand::Crl, title: TextKey::DropCrl, takes: Takes::Any(&[CRL, BUNDLE]), of_one: false, open: Model::open_crls_of },
-    Route { command: UiCommand::CertificateAuthority, title: TextKey::DropAuthority, takes: Takes::Any(&[CSR]), of_one: false, open: Model::open_nothing },
+    Route { command: UiCommand::CertificateAuthority, title: TextKey::DropAuthority, takes: Takes::One(CSR), of_one: false, open: Model::open_authority_of },
 ];
 
 /// One of the files, and what it is.
@@ -232,7 +232,7 @@ impl Model {
         (ROUTES[choice.route].open)(self, paths)
     }
 
-    /// Of a dialog that cannot be opened yet.
+    /// Of what only says what is missing.
     fn open_nothing(&mut self, _paths: Vec<PathBuf>) -> Vec<Command> {
         vec![]
     }

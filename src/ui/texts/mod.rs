@@ -111,7 +111,6 @@ texts! {
 
     // why something is disabled
     WhyTick: "Tick at least one controller first", "请先勾选至少一台控制器";
-    WhyLater: "Comes in a later version", "将在后续版本中提供";
     WhyActivationOption: "Firmware 8.0.0 and later is activated as a controller option", "固件 8.0.0 及以上版本通过控制器选项激活";
     WhyConfirmed: "Every ticked controller is confirmed already", "已勾选的控制器均已确认";
     WhyUserOne: "For one controller at a time: tick only that one", "仅可用于一台控制器，请只勾选一台";
