@@ -16,14 +16,24 @@ use std::sync::Arc;
 use ca::Ca;
 use common::window::{choose, is_enabled, settle, shows, type_into, wait_until};
 use egui_kittest::kittest::Queryable as _;
-use opcua_configurator::model::{CertificateType, KeyLength, SelfSignedRequest, Subject, Validity};
-use opcua_configurator::pki::{Certificate, Csr, PrivateKey, ServerNames, pkcs12_write, self_signed};
+use opcua_configurator::model::{CertificateType, CsrRequest, KeyLength, SelfSignedRequest, Subject, Validity};
+use opcua_configurator::pki::{Certificate, Csr, PrivateKey, ServerNames, make_csr, pkcs12_write, self_signed};
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::{FleetFirmware, demo_keys};
 use opcua_configurator::workspace::Configuration;
 use plant::Plant;
 use rcgen::{CertificateParams, CertificateRevocationListParams, Issuer, KeyIdMethod, KeyPair, SerialNumber};
 use window_desk::{Desk, PATIENCE, listed};
+
+fn named(common_name: &str) -> Subject {
+    Subject {
+        common_name: common_name.into(),
+        country: String::new(),
+        state: String::new(),
+        locality: String::new(),
+        organisation: String::new(),
+    }
+}
 
 /// A file as the desktop hands it over: its path.
 #[derive(Debug)]
@@ -84,13 +94,7 @@ impl Desk {
 fn other_tool(desk: &Desk, index: usize) -> (PrivateKey, Certificate) {
     let key = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
     let info = desk.plant.controller(index).info();
-    let subject = Subject {
-        common_name: info.application_name.clone(),
-        country: String::new(),
-        state: String::new(),
-        locality: String::new(),
-        organisation: String::new(),
-    };
+    let subject = named(&info.application_name);
     let request =
         SelfSignedRequest { subject, key_length: KeyLength::Rsa2048, validity: Validity::try_from(1).unwrap() };
     let names = ServerNames {
@@ -285,7 +289,10 @@ fn lists_requests_and_collections_say_where_they_will_go() {
     }
     .signed_by(&issuer)
     .unwrap();
-    let request = CertificateParams::default().serialize_request(&KeyPair::generate().unwrap()).unwrap();
+    let key = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
+    let subject = named("SCADA");
+    let names = ServerNames { application_uri: "urn:scada".into(), ips: vec![], dns: vec!["scada".into()] };
+    let request = make_csr(&CsrRequest { subject, key_length: KeyLength::Rsa2048 }, &names, &key).unwrap();
     // There is but one dialog for it, which asks before anything is sent.
     let revoked = desk.put("revoked", crl.der());
     desk.drop(&[revoked]);
@@ -293,17 +300,23 @@ fn lists_requests_and_collections_say_where_they_will_go() {
     assert!(shows(&desk.window, "Add CRL"));
     desk.click("Cancel");
     desk.click("Close");
-    let files = [
-        (desk.put("request", request.pem().unwrap()), "Certificate authority"),
-        (desk.put("all.p7b", "-----BEGIN PKCS7-----\nMA==\n-----END PKCS7-----\n"), "Client certificates"),
-    ];
-    for (file, where_to) in files {
-        desk.drop(&[file]);
-        desk.wait_for("Dropped files");
-        assert!(shows(&desk.window, where_to), "no {where_to:?}");
-        desk.click(if is_enabled(&desk.window, "Open") { "Cancel" } else { "Close" });
-        assert!(desk.window.state().model.dialogs.is_empty());
-    }
+    // A request waits until there is an authority to sign it.
+    let request = desk.put("request", request.to_pem());
+    desk.drop(&[request]);
+    desk.wait_for("Create CA…");
+    desk.click("Create CA…");
+    type_into(&mut desk.window, "Common name", "Plant CA");
+    desk.click("2048 bits");
+    type_into(&mut desk.window, "Passphrase", "correct horse");
+    type_into(&mut desk.window, "Passphrase again", "correct horse");
+    desk.click("Create");
+    desk.wait_for("SCADA, 2048 bits");
+    desk.click("Cancel");
+    desk.click("Close");
+    // Nothing of a collection that cannot be read is sent anywhere.
+    let collection = desk.put("all.p7b", "-----BEGIN PKCS7-----\nMA==\n-----END PKCS7-----\n");
+    desk.drop(&[collection]);
+    desk.wait_for("Client certificates");
 }
 
 #[test]

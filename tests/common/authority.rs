@@ -27,10 +27,8 @@ impl Application {
     fn made(name: &str, authority: Option<&Authority>) -> Self {
         let key = rsa_key();
         let mut params = named(name);
-        params.subject_alt_names = vec![
-            SanType::URI(uri(name).try_into().unwrap()),
-            SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST)),
-        ];
+        params.subject_alt_names =
+            vec![SanType::URI(uri(name).try_into().unwrap()), SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST))];
         params.key_usages = vec![
             KeyUsagePurpose::DigitalSignature,
             KeyUsagePurpose::ContentCommitment,

@@ -10,7 +10,10 @@ use x509_cert::request::{CertReq, CertReqInfo, Version};
 use x509_parser::prelude::{CertificateRevocationList, FromDer, ParsedExtension, X509Certificate};
 
 use super::*;
-use crate::model::{AuthorityRequest, AuthorityValidity, CertificateProfile, CsrRequest, KeyLength, Subject, Validity};
+use crate::model::{
+    AuthorityRequest, AuthorityValidity, CertificateProfile, CsrRequest, ErrorCode, KeyLength, Problem, Subject,
+    Validity,
+};
 use crate::pki::samples::{self, now};
 use crate::pki::{Certificate, Csr, PkiError, PrivateKey, ServerNames, make_csr};
 
@@ -244,6 +247,7 @@ fn nothing_is_valid_beyond_the_ca_and_an_expired_ca_signs_nothing() {
     let expired = Some(PkiError::AuthorityExpired(end));
     assert_eq!(at(end + Duration::seconds(1)), (expired.clone(), expired));
     let start = ca.certificate().not_before();
+    assert_eq!(Problem::from(PkiError::AuthorityExpired(end)).code, ErrorCode::AuthorityExpired);
     let early = Some(PkiError::AuthorityNotYetValid(start));
     assert_eq!(at(start - Duration::seconds(1)), (early.clone(), early));
 }
