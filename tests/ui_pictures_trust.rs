@@ -70,7 +70,8 @@ fn cut(n: usize, name: &str, status: CertificateStatus) -> CutClient {
 /// A client that tries to connect.
 fn newcomer(window: &mut W) {
     let mut held = trust_samples::plant(now());
-    let client = trust_samples::refused(14, "Robot cell viewer", "Robot cell viewer", CertificateStatus::Untrusted, 1, 0, now());
+    let client =
+        trust_samples::refused(14, "Robot cell viewer", "Robot cell viewer", CertificateStatus::Untrusted, 1, 0, now());
     held.rejected.insert(0, client);
     let job = watch(window);
     tell(window, Event::TrustSeen { job, event: WatchEvent::Lists(Box::new(held)) });
@@ -124,7 +125,10 @@ fn changes() {
     let mut held = trust_samples::plant(now() - chrono::Duration::days(2));
     held.revision = 5;
     held.trusted.retain(|listed| listed.summary.issued_to.len() > 17);
-    let gone = vec![cut(3, "HMI line 3", CertificateStatus::Untrusted), cut(4, "Old visualisation", CertificateStatus::Untrusted)];
+    let gone = vec![
+        cut(3, "HMI line 3", CertificateStatus::Untrusted),
+        cut(4, "Old visualisation", CertificateStatus::Untrusted),
+    ];
     end(&mut window, changed(held, gone));
     let job = watch(&window);
     tell(&mut window, Event::TrustSeen { job, event: WatchEvent::Lost(ErrorCode::Timeout.into()) });
@@ -214,7 +218,9 @@ fn adding_to_many() {
     click(&mut window, "OK");
     let id = job(&window);
     let result = changed(trust_samples::plant(now()), vec![cut(13, "HMI line 1", CertificateStatus::Revoked)]);
-    for (index, result) in [Ok(result), Err(Problem::with_detail(ErrorCode::ListFull, "12 > 10"))].into_iter().enumerate() {
+    for (index, result) in
+        [Ok(result), Err(Problem::with_detail(ErrorCode::ListFull, "12 > 10"))].into_iter().enumerate()
+    {
         let report = Box::new(Report { result, info: None });
         tell(&mut window, Event::Job { job: id, event: JobEvent::Finished { index, report } });
     }

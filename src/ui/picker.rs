@@ -116,7 +116,6 @@ fn ask<C: 'static, T: Send + 'static>(
     if let Err(error) = std::thread::Builder::new().name("file picker".into()).spawn(ask) {
         tracing::warn!(%error, "no thread for the file dialog");
     }
-
 }
 
 /// For tests: the person always chooses this.

@@ -9,9 +9,9 @@ use std::time::{Duration, Instant};
 
 use chrono::{DateTime, Utc};
 use egui::{Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
+use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
 use opcua_configurator::model::Language;
 use opcua_configurator::ui::App;
-use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
 use opcua_configurator::ui::command::UiCommand;
 use opcua_configurator::ui::model::{Column, Message, Model, reduce};

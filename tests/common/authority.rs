@@ -5,8 +5,9 @@ use std::net::{IpAddr, Ipv4Addr};
 
 use opcua_configurator::pki::Certificate;
 use rcgen::{
-    BasicConstraints, CertificateParams, CertificateRevocationListParams, DnType, ExtendedKeyUsagePurpose, IsCa, Issuer,
-    KeyIdMethod, KeyPair, KeyUsagePurpose, PKCS_RSA_SHA256, RevokedCertParams, RsaKeySize, SanType, SerialNumber,
+    BasicConstraints, CertificateParams, CertificateRevocationListParams, DnType, ExtendedKeyUsagePurpose, IsCa,
+    Issuer, KeyIdMethod, KeyPair, KeyUsagePurpose, PKCS_RSA_SHA256, RevokedCertParams, RsaKeySize, SanType,
+    SerialNumber,
 };
 use time::{Duration, OffsetDateTime};
 
@@ -26,10 +27,8 @@ impl Application {
     fn made(name: &str, authority: Option<&Authority>) -> Self {
         let key = rsa_key();
         let mut params = named(name);
-        params.subject_alt_names = vec![
-            SanType::URI(uri(name).try_into().unwrap()),
-            SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST)),
-        ];
+        params.subject_alt_names =
+            vec![SanType::URI(uri(name).try_into().unwrap()), SanType::IpAddress(IpAddr::V4(Ipv4Addr::LOCALHOST))];
         params.key_usages = vec![
             KeyUsagePurpose::DigitalSignature,
             KeyUsagePurpose::ContentCommitment,
@@ -140,10 +139,8 @@ fn authority(name: &str) -> CertificateParams {
 pub fn p7b(certificates: &[&[u8]]) -> Vec<u8> {
     const SIGNED_DATA: &[u8] = &[6, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 7, 2];
     const DATA: &[u8] = &[6, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 7, 1];
-    let signed = tlv(
-        0x30,
-        &[&[2, 1, 1], &tlv(0x31, &[]), &tlv(0x30, &[DATA]), &tlv(0xa0, certificates), &tlv(0x31, &[])],
-    );
+    let signed =
+        tlv(0x30, &[&[2, 1, 1], &tlv(0x31, &[]), &tlv(0x30, &[DATA]), &tlv(0xa0, certificates), &tlv(0x31, &[])]);
     tlv(0x30, &[SIGNED_DATA, &tlv(0xa0, &[&signed])])
 }
 

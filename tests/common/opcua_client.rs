@@ -44,7 +44,8 @@ impl Client {
             .unwrap();
         let offered = timeout(PATIENCE, client.get_server_endpoints_from_url(endpoint)).await.unwrap();
         let offered = offered.map_err(|e| e.status())?;
-        let fits = |policy: &str, mode| policy.ends_with("#Basic256Sha256") && mode == MessageSecurityMode::SignAndEncrypt;
+        let fits =
+            |policy: &str, mode| policy.ends_with("#Basic256Sha256") && mode == MessageSecurityMode::SignAndEncrypt;
         let endpoint = offered.into_iter().find(|e| fits(e.security_policy_uri.as_ref(), e.security_mode));
         let endpoint = endpoint.expect("the endpoint is offered");
         let connected = client.connect_to_endpoint_directly(endpoint, IdentityToken::Anonymous);
@@ -59,7 +60,7 @@ impl Client {
     }
 
     /// Waits until the server has ended the connection.
-    pub async fn is_cut_off(self) -> bool {
+    pub async fn was_cut_off(self) -> bool {
         timeout(PATIENCE, self.events).await.is_ok()
     }
 

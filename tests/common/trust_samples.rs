@@ -3,9 +3,7 @@
 
 use chrono::{DateTime, Duration, Utc};
 use opcua_configurator::jobs::TrustSnapshot;
-use opcua_configurator::model::{
-    CertificateStatus, CertificateSummary, CrlSummary, FirmwareGeneration, ListLimits,
-};
+use opcua_configurator::model::{CertificateStatus, CertificateSummary, CrlSummary, FirmwareGeneration, ListLimits};
 use opcua_configurator::pki::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};
 use opcua_configurator::protocol::{Base64Bytes, ListedCertificate, ListedCrl, RejectedClient};
 
@@ -29,7 +27,14 @@ pub fn plant(clock: DateTime<Utc>) -> TrustSnapshot {
     let mut held = nothing(FirmwareGeneration::Current, clock);
     held.trusted = vec![
         listed(1, "HMI line 3", "Plant issuing CA 1", "hmi_line_3.der", 400, clock),
-        listed(2, "MES gateway (production planning, hall 4)", "MES gateway (production planning, hall 4)", "mes.der", 12, clock),
+        listed(
+            2,
+            "MES gateway (production planning, hall 4)",
+            "MES gateway (production planning, hall 4)",
+            "mes.der",
+            12,
+            clock,
+        ),
         listed(3, "历史数据采集站 2 号", "Plant issuing CA 1", "historian.cer", 900, clock),
         listed(4, "Old visualisation", "Old visualisation", "old.pem", -30, clock),
     ];

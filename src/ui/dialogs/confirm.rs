@@ -33,7 +33,8 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
             (replaces_settings, T::ConfirmReplacesSettings),
             (disconnects_clients, T::ConfirmDisconnectsClients),
         ];
-        let mut remarks: Vec<T> = remarks.into_iter().filter_map(|(applies, remark)| applies.then_some(remark)).collect();
+        let mut remarks: Vec<T> =
+            remarks.into_iter().filter_map(|(applies, remark)| applies.then_some(remark)).collect();
         let color = if remarks.is_empty() { palette(ui).accent } else { palette(ui).warning };
         if remarks.is_empty() {
             remarks.push(T::ConfirmDisturbsNobody);

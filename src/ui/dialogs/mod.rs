@@ -62,14 +62,7 @@ fn enter_submits(dialog: &Dialog, model: &Model) -> bool {
     }
 }
 
-fn one(
-    ui: &Ui,
-    dialog: &mut Dialog,
-    on_top: bool,
-    focus: bool,
-    model: &Model,
-    messages: &mut Vec<Message>,
-) -> Answer {
+fn one(ui: &Ui, dialog: &mut Dialog, on_top: bool, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
     match dialog {
         Dialog::AddController(form) => add_controller::show(ui, form, focus, model, messages),
         Dialog::Delete { names, .. } => confirm::delete(ui, names, model),

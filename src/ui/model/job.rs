@@ -5,8 +5,8 @@ use secrecy::SecretString;
 
 use super::trust::TrustTask;
 use super::{ImportSource, RowId};
-use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
 use crate::jobs::TrustUndo;
+use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
 use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
 use crate::protocol::CutClient;
 use crate::ui::texts::TextKey;

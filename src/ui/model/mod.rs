@@ -44,9 +44,9 @@ pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
 use super::backend::Event;
 use super::command::UiCommand;
 use super::texts::Zone;
-use trust::TrustAction;
 use crate::model::{Language, Problem};
 use crate::workspace::{Configuration, Options, ThemeChoice, Workspace};
+use trust::TrustAction;
 
 /// Everything the views draw from.
 #[derive(Debug)]

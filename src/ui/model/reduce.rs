@@ -161,10 +161,7 @@ impl Model {
         let id = self.next_job();
         let entries: Vec<_> = rows.iter().filter_map(|row| self.rows.get(*row)).collect();
         let controllers: Vec<JobController> = entries.iter().map(|row| JobController::from(&row.entry)).collect();
-        let rows = entries
-            .iter()
-            .map(|row| JobRow::new(row.id, row.entry.name.to_string()))
-            .collect::<Vec<_>>();
+        let rows = entries.iter().map(|row| JobRow::new(row.id, row.entry.name.to_string())).collect::<Vec<_>>();
         self.status = None;
         if purpose == Purpose::Show {
             for row in &rows {

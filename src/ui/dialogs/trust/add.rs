@@ -9,13 +9,7 @@ use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, list_title, note, word};
 
 /// Files, and where what is in them goes (manual 2.7.3.3, 2.7.3.6).
-pub fn show(
-    ui: &Ui,
-    form: &mut AddTrustForm,
-    focus: bool,
-    model: &Model,
-    messages: &mut Vec<Message>,
-) -> Answer {
+pub fn show(ui: &Ui, form: &mut AddTrustForm, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
     let text = |key: T| key.text(model.language);
     let (submit, why) = if form.reads_file() {
         (T::TrustReadFile, form.reading.map(|_| text(T::Reading)))
@@ -114,7 +108,10 @@ fn files(ui: &mut Ui, form: &AddTrustForm, model: &Model, messages: &mut Vec<Mes
         ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
             ui.push_id(index, |ui| {
                 let name = format!("{}: {}", T::TrustLeaveOut.text(language), file.name);
-                let button = Button::new(RichText::new(T::TrustLeaveOut.text(language)).size(theme::SMALL_TEXT).color(palette.accent)).frame(false);
+                let button = Button::new(
+                    RichText::new(T::TrustLeaveOut.text(language)).size(theme::SMALL_TEXT).color(palette.accent),
+                )
+                .frame(false);
                 if ui.add(button).accessible_name(name).clicked() {
                     messages.push(Message::Trust(TrustAction::LeaveOut(index)));
                 }
@@ -226,12 +223,8 @@ fn one(ui: &mut Ui, item: &Planned, model: &Model) {
             let notes: Vec<&str> = notes.iter().map(|note| texts::note(*note).text(language)).collect();
             (texts::pane(PaneKind::of(*to)), palette.ok, notes)
         }
-        Fate::Skipped(reason) => {
-            (T::TrustNothing, palette.off, vec![texts::skipped_thing(*reason).text(language)])
-        }
-        Fate::Refused(problem) => {
-            (T::TrustNothing, palette.error, vec![problem.code.explain(language).message])
-        }
+        Fate::Skipped(reason) => (T::TrustNothing, palette.off, vec![texts::skipped_thing(*reason).text(language)]),
+        Fate::Refused(problem) => (T::TrustNothing, palette.error, vec![problem.code.explain(language).message]),
     };
     crate::ui::widgets::chip(ui, to.text(language), color);
     ui.with_layout(Layout::top_down(Align::Min), |ui| {

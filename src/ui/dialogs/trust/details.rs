@@ -72,46 +72,49 @@ const STEP: f32 = 22.0;
 /// As a tree: the root at the top, each below its issuer.
 fn chain(ui: &mut Ui, nodes: &[ChainNode], model: &Model) {
     let (language, palette) = (model.language, palette(ui));
-    Frame::new().stroke(Stroke::new(1.0, palette.line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
-        ui.set_width(ui.available_width());
-        for (depth, node) in nodes.iter().enumerate() {
-            let missing = node.states.contains(&ChainState::Missing);
-            ui.horizontal(|ui| {
-                ui.add_space(STEP * depth as f32);
-                let (rect, _) = ui.allocate_exact_size(vec2(12.0, theme::DENSE_HEIGHT), egui::Sense::hover());
-                let bad = node.states.iter().any(|state| *state != ChainState::OnlySent);
-                let color = match (bad, node.list) {
-                    (true, _) => palette.error,
-                    (false, Some(PaneKind::Trusted | PaneKind::Issuers)) => palette.ok,
-                    (false, _) => palette.off,
-                };
-                if depth > 0 {
-                    let corner = egui::pos2(rect.left() - STEP + 6.0, rect.center().y);
-                    let line = Stroke::new(1.0, palette.weak);
-                    ui.painter().line_segment([egui::pos2(corner.x, rect.top() - 5.0), corner], line);
-                    ui.painter().line_segment([corner, egui::pos2(rect.left(), corner.y)], line);
-                }
-                if missing {
-                    ui.painter().circle_stroke(rect.center(), 4.0, Stroke::new(1.5, color));
-                } else {
-                    ui.painter().circle_filled(rect.center(), 4.0, color);
-                }
-                let states = node.states.iter().map(|state| texts::chain_state(*state).text(language));
-                let list = node.list.map(|list| texts::pane(list).text(language));
-                let words = list.into_iter().chain(states).collect::<Vec<_>>().join(", ");
-                let name = RichText::new(&node.name).strong();
-                let name = if missing { name.color(palette.error) } else { name };
-                // What is wrong must not be pushed out by a long name.
-                let room = (ui.available_width() * 0.55).max(120.0);
-                ui.scope(|ui| {
-                    ui.set_max_width(room);
-                    ui.add(Label::new(name).truncate()).on_hover_text(&node.name);
+    Frame::new().stroke(Stroke::new(1.0, palette.line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(
+        ui,
+        |ui| {
+            ui.set_width(ui.available_width());
+            for (depth, node) in nodes.iter().enumerate() {
+                let missing = node.states.contains(&ChainState::Missing);
+                ui.horizontal(|ui| {
+                    ui.add_space(STEP * depth as f32);
+                    let (rect, _) = ui.allocate_exact_size(vec2(12.0, theme::DENSE_HEIGHT), egui::Sense::hover());
+                    let bad = node.states.iter().any(|state| *state != ChainState::OnlySent);
+                    let color = match (bad, node.list) {
+                        (true, _) => palette.error,
+                        (false, Some(PaneKind::Trusted | PaneKind::Issuers)) => palette.ok,
+                        (false, _) => palette.off,
+                    };
+                    if depth > 0 {
+                        let corner = egui::pos2(rect.left() - STEP + 6.0, rect.center().y);
+                        let line = Stroke::new(1.0, palette.weak);
+                        ui.painter().line_segment([egui::pos2(corner.x, rect.top() - 5.0), corner], line);
+                        ui.painter().line_segment([corner, egui::pos2(rect.left(), corner.y)], line);
+                    }
+                    if missing {
+                        ui.painter().circle_stroke(rect.center(), 4.0, Stroke::new(1.5, color));
+                    } else {
+                        ui.painter().circle_filled(rect.center(), 4.0, color);
+                    }
+                    let states = node.states.iter().map(|state| texts::chain_state(*state).text(language));
+                    let list = node.list.map(|list| texts::pane(list).text(language));
+                    let words = list.into_iter().chain(states).collect::<Vec<_>>().join(", ");
+                    let name = RichText::new(&node.name).strong();
+                    let name = if missing { name.color(palette.error) } else { name };
+                    // What is wrong must not be pushed out by a long name.
+                    let room = (ui.available_width() * 0.55).max(120.0);
+                    ui.scope(|ui| {
+                        ui.set_max_width(room);
+                        ui.add(Label::new(name).truncate()).on_hover_text(&node.name);
+                    });
+                    let color = if bad { palette.error } else { palette.weak };
+                    ui.add(Label::new(RichText::new(words).size(theme::SMALL_TEXT).color(color)).wrap());
                 });
-                let color = if bad { palette.error } else { palette.weak };
-                ui.add(Label::new(RichText::new(words).size(theme::SMALL_TEXT).color(color)).wrap());
-            });
-        }
-    });
+            }
+        },
+    );
 }
 
 fn crl(ui: &mut Ui, view: &CrlView, model: &Model) {

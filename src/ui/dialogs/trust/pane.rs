@@ -1,4 +1,6 @@
-use egui::{Align, Button, Checkbox, Color32, Frame, Label, Layout, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2};
+use egui::{
+    Align, Button, Checkbox, Color32, Frame, Label, Layout, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2,
+};
 use egui_extras::{Column, TableBuilder, TableRow};
 
 use super::moves;
@@ -47,14 +49,7 @@ pub fn show(
     });
 }
 
-fn head(
-    ui: &mut Ui,
-    form: &mut TrustForm,
-    index: usize,
-    alone: bool,
-    model: &Model,
-    messages: &mut Vec<Message>,
-) {
+fn head(ui: &mut Ui, form: &mut TrustForm, index: usize, alone: bool, model: &Model, messages: &mut Vec<Message>) {
     let size = vec2(ui.available_width(), theme::BUTTON_HEIGHT);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().button_padding.x = theme::SPACE;
@@ -158,14 +153,7 @@ fn empty(ui: &mut Ui, form: &TrustForm, index: usize, height: f32, model: &Model
     });
 }
 
-fn table(
-    ui: &mut Ui,
-    form: &mut TrustForm,
-    index: usize,
-    height: f32,
-    model: &Model,
-    messages: &mut Vec<Message>,
-) {
+fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &Model, messages: &mut Vec<Message>) {
     let palette = palette(ui);
     let has_focus = form.focus == index;
     let pane = &mut form.panes[index];
@@ -175,7 +163,8 @@ fn table(
         ui.spacing_mut().item_spacing = vec2(10.0, 0.0);
         // The text of ticked rows.
         ui.visuals_mut().selection.stroke.color = palette.text;
-        let below = height - theme::HEADER_HEIGHT - ui.spacing().scroll.bar_width - ui.spacing().scroll.bar_outer_margin;
+        let below =
+            height - theme::HEADER_HEIGHT - ui.spacing().scroll.bar_width - ui.spacing().scroll.bar_outer_margin;
         let mut builder = TableBuilder::new(ui)
             .id_salt("lines")
             .striped(true)

@@ -184,7 +184,9 @@ fn a_change_that_failed_leaves_everything_as_it_was() {
     let id = job(&reduce(&mut model, Message::Submit));
     event(&mut model, id, finished(0, Err(ErrorCode::TaskRunning.into())));
     ended(&mut model, id, 0, 1);
-    assert!(matches!(&model.dialogs[..], [Dialog::Trust(_), Dialog::Error(problem)] if problem.code == ErrorCode::TaskRunning));
+    assert!(
+        matches!(&model.dialogs[..], [Dialog::Trust(_), Dialog::Error(problem)] if problem.code == ErrorCode::TaskRunning)
+    );
     reduce(&mut model, Message::Close);
     assert_eq!(names(&mut model, PaneKind::Trusted).len(), 3);
     assert_eq!(form(&mut model).pane(PaneKind::Trusted).unwrap().ticked_count(), 1, "to be tried again");

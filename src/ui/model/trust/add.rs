@@ -298,7 +298,8 @@ impl Model {
 
     /// The files, the destination or what the controller holds is another now.
     pub(super) fn replan(&mut self) {
-        let Some(Dialog::AddTrust(mut form)) = self.dialogs.pop_if(|dialog| matches!(dialog, Dialog::AddTrust(_))) else {
+        let Some(Dialog::AddTrust(mut form)) = self.dialogs.pop_if(|dialog| matches!(dialog, Dialog::AddTrust(_)))
+        else {
             return;
         };
         let kinds = self.kinds_of(&form.rows);

@@ -60,11 +60,9 @@ impl Model {
         let count = asked.what.len();
         let ids = asked.what.into_iter().map(|(id, _)| id).collect();
         let task = match asked.from.list() {
-            Some(list) => TrustTask::RemoveClients(RemoveClients {
-                list: Some(list),
-                thumbprints: ids,
-                based_on: asked.revision,
-            }),
+            Some(list) => {
+                TrustTask::RemoveClients(RemoveClients { list: Some(list), thumbprints: ids, based_on: asked.revision })
+            }
             None => TrustTask::RemoveCrls(RemoveCrls { ids, based_on: asked.revision }),
         };
         self.change(task, Done::Deleted { from: asked.from, count })
@@ -95,8 +93,7 @@ impl Model {
     /// Takes back what the job that ended did, wherever it did it.
     fn undo_job(&mut self) -> Vec<Command> {
         let Some(job) = self.job.as_mut().filter(|job| job.summary.is_some()) else { return vec![] };
-        let rows: Vec<(RowId, _)> =
-            job.rows.iter_mut().filter_map(|row| Some((row.row, row.undo.take()?))).collect();
+        let rows: Vec<(RowId, _)> = job.rows.iter_mut().filter_map(|row| Some((row.row, row.undo.take()?))).collect();
         let undo: BTreeMap<_, _> = rows
             .iter()
             .filter_map(|(row, undo)| Some((self.rows.get(*row)?.entry.name.clone(), undo.clone())))

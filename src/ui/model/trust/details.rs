@@ -141,7 +141,10 @@ fn fields(certificate: &Certificate, summary: &CertificateSummary, file_name: St
         one(T::KeyLength, certificate.key_bits().to_string()),
         Field {
             label: T::TrustKeyUsages,
-            lines: usages(key_usages.is_none(), key_usages.iter().copied().flatten().map(|u| u.as_str().into()).collect()),
+            lines: usages(
+                key_usages.is_none(),
+                key_usages.iter().copied().flatten().map(|u| u.as_str().into()).collect(),
+            ),
             monospace: false,
         },
         Field {
@@ -151,7 +154,10 @@ fn fields(certificate: &Certificate, summary: &CertificateSummary, file_name: St
         },
         Field {
             label: T::TrustAuthority,
-            lines: ca.map(|ca| ca.path_length.map_or_else(|| "CA".to_owned(), |most| format!("CA, pathlen {most}"))).into_iter().collect(),
+            lines: ca
+                .map(|ca| ca.path_length.map_or_else(|| "CA".to_owned(), |most| format!("CA, pathlen {most}")))
+                .into_iter()
+                .collect(),
             monospace: false,
         },
         number(T::TrustThumbprint, summary.thumbprint.clone()),
@@ -261,7 +267,10 @@ impl CrlView {
             .map(|summary| (summary.serial_number.as_str(), summary.issued_to.as_str()))
             .collect();
         let entries = crl.entries().map(|(serial_number, revoked)| CrlLine {
-            name: known.get(serial_number.trim_start_matches("00")).or(known.get(serial_number.as_str())).map(|n| (*n).to_owned()),
+            name: known
+                .get(serial_number.trim_start_matches("00"))
+                .or(known.get(serial_number.as_str()))
+                .map(|n| (*n).to_owned()),
             date: date(revoked.date),
             reason: revoked.reason,
             serial_number,

@@ -147,9 +147,8 @@ impl Entry {
     fn finish(&mut self, now: DateTime<Utc>) {
         let (address, status) =
             self.refusal.as_ref().map_or(("", ""), |refusal| (&refusal.address, refusal.status.as_str()));
-        let parts =
-            [&self.haystack, &self.issued_to, &self.issued_by, &self.file_name, &self.serial_number, &self.id]
-                .map(String::as_str);
+        let parts = [&self.haystack, &self.issued_to, &self.issued_by, &self.file_name, &self.serial_number, &self.id]
+            .map(String::as_str);
         self.haystack = [&parts[..], &[address, status]].concat().join("\n").to_lowercase();
         self.title = self.issued_to.to_lowercase();
         self.refresh(now);

@@ -110,7 +110,8 @@ impl TrustForm {
     /// What the controller has now.
     pub fn fill(&mut self, held: Box<TrustSnapshot>, now: DateTime<Utc>) {
         // A change answers sooner than what was being read meanwhile.
-        let is_stale = self.held.as_ref().is_some_and(|newer| newer.revision > held.revision && newer.clock > held.clock);
+        let is_stale =
+            self.held.as_ref().is_some_and(|newer| newer.revision > held.revision && newer.clock > held.clock);
         if is_stale {
             return;
         }

@@ -48,15 +48,9 @@ impl PaneKind {
     pub const fn columns(self) -> &'static [TrustColumn] {
         use TrustColumn as C;
         match self {
-            Self::Trusted | Self::Issuers => &[
-                C::IssuedTo,
-                C::ValidUntil,
-                C::IssuedBy,
-                C::FileName,
-                C::SerialNumber,
-                C::ValidFrom,
-                C::Thumbprint,
-            ],
+            Self::Trusted | Self::Issuers => {
+                &[C::IssuedTo, C::ValidUntil, C::IssuedBy, C::FileName, C::SerialNumber, C::ValidFrom, C::Thumbprint]
+            }
             Self::Rejected => &[
                 C::IssuedTo,
                 C::Reason,
@@ -70,16 +64,9 @@ impl PaneKind {
                 C::ValidFrom,
                 C::Thumbprint,
             ],
-            Self::Crls => &[
-                C::Issuer,
-                C::Health,
-                C::ThisUpdate,
-                C::NextUpdate,
-                C::Entries,
-                C::Number,
-                C::FileName,
-                C::Thumbprint,
-            ],
+            Self::Crls => {
+                &[C::Issuer, C::Health, C::ThisUpdate, C::NextUpdate, C::Entries, C::Number, C::FileName, C::Thumbprint]
+            }
         }
     }
 }
@@ -279,7 +266,8 @@ impl Pane {
 
     pub fn toggle(&mut self, position: usize, range: bool) {
         let Some(id) = self.at(position).map(|entry| entry.id.clone()) else { return };
-        let from = self.anchor.as_ref().and_then(|anchor| self.view.iter().position(|at| self.entries[*at].id == *anchor));
+        let from =
+            self.anchor.as_ref().and_then(|anchor| self.view.iter().position(|at| self.entries[*at].id == *anchor));
         match (range, from) {
             (true, Some(from)) => {
                 for at in &self.view[from.min(position)..=from.max(position)] {
