@@ -4,6 +4,7 @@
 mod plant;
 
 use std::collections::BTreeSet;
+use std::io::{Read as _, Write as _};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
@@ -75,8 +76,28 @@ async fn logging(firmware: FleetFirmware) -> Plant {
     plant
 }
 
+/// A client that opens a secure channel without security, as one does to ask for the endpoints.
 fn connect(plant: &Plant) -> std::io::Result<TcpStream> {
-    TcpStream::connect(plant.controller(0).endpoint().trim_start_matches("opc.tcp://"))
+    let url = plant.controller(0).endpoint();
+    let mut client = TcpStream::connect(url.trim_start_matches("opc.tcp://"))?;
+    client.set_read_timeout(Some(Duration::from_secs(20)))?;
+    let text = |text: &str| [&(text.len() as i32).to_le_bytes(), text.as_bytes()].concat();
+    let message = |kind: &[u8; 4], body: &[u8]| [kind, &(8 + body.len() as u32).to_le_bytes()[..], body].concat();
+    // OPC 10000-6 §7.1.2.3: version, buffers, largest message and number of chunks.
+    let hello = [0_u32, 65_535, 65_535, 0, 0].map(u32::to_le_bytes).concat();
+    client.write_all(&message(b"HELF", &[hello, text(&url)].concat()))?;
+    // OPC 10000-6 §6.7.2: channel 0, no policy, no certificates, sequence and request number; then the request.
+    let none = text("http://opcfoundation.org/UA/SecurityPolicy#None");
+    let header = [&[0; 4][..], &none, &[0xff; 8], &1_u32.to_le_bytes(), &1_u32.to_le_bytes()].concat();
+    // OPC 10000-4 §5.5.2: node id 446, an empty request header, version, issue, no security, no nonce, an hour.
+    let request_header = [&[0; 2][..], &[0; 8], &[0; 4], &[0; 4], &[0xff; 4], &[0; 4], &[0; 3]].concat();
+    let asked = [0_u32, 0, 1].map(u32::to_le_bytes).concat();
+    let request = [&[1, 0, 0xbe, 1][..], &request_header, &asked, &[0xff; 4], &3_600_000_u32.to_le_bytes()].concat();
+    client.write_all(&message(b"OPNF", &[header, request].concat()))?;
+    let mut answers = [0; 28 + 8];
+    client.read_exact(&mut answers)?;
+    assert_eq!((&answers[..4], &answers[28..32]), (&b"ACKF"[..], &b"OPNF"[..]));
+    Ok(client)
 }
 
 #[tokio::test(flavor = "multi_thread")]

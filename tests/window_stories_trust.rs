@@ -129,7 +129,7 @@ impl Desk {
     }
 
     fn is_cut_off(&self, client: Client) -> bool {
-        self.runtime.block_on(client.is_cut_off())
+        self.runtime.block_on(client.was_cut_off())
     }
 
     fn is_let_in(&self, application: &Application) -> bool {

@@ -60,7 +60,7 @@ impl Client {
     }
 
     /// Waits until the server has ended the connection.
-    pub async fn is_cut_off(self) -> bool {
+    pub async fn was_cut_off(self) -> bool {
         timeout(PATIENCE, self.events).await.is_ok()
     }
 

@@ -286,7 +286,12 @@ fn draw(
         }
     });
     for column in columns {
-        row.col(|ui| cell(ui, *column, entry, model, palette));
+        row.col(|ui| {
+            // Most columns lie beyond the edge of the list, and laying out text is what takes the time.
+            if ui.is_rect_visible(ui.max_rect()) {
+                cell(ui, *column, entry, model, palette);
+            }
+        });
     }
     let response = row.response();
     if response.double_clicked() {
