@@ -27,8 +27,10 @@ pub(super) fn service(header: Header, bytes: &[u8]) -> Result<ObjectId, Fault> {
 pub(super) struct Objection {
     pub(super) reason: &'static str,
     /// What takes the place of a whole chunk; `None` if there is nothing to object to.
-    pub(super) spoil: fn(Header, &[u8]) -> Result<Option<Vec<u8>>, Fault>,
+    pub(super) spoil: fn(Header, &[u8]) -> Spoilt,
 }
+
+type Spoilt = Result<Option<Vec<u8>>, Fault>;
 
 /// A password that travelled in clear: the server would check it although it asked for an encrypted one. It is taken
 /// out of ActivateSession, and what is left is a token that was not offered.
@@ -40,7 +42,7 @@ pub(super) const CLEAR_PASSWORD: Objection =
 pub(super) const NO_ENDPOINT: Objection =
     Objection { reason: "a session without security, which is not offered", spoil: without_endpoint };
 
-fn without_clear_password(header: Header, chunk: &[u8]) -> Result<Option<Vec<u8>>, Fault> {
+fn without_clear_password(header: Header, chunk: &[u8]) -> Spoilt {
     edit(header, chunk, |request: &mut ActivateSessionRequest| {
         let token = request.user_identity_token.inner_as::<UserNameIdentityToken>();
         let is_clear = token.is_some_and(|token| token.encryption_algorithm.is_empty());
@@ -51,7 +53,7 @@ fn without_clear_password(header: Header, chunk: &[u8]) -> Result<Option<Vec<u8>
     })
 }
 
-fn without_endpoint(header: Header, chunk: &[u8]) -> Result<Option<Vec<u8>>, Fault> {
+fn without_endpoint(header: Header, chunk: &[u8]) -> Spoilt {
     edit(header, chunk, |request: &mut CreateSessionRequest| {
         request.endpoint_url = UAString::null();
         true
@@ -63,7 +65,7 @@ fn edit<T: BinaryDecodable + BinaryEncodable>(
     header: Header,
     chunk: &[u8],
     change: impl FnOnce(&mut T) -> bool,
-) -> Result<Option<Vec<u8>>, Fault> {
+) -> Spoilt {
     if header.last != b'F' {
         return Err(Fault::new(StatusCode::BadTcpMessageTooLarge, "a session asked for in more than one chunk"));
     }
