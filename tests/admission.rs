@@ -44,7 +44,7 @@ async fn a_refused_client_is_told_why_only_by_controllers_that_are_started_so() 
         [(&usual, StatusCode::BadSecurityChecksFailed), (&open, StatusCode::BadCertificateChainIncomplete)]
     {
         assert_eq!(connect(desk, folder.path()).await, Err(told));
-        let trusted = desk.json(&["clients", "add", "--list", "trusted", authority.to_str().unwrap(), "cell"]);
+        let trusted = desk.json(&["clients", "add", "--yes", "--list", "trusted", authority.to_str().unwrap(), "cell"]);
         assert_eq!(trusted.0, Some(0), "{trusted:?}");
     }
     // The CA has given no revocation list.
@@ -120,11 +120,11 @@ async fn connect(desk: &Desk, pki: &Path) -> Result<(), StatusCode> {
     let dialling = client.connect_to_matching_endpoint(endpoint, IdentityToken::Anonymous);
     let (session, events) = tokio::time::timeout(PATIENCE, dialling).await.unwrap().map_err(|e| e.status())?;
     let mut events = events.spawn();
-    let connected = tokio::select! {
-        _ = session.wait_for_connection() => Ok(()),
-        status = &mut events => Err(status.unwrap()),
+    tokio::select! {
+        _ = session.wait_for_connection() => {}
+        status = &mut events => return Err(status.unwrap()),
         () = tokio::time::sleep(PATIENCE) => panic!("neither connected nor refused"),
-    };
-    let _ = session.disconnect().await;
-    connected
+    }
+    let _ = tokio::time::timeout(PATIENCE, session.disconnect()).await;
+    Ok(())
 }

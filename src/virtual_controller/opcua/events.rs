@@ -21,7 +21,6 @@ pub enum Event<'a> {
     Stopped {
         endpoint: &'a str,
     },
-    /// A client has a secure channel.
     Connected {
         client: SocketAddr,
     },

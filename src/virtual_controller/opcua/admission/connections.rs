@@ -151,18 +151,16 @@ impl Connections {
         Some(())
     }
 
-    /// Notes which secure channel the server gave a connection. Whether it is the first one.
-    pub(super) fn opened(&self, connection: &Arc<Connection>, channel: u32) -> bool {
+    /// Notes which secure channel the server gave a connection.
+    pub(super) fn opened(&self, connection: &Arc<Connection>, channel: u32) {
         let mut live = self.live.lock();
         if channel == 0 || !live.by_id.contains_key(&connection.id) {
-            return false;
+            return;
         }
-        let before = connection.state.lock().channel.replace(channel);
-        if let Some(before) = before {
+        if let Some(before) = connection.state.lock().channel.replace(channel) {
             live.by_channel.remove(&before);
         }
         live.by_channel.insert(channel, connection.clone());
-        before.is_none()
     }
 
     pub(super) fn of_channel(&self, channel: u32) -> Option<Arc<Connection>> {

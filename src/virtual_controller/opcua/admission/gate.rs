@@ -131,6 +131,7 @@ impl Gate {
             let _ = client.try_write(&fault.to_message());
             return;
         };
+        self.reporter.connected(address);
         // Both ends write whole messages.
         let _ = client.set_nodelay(true);
         let (mut from, mut to) = client.into_split();
@@ -138,9 +139,7 @@ impl Gate {
             // Closing while there is something unread could keep the last words from arriving.
             let _ = timeout(self.settings.limits.linger, unheard(&mut from)).await;
         }
-        if place.connection.state.lock().channel.is_some() {
-            self.reporter.disconnected(address);
-        }
+        self.reporter.disconnected(address);
     }
 
     /// From the first byte to the last word. Whether the client should be given time to read that.
@@ -311,9 +310,7 @@ impl Gate {
 
     /// The server has answered an OpenSecureChannel with this channel.
     pub(super) fn opened(&self, connection: &Arc<Connection>, channel: u32) {
-        if self.connections.opened(connection, channel) {
-            self.reporter.connected(connection.peer);
-        }
+        self.connections.opened(connection, channel);
     }
 
     /// The server hangs up with an error of its own.
@@ -332,9 +329,9 @@ impl Gate {
         if told { Stop::Told(fault) } else { Stop::AtOnce(fault) }
     }
 
-    /// A password travelled in clear.
-    pub(super) fn clear_password(&self, connection: &Connection) {
-        self.reporter.refused(connection.peer, "a login whose password was not encrypted");
+    /// Tells of a request that the server is made to refuse; the connection stays.
+    pub(super) fn spoilt(&self, connection: &Connection, reason: &str) {
+        self.reporter.refused(connection.peer, reason);
     }
 
     /// Whether a session belongs to the connection it came by. If it does not, the connection ends.

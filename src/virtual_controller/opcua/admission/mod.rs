@@ -12,7 +12,7 @@
 //! | `downward` | from the server to the client, and last words |
 //! | `passage` | bytes of one direction, chunk by chunk |
 //! | `frame` | the parts of OPC UA's chunks that are not encrypted |
-//! | `plain` | what is looked at where nothing is encrypted: discovery, and passwords in clear |
+//! | `plain` | what is objected to where nothing is encrypted: passwords in clear, and sessions not offered |
 //! | `rewrap` | clients that send their issuers along, which the crate cannot read |
 //! | `channel_keys` | the same in CreateSession |
 //! | `guard` | sessions that do not belong to their secure channel |

@@ -1,6 +1,6 @@
 use opcua::types::{
-    ActivateSessionRequest, BinaryDecodable as _, BinaryEncodable as _, ContextOwned, DecodingOptions, ExtensionObject,
-    NamespaceMap, NodeId, ObjectId, StatusCode, UserNameIdentityToken,
+    ActivateSessionRequest, BinaryDecodable, BinaryEncodable, ContextOwned, CreateSessionRequest, DecodingOptions,
+    ExtensionObject, NamespaceMap, NodeId, ObjectId, StatusCode, UAString, UserNameIdentityToken,
 };
 
 use super::fault::Fault;
@@ -21,40 +21,69 @@ pub(super) fn service(header: Header, bytes: &[u8]) -> Result<ObjectId, Fault> {
         .ok_or_else(|| Fault::new(StatusCode::BadServiceUnsupported, "not a service"))
 }
 
-/// What anybody may ask a server that offers no endpoint without security (OPC 10000-4 §5.4).
-pub(super) fn is_discovery(service: ObjectId) -> bool {
-    matches!(
-        service,
-        ObjectId::GetEndpointsRequest_Encoding_DefaultBinary
-            | ObjectId::FindServersRequest_Encoding_DefaultBinary
-            | ObjectId::FindServersOnNetworkRequest_Encoding_DefaultBinary
-    )
+/// A request that is not let through as it is: the server, which would grant it, is made to refuse it. So the client
+/// gets a proper answer.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Objection {
+    pub(super) reason: &'static str,
+    /// What takes the place of a whole chunk; `None` if there is nothing to object to.
+    pub(super) spoil: fn(Header, &[u8]) -> Spoilt,
 }
 
-/// Makes a password that travelled in clear worthless: the server would check it although it asked for an encrypted
-/// one. `chunk` is a whole ActivateSession request without security; what is given back takes its place, and is answered
-/// by the server as a token it did not offer. `None` if there is nothing to object to.
-pub(super) fn without_clear_password(header: Header, chunk: &[u8]) -> Result<Option<Vec<u8>>, Fault> {
+type Spoilt = Result<Option<Vec<u8>>, Fault>;
+
+/// A password that travelled in clear: the server would check it although it asked for an encrypted one. It is taken
+/// out of ActivateSession, and what is left is a token that was not offered.
+pub(super) const CLEAR_PASSWORD: Objection =
+    Objection { reason: "a login whose password was not encrypted", spoil: without_clear_password };
+
+/// A session without security where that is not offered: the server would create it, to refuse its activation, and has
+/// room for few. CreateSession is left without the endpoint.
+pub(super) const NO_ENDPOINT: Objection =
+    Objection { reason: "a session without security, which is not offered", spoil: without_endpoint };
+
+fn without_clear_password(header: Header, chunk: &[u8]) -> Spoilt {
+    edit(header, chunk, |request: &mut ActivateSessionRequest| {
+        let token = request.user_identity_token.inner_as::<UserNameIdentityToken>();
+        let is_clear = token.is_some_and(|token| token.encryption_algorithm.is_empty());
+        if is_clear {
+            request.user_identity_token = ExtensionObject::from_message(UserNameIdentityToken::default());
+        }
+        is_clear
+    })
+}
+
+fn without_endpoint(header: Header, chunk: &[u8]) -> Spoilt {
+    edit(header, chunk, |request: &mut CreateSessionRequest| {
+        request.endpoint_url = UAString::null();
+        true
+    })
+}
+
+/// The chunk with another request in it, if `change` has changed that.
+fn edit<T: BinaryDecodable + BinaryEncodable>(
+    header: Header,
+    chunk: &[u8],
+    change: impl FnOnce(&mut T) -> bool,
+) -> Spoilt {
     if header.last != b'F' {
-        return Err(Fault::new(StatusCode::BadTcpMessageTooLarge, "a login in more than one chunk"));
+        return Err(Fault::new(StatusCode::BadTcpMessageTooLarge, "a session asked for in more than one chunk"));
     }
-    let undecodable = |_| Fault::new(StatusCode::BadDecodingError, "the login cannot be read");
+    let undecodable = |_| Fault::new(StatusCode::BadDecodingError, "the request cannot be read");
     let contexts = contexts();
     let context = contexts.context();
     let mut body = chunk.get(SYMMETRIC_HEADER..).unwrap_or_default();
     let service = NodeId::decode(&mut body, &context).map_err(undecodable)?;
-    let mut request = ActivateSessionRequest::decode(&mut body, &context).map_err(undecodable)?;
-    match request.user_identity_token.inner_as::<UserNameIdentityToken>() {
-        Some(token) if token.encryption_algorithm.is_empty() => {}
-        _ => return Ok(None),
+    let mut request = T::decode(&mut body, &context).map_err(undecodable)?;
+    if !change(&mut request) {
+        return Ok(None);
     }
-    request.user_identity_token = ExtensionObject::from_message(UserNameIdentityToken::default());
-    let mut rewritten = chunk[..SYMMETRIC_HEADER].to_vec();
-    service.encode(&mut rewritten, &context).map_err(undecodable)?;
-    request.encode(&mut rewritten, &context).map_err(undecodable)?;
-    let size = rewritten.len() as u32;
-    rewritten[4..8].copy_from_slice(&size.to_le_bytes());
-    Ok(Some(rewritten))
+    let mut edited = chunk[..SYMMETRIC_HEADER].to_vec();
+    service.encode(&mut edited, &context).map_err(undecodable)?;
+    request.encode(&mut edited, &context).map_err(undecodable)?;
+    let size = edited.len() as u32;
+    edited[4..8].copy_from_slice(&size.to_le_bytes());
+    Ok(Some(edited))
 }
 
 fn contexts() -> ContextOwned {
@@ -102,7 +131,8 @@ mod tests {
     #[test]
     fn a_service_is_known_by_its_number_however_that_is_written() {
         let short = chunk(ObjectId::GetEndpointsRequest_Encoding_DefaultBinary, b"");
-        assert!(is_discovery(service(header(&short), &short).unwrap()));
+        let read = service(header(&short), &short).unwrap();
+        assert_eq!(read, ObjectId::GetEndpointsRequest_Encoding_DefaultBinary);
         // The long form of the same node id.
         let mut long = chunk(ObjectId::RootFolder, b"");
         long.truncate(SYMMETRIC_HEADER);
@@ -111,7 +141,6 @@ mod tests {
         long[4] = long.len() as u8;
         let read = service(header(&long), &long).unwrap();
         assert_eq!(read, ObjectId::ActivateSessionRequest_Encoding_DefaultBinary);
-        assert!(!is_discovery(read));
         for no_service in [&[][..], &[1], &[0xff, 0, 0, 0, 0, 0, 0]] {
             let mut chunk = chunk(ObjectId::RootFolder, b"");
             chunk.truncate(SYMMETRIC_HEADER);
@@ -141,6 +170,13 @@ mod tests {
         let mut pieces = clear.clone();
         pieces[3] = b'C';
         assert!(without_clear_password(header(&pieces), &pieces).is_err());
+        let create = CreateSessionRequest { endpoint_url: "opc.tcp://robot".into(), ..Default::default() };
+        let mut body = Vec::new();
+        create.encode(&mut body, &contexts.context()).unwrap();
+        let create = chunk(ObjectId::CreateSessionRequest_Encoding_DefaultBinary, &body);
+        let spoilt = without_endpoint(header(&create), &create).unwrap().unwrap();
+        let mut body = &spoilt[SYMMETRIC_HEADER + 4..];
+        assert!(CreateSessionRequest::decode(&mut body, &contexts.context()).unwrap().endpoint_url.is_null());
         let cut = &clear[..40];
         assert!(without_clear_password(header(&clear), cut).is_err());
     }

@@ -149,16 +149,18 @@ impl<'a> Upward<'a> {
             if bytes.len() < plain::SERVICE_AT_MOST.min(header.size) {
                 return Ok(false);
             }
-            let service = plain::service(header, bytes)?;
-            if !plain::is_discovery(service) && !self.gate.offers_none() {
-                let reason = "without security this server only tells its endpoints";
-                return Err(Fault::new(StatusCode::BadSecurityModeRejected, reason));
-            }
-            if service == ObjectId::ActivateSessionRequest_Encoding_DefaultBinary {
+            let objection = match plain::service(header, bytes)? {
+                ObjectId::ActivateSessionRequest_Encoding_DefaultBinary => Some(plain::CLEAR_PASSWORD),
+                ObjectId::CreateSessionRequest_Encoding_DefaultBinary if !self.gate.offers_none() => {
+                    Some(plain::NO_ENDPOINT)
+                }
+                _ => None,
+            };
+            if let Some(objection) = objection {
                 let Some(chunk) = self.passage.chunk(header) else { return Ok(false) };
-                if let Some(harmless) = plain::without_clear_password(header, chunk)? {
-                    self.gate.clear_password(self.connection);
-                    self.passage.replace(header, harmless);
+                if let Some(spoilt) = (objection.spoil)(header, chunk)? {
+                    self.gate.spoilt(self.connection, objection.reason);
+                    self.passage.replace(header, spoilt);
                     return Ok(true);
                 }
             }

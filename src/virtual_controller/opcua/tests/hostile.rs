@@ -147,7 +147,7 @@ async fn a_stolen_certificate_is_worth_nothing_without_its_key() {
         .await
         .unwrap_or_else(|_| panic!("nobody was told: {}", told.lines()));
     }
-    assert!(!told.lines().contains("opened"), "{}", told.lines());
+    assert!(!told.lines().contains("activated"), "{}", told.lines());
     serves_proper_clients(&server).await;
     server.stop().await;
 }

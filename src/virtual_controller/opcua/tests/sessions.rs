@@ -77,8 +77,10 @@ async fn whoever_finds_the_port_behind_the_gate_gets_nothing() {
 async fn without_security_a_server_that_does_not_offer_it_only_tells_its_endpoints() {
     let folder = tempfile::tempdir().unwrap();
     let policies = BTreeSet::from([SecurityPolicy::Basic256Sha256]);
-    let server = start(OpcUaConfig { policies, trust: trusting(&[&CLIENT]), ..config(&folder) }).await;
-    assert_eq!(Client::anonymous(&server).await.err(), Some(StatusCode::BadSecurityModeRejected));
+    let (told, trust) = (Told::default(), trusting(&[&CLIENT]));
+    let server = start(OpcUaConfig { policies, trust, events: told.events(), ..config(&folder) }).await;
+    assert_eq!(Client::anonymous(&server).await.err(), Some(StatusCode::BadTcpEndpointUrlInvalid));
+    told.wait_for("a session without security").await;
     // Nor does it open channels with a policy it does not offer.
     let other = Dial { policy: SecurityPolicy::Aes128Sha256RsaOaep, ..Dial::new(&server) };
     assert!(other.connect().await.is_err());
