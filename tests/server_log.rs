@@ -157,7 +157,7 @@ async fn a_full_log_stops_the_server_until_it_is_deleted_or_switched_off() {
     assert_eq!(standing(&plant).await, (ServerStatus::Run, Some(ErrorCode::ServerLogOn)));
     assert!(log(&plant, LogPart::From(0)).await.size < full.size);
 
-    plant.controller(0).faults().update(|switches| switches.log_limit = Some(1024));
+    plant.controller(0).faults().update(|switches| switches.log_limit = Some(1));
     plant.run(StopServer).await;
     assert_eq!(code(&plant.run(StartServer).await), Some(ErrorCode::ServerLogFull));
     assert_eq!(code(&plant.run(switch(false)).await), None);
