@@ -16,8 +16,8 @@ use opcua_configurator::model::{CertificateStatus, ErrorCode, FirmwareGeneration
 use opcua_configurator::pki::{Certificate, read_bundle};
 use opcua_configurator::protocol::CutClient;
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
-use opcua_configurator::ui::model::trust::{DetailsView, ReadTrustFile};
-use opcua_configurator::ui::model::{Dialog, JobId, Message};
+use opcua_configurator::ui::model::trust::{DetailsView, ReadTrustFile, TrustAction};
+use opcua_configurator::ui::model::{Dialog, JobId, Message, reduce};
 use opcua_configurator::workspace::ThemeChoice;
 
 /// Of current firmware, and of legacy firmware.
@@ -252,8 +252,7 @@ fn real() -> TrustSnapshot {
 fn details_of_a_certificate() {
     let mut window = lists(CURRENT, CLIENTS, real(), SIZE);
     click(&mut window, "Tick Laptop of the service");
-    click(&mut window, "Details…");
-    fix(&mut window);
+    details(&mut window);
     picture(&mut window, "trust_details");
     chinese(&mut window);
     picture(&mut window, "trust_details_chinese");
@@ -271,8 +270,7 @@ fn details_of_a_revoked_certificate_with_its_chain() {
     crl.crl.as_mut().expect("a CRL").0.clone_from(&pki.crl);
     let mut window = lists(CURRENT, CLIENTS, held, SIZE);
     click(&mut window, "Tick HMI line 3");
-    click(&mut window, "Details…");
-    fix(&mut window);
+    details(&mut window);
     picture(&mut window, "trust_details_chain");
 }
 
@@ -284,13 +282,14 @@ fn details_of_a_crl() {
     client.summary.serial_number = Certificate::from_der(&client.certificate.0).expect("whole").summary().serial_number;
     let mut window = lists(CURRENT, CRLS, held, SIZE);
     click(&mut window, "Tick Plant issuing CA 2");
-    click(&mut window, "Details…");
-    fix(&mut window);
+    details(&mut window);
     picture(&mut window, "crl_details");
 }
 
-/// Keys are made anew for every picture; what follows from them must not be seen in it.
-fn fix(window: &mut W) {
+/// Opens the details. Keys are made anew for every picture; what follows from them must not be drawn even once, as that
+/// would already change the picture a little.
+fn details(window: &mut W) {
+    reduce(&mut window.state_mut().model, Message::Trust(TrustAction::Details));
     let Some(Dialog::TrustDetails(view)) = window.state_mut().model.dialogs.last_mut() else {
         panic!("no details are shown")
     };

@@ -1,6 +1,7 @@
 //! The lists of one controller (manual 2.7.3).
 
 mod add;
+mod cell;
 mod delete;
 mod details;
 mod keys;

@@ -1,6 +1,6 @@
 use egui::{Align, Frame, Label, Layout, RichText, Stroke, Ui, vec2};
 
-use super::pane::health_words;
+use super::cell::health_words;
 use crate::ui::model::trust::{Entry, TrustAction, TrustForm};
 use crate::ui::model::{Message, Model};
 use crate::ui::texts::{self, TextKey as T};
