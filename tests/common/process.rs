@@ -1,6 +1,6 @@
 //! Other programs in a test: every wait has a deadline, and none outlives the test that started it.
 
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Read, Write as _};
 use std::process::{Child, Command, Stdio};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread::{self, JoinHandle};
@@ -60,6 +60,13 @@ impl Running {
                 panic!("no line from {program}: {why}\n{}", self.end())
             }
         }
+    }
+
+    /// Writes a line to standard input, which must be a pipe.
+    #[allow(dead_code, reason = "not every story talks to a program")]
+    pub fn write_line(&mut self, line: &str) {
+        let stdin = self.child.stdin.as_mut().expect("stdin is piped");
+        writeln!(stdin, "{line}").unwrap_or_else(|why| panic!("{} does not listen: {why}", self.program));
     }
 
     /// Waits until the program has ended by itself. Panics if it has not by the deadline.

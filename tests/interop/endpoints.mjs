@@ -1,27 +1,9 @@
 // A second OPC UA client that nobody of this project wrote: node-opcua. Prints the endpoints of a server as one line
 // of JSON: node endpoints.mjs opc.tcp://HOST:PORT. Without an address it only looks whether node-opcua is there.
-// Exit code 3: node-opcua-client is missing. OPCUA_INTEROP_NODE_MODULES says which node_modules folder holds it.
+// The exit code is that of node_opcua.mjs where node-opcua is missing.
 
-import { mkdtempSync, rmSync } from "node:fs";
-import { createRequire } from "node:module";
-import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { opcua } from "./node_opcua.mjs";
 
-// node-opcua makes its own key and certificate lists below the user's configuration folder: give it another one.
-const folder = mkdtempSync(join(tmpdir(), "node-opcua-"));
-process.on("exit", () => rmSync(folder, { recursive: true, force: true }));
-process.env.HOME = process.env.XDG_CONFIG_HOME = process.env.XDG_DATA_HOME = folder;
-
-const modules = process.env.OPCUA_INTEROP_NODE_MODULES;
-const require = createRequire(modules ? join(resolve(modules), "..", "anchor.js") : import.meta.url);
-
-let opcua;
-try {
-  opcua = require("node-opcua-client");
-} catch (missing) {
-  console.error(missing.message);
-  process.exit(3);
-}
 if (process.argv.length < 3) {
   process.exit(0);
 }

@@ -33,6 +33,14 @@ class LastErrorMessage(logging.Handler):
 
     name_of_status = None
 
+    @classmethod
+    def listen(cls):
+        logger = logging.getLogger("asyncua")
+        logger.addHandler(handler := cls())
+        logger.setLevel(logging.ERROR)
+        logger.propagate = False
+        return handler
+
     def emit(self, record):
         for argument in record.args or ():
             if isinstance(argument, ua.ErrorMessage):
@@ -132,22 +140,23 @@ async def session(args):
         await client.disconnect()
 
 
-def answer(args):
-    last_error = LastErrorMessage()
-    logger = logging.getLogger("asyncua")
-    logger.addHandler(last_error)
-    logger.setLevel(logging.ERROR)
-    logger.propagate = False
+async def outcome(work, last_error):
+    """What came of talking to a server, within a minute; a refusal by name."""
     try:
-        if args.command == "certificate":
-            return make_certificate(args)
-        return asyncio.run(asyncio.wait_for({"endpoints": endpoints, "session": session}[args.command](args), 60))
+        return await asyncio.wait_for(work, 60)
     except ua.UaStatusCodeError as refused:
         return {"ok": False, "error": type(refused).__name__, "detail": str(refused)}
     except ConnectionRefusedError as refused:
         return {"ok": False, "error": "ConnectionRefused", "detail": str(refused)}
     except (ua.UaError, OSError, asyncio.TimeoutError) as failed:
         return {"ok": False, "error": last_error.name_of_status or type(failed).__name__, "detail": str(failed)}
+
+
+def answer(args):
+    last_error = LastErrorMessage.listen()
+    if args.command == "certificate":
+        return make_certificate(args)
+    return asyncio.run(outcome({"endpoints": endpoints, "session": session}[args.command](args), last_error))
 
 
 def arguments():

@@ -72,8 +72,13 @@ impl Python {
     }
 
     fn peer(&self) -> Command {
+        self.script("peer.py")
+    }
+
+    /// One of the programs beside this file.
+    pub fn script(&self, name: &str) -> Command {
         let mut command = Command::new(&self.0);
-        command.arg(source("peer.py"));
+        command.arg(source(name));
         command
     }
 }
@@ -96,8 +101,13 @@ impl Node {
     }
 
     fn peer(&self) -> Command {
+        self.script("endpoints.mjs")
+    }
+
+    /// One of the programs beside this file.
+    pub fn script(&self, name: &str) -> Command {
         let mut command = Command::new("node");
-        command.arg(source("endpoints.mjs"));
+        command.arg(source(name));
         command
     }
 }
