@@ -184,11 +184,11 @@ proptest! {
         }
         let header = Header::parse(&chunk, CHUNK).unwrap().expect("a header");
         let _ = plain::service(header, &chunk);
-        if let Ok(Some(harmless)) = plain::without_clear_password(header, &chunk) {
+        if let Ok(Some(harmless)) = (plain::CLEAR_PASSWORD.spoil)(header, &chunk) {
             prop_assert!(!harmless.windows(password.len()).any(|window| window == password));
             let header = Header::parse(&harmless, CHUNK).unwrap().expect("a header");
             prop_assert_eq!(header.size, harmless.len());
-            prop_assert_eq!(plain::without_clear_password(header, &harmless).map(|again| again.is_some()), Ok(true));
+            prop_assert_eq!((plain::CLEAR_PASSWORD.spoil)(header, &harmless).map(|again| again.is_some()), Ok(true));
         }
     }
 }
