@@ -11,6 +11,7 @@ use x509_parser::prelude::{FromDer as _, SubjectPublicKeyInfo};
 use super::certificate::check_size;
 use super::facts::Extensions;
 use super::signature::{Curve, PublicKey, SignatureAlgorithm, Verdict};
+use super::signers::{Signed, Signers};
 use super::{
     AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, KeyUsage, MAX_BUNDLE_BYTES,
     PkiError, RevocationReason, key_file, name, pem, pkcs12, read_bundle, read_key_file, tlv,
@@ -120,7 +121,7 @@ pub struct KeyDescription {
 /// signing requests, keys, PKCS#7 and PKCS#12, in DER or PEM.
 ///
 /// The password is that of a PKCS#12 or of an encrypted key. Of private keys only the public half is told. Blocks while
-/// it hashes the password.
+/// it hashes the password, and for some signature checks, 2000 at most.
 pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>, PkiError> {
     check_size(bytes, MAX_BUNDLE_BYTES)?;
     let mut found = Found::default();
@@ -137,10 +138,9 @@ pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>
     } else {
         found.der(bytes, password)?;
     }
-    Ok(found.described())
+    found.described()
 }
 
-/// Each certificate is compared with every other one.
 const MAX_THINGS: usize = 1000;
 /// Whoever wrote the file decides how slow it is to open an encrypted key, and a file has room for thousands.
 const MAX_HASHED: usize = 16;
@@ -222,41 +222,28 @@ impl Found {
         self.things.extend(bundle.crls.into_iter().map(Thing::Crl));
     }
 
-    fn described(&self) -> Vec<Description> {
-        let certificates: Vec<&Certificate> = self
-            .things
-            .iter()
-            .filter_map(|thing| match thing {
-                Thing::Certificate(certificate) => Some(certificate),
-                _ => None,
-            })
-            .collect();
+    fn described(&self) -> Result<Vec<Description>, PkiError> {
+        let mut signers = Signers::new(self.things.iter().filter_map(|thing| match thing {
+            Thing::Certificate(certificate) => Some(certificate),
+            _ => None,
+        }));
         self.things
             .iter()
             .map(|thing| match thing {
                 Thing::Certificate(certificate) => {
-                    Description::Certificate(Box::new(certificate.describe_among(certificates.iter().copied())))
+                    let signed = signers.of_certificate(certificate)?;
+                    Ok(Description::Certificate(Box::new(certificate.describe(&signed))))
                 }
-                Thing::Crl(crl) => Description::Crl(Box::new(crl.describe_among(certificates.iter().copied()))),
-                Thing::Other(description) => description.clone(),
+                Thing::Crl(crl) => Ok(Description::Crl(Box::new(crl.describe(signers.of_crl(crl)?)))),
+                Thing::Other(description) => Ok(description.clone()),
             })
             .collect()
     }
 }
 
 impl Certificate {
-    /// Everything it says.
-    pub fn describe(&self) -> CertificateDescription {
-        self.describe_among(std::iter::empty())
-    }
-
-    /// Everything it says, and which of these certificates signed it.
-    pub fn describe_among<'a>(&self, others: impl IntoIterator<Item = &'a Self>) -> CertificateDescription {
+    fn describe(&self, signed: &Signed<'_>) -> CertificateDescription {
         let facts = self.facts();
-        let mut others = others.into_iter();
-        let signer = others.find(|other| {
-            *other != self && other.facts().subject_folded == facts.issuer_folded && self.verify_signed_by(other)
-        });
         CertificateDescription {
             subject: facts.subject.clone(),
             issuer: facts.issuer.clone(),
@@ -274,8 +261,8 @@ impl Certificate {
             authority_key_id: self.authority_key_id().map(hex::encode_upper),
             key: facts.public_key.describe(),
             signature_algorithm: facts.signature_algorithm.name().to_owned(),
-            self_signed: facts.subject_folded == facts.issuer_folded && self.verify_signed_by(self),
-            signed_by: signer.map(Self::thumbprint_sha1),
+            self_signed: signed.by_itself,
+            signed_by: signed.by.map(Self::thumbprint_sha1),
             not_understood: facts.extensions.not_understood.clone(),
             sha1: self.thumbprint_sha1(),
             sha256: hex::encode_upper(self.sha256()),
@@ -284,11 +271,7 @@ impl Certificate {
 }
 
 impl Crl {
-    /// Everything it says, and which of these certificates signed it.
-    pub fn describe_among<'a>(&self, certificates: impl IntoIterator<Item = &'a Certificate>) -> CrlDescription {
-        let mut certificates = certificates.into_iter();
-        let signer =
-            certificates.find(|one| one.facts().subject_folded == self.issuer_folded() && self.verify_signed_by(one));
+    fn describe(&self, signer: Option<&Certificate>) -> CrlDescription {
         CrlDescription {
             issuer: self.issuer().to_owned(),
             number: self.number().map(str::to_owned),

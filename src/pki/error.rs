@@ -41,6 +41,8 @@ pub enum PkiError {
     UnexpectedBlock(String),
     #[error("it holds more than {0} certificates and revocation lists, or encrypted keys")]
     TooMany(usize),
+    #[error("too many certificates in it have the same name to find out who signed what")]
+    TooManySigners,
 
     // a certificate signing request
     #[error("not a certificate signing request (PKCS#10) for an RSA key, or a damaged one")]
@@ -185,6 +187,7 @@ impl From<PkiError> for Problem {
             | PkiError::NotTrustMaterial
             | PkiError::UnexpectedBlock(_)
             | PkiError::TooMany(_)
+            | PkiError::TooManySigners
             | PkiError::PrivateKeyInside => ErrorCode::BadCertificate,
         };
         Self::with_detail(code, error)

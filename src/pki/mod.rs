@@ -9,6 +9,7 @@
 //! | `bundle` | [`read_bundle`]: any file with certificates and revocation lists |
 //! | `trust` | [`TrustLists`]: whether a certificate may be trusted (OPC 10000-4 §6.1.3) |
 //! | `describe` | [`describe`]: everything public inside a file, to be read |
+//! | `signers` | which certificate of a file signed what else is in it |
 //! | `pem` | the text armour around DER, both ways |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
@@ -59,6 +60,7 @@ mod samples;
 mod sealed;
 mod self_signed;
 mod signature;
+mod signers;
 mod tlv;
 mod trust;
 mod trust_health;

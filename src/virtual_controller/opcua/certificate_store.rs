@@ -79,10 +79,14 @@ impl PkiFolder {
         Ok(())
     }
 
-    /// Keeps the crate from taking a certificate. Should that fail, the gate still does not let it in.
-    pub(super) fn forget(&self, der: &[u8]) {
+    /// Keeps the crate from taking a certificate, unless `is_needed`, which is asked while nothing can be admitted.
+    /// Should that fail, the gate still does not let it in.
+    pub(super) fn forget(&self, der: &[u8], is_needed: impl FnOnce() -> bool) {
         let Some(name) = file_name(der) else { return };
         let mut admitted = self.admitted.lock();
+        if is_needed() {
+            return;
+        }
         let Some(at) = admitted.iter().position(|known| *known == name) else { return };
         let name = admitted.remove(at);
         if let Err(e) = remove_if_there(&self.root.join(TRUSTED).join(name)) {

@@ -1,6 +1,7 @@
 //! The whole CA in one file: everything of its folder, sealed once more under its passphrase.
 
 use std::collections::BTreeMap;
+use std::io;
 use std::path::Path;
 
 use chrono::{DateTime, Utc};
@@ -47,7 +48,13 @@ impl Backup {
 
 impl Authority {
     /// Writes a backup that the passphrase of the CA opens. Blocks for the size of the CA.
+    ///
+    /// Not into the folder of the CA: under the name of a key it would be the end of that key.
     pub fn back_up(&self, path: &Path, now: DateTime<Utc>) -> Result<(), AuthorityError> {
+        if is_below(path, self.files().folder()) {
+            let reason = io::Error::new(io::ErrorKind::InvalidInput, "the folder of the CA is no place for its backup");
+            return Err(WorkspaceError::writing(path, reason).into());
+        }
         let mut keys = BTreeMap::new();
         for name in [SIGNING, ROOT].into_iter().filter(|name| self.files().has_key(name)) {
             let pem = self.files().read_key_pem(name)?;
@@ -73,7 +80,7 @@ impl Authority {
             sealed: Base64Bytes(Vec::new()),
         };
         let sealed = seal(&plain, backup.context().as_bytes(), self.passphrase())
-            .map_err(|e| WorkspaceError::writing(path, std::io::Error::other(e)))?;
+            .map_err(|e| WorkspaceError::writing(path, io::Error::other(e)))?;
         backup.salt = Base64Bytes(sealed.salt.to_vec());
         backup.nonce = Base64Bytes(sealed.nonce.to_vec());
         backup.sealed = Base64Bytes(sealed.bytes);
@@ -98,6 +105,15 @@ impl AuthorityFiles {
         self.write_copies(&content.database)?;
         AuthorityOverview::of(self.folder(), content.database)
     }
+}
+
+/// Whether a file, there or not, is in a folder or below it, however the path is written.
+fn is_below(file: &Path, folder: &Path) -> bool {
+    let Ok(folder) = folder.canonicalize() else { return false };
+    // The nearest folder that exists.
+    let Ok(file) = std::path::absolute(file) else { return false };
+    let there = file.ancestors().skip(1).find_map(|above| above.canonicalize().ok());
+    there.is_some_and(|there| there.starts_with(&folder))
 }
 
 fn read(path: &Path, passphrase: &SecretString) -> Result<Content, AuthorityError> {

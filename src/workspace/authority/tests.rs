@@ -272,6 +272,21 @@ fn copies_are_made_again_and_a_key_left_over_is_kept() {
 }
 
 #[test]
+fn a_backup_never_takes_the_place_of_what_it_backs_up() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = files(folder.path());
+    let authority = files.create(&new(false), &passphrase(), now()).unwrap();
+    let key = fs::read(files.folder().join("ca.key")).unwrap();
+    for path in ["ca.key", "ca.json", "new/backup.json", "../CA/ca.key"] {
+        assert!(authority.back_up(&files.folder().join(path), now()).is_err(), "{path}");
+    }
+    assert_eq!(fs::read(files.folder().join("ca.key")).unwrap(), key);
+    authority.back_up(&folder.path().join("CA-backup.json"), now()).unwrap();
+    drop(authority);
+    files.open(&passphrase()).unwrap();
+}
+
+#[test]
 fn a_backup_brings_everything_back_to_those_who_know_the_passphrase() {
     let folder = tempfile::tempdir().unwrap();
     let old = files(&folder.path().join("old"));

@@ -167,6 +167,14 @@ impl Connections {
         self.live.lock().by_channel.get(&channel).cloned()
     }
 
+    /// Whether a connection that does not have to end was admitted with this certificate, `one` aside.
+    pub(super) fn any_other_has(&self, leaf: &Certificate, one: &Connection) -> bool {
+        self.all().iter().filter(|other| other.id != one.id && !other.is_stopped()).any(|other| {
+            let identity = other.state.lock().identity.clone();
+            identity.is_some_and(|identity| identity.leaf() == Some(leaf))
+        })
+    }
+
     pub(super) fn all(&self) -> Vec<Arc<Connection>> {
         self.live.lock().by_id.values().cloned().collect()
     }

@@ -56,9 +56,19 @@ impl<'a> Downward<'a> {
                 self.connection.stop(Stop::Told(fault));
             }
             if !self.passage.good().is_empty() {
-                let written = timeout(self.gate.limits().stall, to.write_all(self.passage.good())).await;
-                if !matches!(written, Ok(Ok(()))) {
-                    return false;
+                let written = timeout(self.gate.limits().stall, to.write_all(self.passage.good()));
+                // Whoever reads nothing must not put off its end.
+                let overdue = async {
+                    if stop.is_none() {
+                        stop_asked(&mut stopped).await;
+                    }
+                    sleep_until(boundary_by.unwrap_or_else(|| Instant::now() + REST_OF_A_CHUNK)).await;
+                };
+                tokio::select! {
+                    written = written => if !matches!(written, Ok(Ok(()))) {
+                        return false;
+                    },
+                    () = overdue => return false,
                 }
                 self.passage.sent();
             }

@@ -111,7 +111,7 @@ impl Gate {
             let Some(leaf) = identity.leaf() else { continue };
             if let Err(rejection) = self.judge.admit(&identity.chain, identity.policy, || ()) {
                 connection.stop(Stop::Told(judge::fault(&rejection, self.settings.detailed_status)));
-                self.pki.forget(leaf.der());
+                self.forget(leaf, &connection);
                 if connection.state.lock().channel.is_none() {
                     continue;
                 }
@@ -273,14 +273,16 @@ impl Gate {
         let identity = Arc::new(Identity { policy, sent, chain });
         let let_in = self.judge.admit(&identity.chain, policy, || {
             let Some(leaf) = identity.leaf() else { return Ok::<_, io::Error>(()) };
-            self.pki.admit(leaf.der())?;
-            let mut state = connection.state.lock();
-            if identity.chain.len() > 1 && state.chained.is_none() {
-                let client = ChainedClient::new(policy, leaf.der()).map_err(|_| ErrorKind::InvalidInput)?;
-                state.chained = Some(Arc::new(client));
+            {
+                let mut state = connection.state.lock();
+                if identity.chain.len() > 1 && state.chained.is_none() {
+                    let client = ChainedClient::new(policy, leaf.der()).map_err(|_| ErrorKind::InvalidInput)?;
+                    state.chained = Some(Arc::new(client));
+                }
+                // Before the folder, so that nobody finds the certificate there without a connection that needs it.
+                state.identity = Some(identity.clone());
             }
-            state.identity = Some(identity.clone());
-            Ok(())
+            self.pki.admit(leaf.der())
         });
         match let_in {
             Ok(Ok(())) => Ok(identity),
@@ -294,11 +296,18 @@ impl Gate {
             }
             Err(rejection) => {
                 if let Some(leaf) = identity.leaf() {
-                    self.pki.forget(leaf.der());
+                    self.forget(leaf, connection);
                 }
                 Err(self.reject(connection, &identity.chain, &rejection))
             }
         }
+    }
+
+    /// Takes the certificate of a client that was refused out of the server's hands; not if another connection was let
+    /// in with it. Certificates are public: whoever shows somebody else's in a way that is refused must not lock its
+    /// owner out.
+    fn forget(&self, leaf: &Certificate, refused: &Connection) {
+        self.pki.forget(leaf.der(), || self.connections.any_other_has(leaf, refused));
     }
 
     /// The policy of this name, if clients may open a channel with it. Without security everybody may, since that is how

@@ -174,6 +174,18 @@ async fn a_client_that_does_not_read_is_dropped_and_cannot_hold_the_server() {
 }
 
 #[tokio::test]
+async fn a_client_that_does_not_read_cannot_put_off_its_end() {
+    let stand = Stand::new(Limits { session: Duration::from_secs(1), stall: PATIENCE, ..hurried() }).await;
+    let (_client, mut server) = stand.open().await;
+    let mut chunk = b"MSGF".to_vec();
+    chunk.extend(60_000_u32.to_le_bytes());
+    chunk.resize(60_000, 0);
+    let start = Instant::now();
+    while server.write_all(&chunk).await.is_ok() {}
+    assert!(start.elapsed() < PATIENCE / 2, "{:?}", start.elapsed());
+}
+
+#[tokio::test]
 async fn a_server_that_says_too_much_at_once_is_not_believed() {
     let stand = Stand::new(Limits::default()).await;
     let (client, mut server) = stand.open().await;

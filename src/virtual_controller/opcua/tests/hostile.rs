@@ -13,6 +13,7 @@ use super::super::admission::wire::tests::open;
 use super::*;
 
 const NONE: &str = "http://opcfoundation.org/UA/SecurityPolicy#None";
+const BASIC128RSA15: &str = "http://opcfoundation.org/UA/SecurityPolicy#Basic128Rsa15";
 const BASIC256SHA256: &str = "http://opcfoundation.org/UA/SecurityPolicy#Basic256Sha256";
 
 fn hello() -> Vec<u8> {
@@ -149,6 +150,26 @@ async fn a_stolen_certificate_is_worth_nothing_without_its_key() {
     }
     assert!(!told.lines().contains("activated"), "{}", told.lines());
     serves_proper_clients(&server).await;
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn showing_a_certificate_where_it_is_refused_does_not_lock_its_owner_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let authority = super::identity::Authority::new("Plant CA");
+    let owner = authority.issue("owner", rcgen::RsaKeySize::_4096);
+    let trust = TrustLists::new(vec![authority.certificate.clone()], vec![], vec![authority.crl(1, &[])]);
+    let server = start(OpcUaConfig { trust, ..config(&folder) }).await;
+    let held = || std::fs::read_dir(folder.path().join("pki/trusted")).unwrap().count();
+    let client = Dial::new(&server).identity(&owner).connect().await.unwrap();
+    assert_eq!(held(), 1);
+    // Its key is too long for this policy.
+    let shown = open(0, BASIC128RSA15, &owner.der, &Sha1::digest(&SERVER.der), &[7; 512]);
+    let last = last_word((Ipv4Addr::LOCALHOST, server.port()).into(), &[hello(), shown].concat()).await;
+    assert_eq!(last, Some(opcua::types::StatusCode::BadSecurityChecksFailed));
+    assert_eq!(held(), 1);
+    assert!(client.is_served().await);
+    client.close().await;
     server.stop().await;
 }
 
