@@ -64,6 +64,11 @@ const ISSUERS: Presentation =
 const REJECTED: Presentation =
     Presentation { header: &["REJECTED"], show: |outcome, _| shown(outcome, &[ClientList::Rejected]) };
 
+/// What a list holds in one cell.
+pub fn listing(lines: &[String]) -> String {
+    if lines.is_empty() { "-".to_owned() } else { lines.join("; ") }
+}
+
 fn shown(outcome: &Outcome, lists: &[ClientList]) -> Shown {
     let Outcome::TrustLists(held) = outcome else {
         return Shown { json: json!(null), cells: Vec::new() };
@@ -76,7 +81,7 @@ fn shown(outcome: &Outcome, lists: &[ClientList]) -> Shown {
         let label = if lists.len() > 1 { format!("{}: ", list.as_str()) } else { String::new() };
         words.extend(lines.into_iter().map(|line| format!("{label}{line}")));
     }
-    Shown { json, cells: vec![words.join("; ")] }
+    Shown { json, cells: vec![listing(&words)] }
 }
 
 fn listed(held: &TrustSnapshot, list: ClientList) -> (Value, Vec<String>) {

@@ -4,7 +4,7 @@ use clap::Subcommand;
 use serde_json::json;
 
 use super::batch::{Presentation, Shown};
-use super::clients::{CHANGE, hexadecimal};
+use super::clients::{CHANGE, hexadecimal, listing};
 use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
@@ -37,7 +37,7 @@ const CRLS: Presentation = Presentation {
             .collect();
         let lines: Vec<String> = with_health().map(|(crl, health)| line(crl, health)).collect();
         let json = json!({ "revision": held.revision, "crls": json, "without_crl": held.health.without_crl });
-        Shown { json, cells: vec![lines.join("; ")] }
+        Shown { json, cells: vec![listing(&lines)] }
     },
 };
 

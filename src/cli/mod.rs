@@ -54,7 +54,7 @@ pub struct Cli {
     #[arg(long, global = true)]
     json: bool,
 
-    /// Do not ask before the OPC UA server is stopped; required where there is no terminal
+    /// Do not ask before anything is stopped, replaced or deleted; required where there is no terminal
     #[arg(long, global = true)]
     yes: bool,
 

@@ -34,8 +34,7 @@ pub fn ca_passphrase(file: Option<&Path>, chosen: bool) -> Result<SecretString, 
     }
     let terminal = console::Term::stderr();
     if !terminal.is_term() || !std::io::stdin().is_terminal() {
-        let detail = "there is no terminal to ask for it; name a file with --passphrase-file";
-        return Err(Problem::with_detail(ErrorCode::AuthorityPassphrase, detail));
+        return Err(ErrorCode::NoPassphrase.into());
     }
     let ask = |question: &str| {
         eprint!("{question}: ");
@@ -43,7 +42,7 @@ pub fn ca_passphrase(file: Option<&Path>, chosen: bool) -> Result<SecretString, 
     };
     let passphrase = ask("Passphrase of the CA")?;
     if chosen && ask("The same again")?.expose_secret() != passphrase.expose_secret() {
-        return Err(Problem::with_detail(ErrorCode::AuthorityPassphrase, "the two differ"));
+        return Err(Problem::with_detail(ErrorCode::NoPassphrase, "the two entries differ"));
     }
     Ok(passphrase)
 }

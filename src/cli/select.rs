@@ -50,8 +50,11 @@ impl ThingsThenSelect {
             self.arguments.iter().skip(1).rev().take_while(|name| configuration.find(name).is_some()).count();
         let (things, names) = self.arguments.split_at(self.arguments.len() - controllers);
         if names.is_empty() {
-            let last = self.arguments.last().map_or("", String::as_str);
-            return Err(Problem::with_detail(ErrorCode::UnknownController, last));
+            let detail = match self.arguments.as_slice() {
+                [only] => format!("none is named after \"{only}\"; name controllers, or give --all"),
+                several => several.last().cloned().unwrap_or_default(),
+            };
+            return Err(Problem::with_detail(ErrorCode::UnknownController, detail));
         }
         Ok((things.to_vec(), named(names, configuration)?))
     }

@@ -562,10 +562,10 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ErrorCode::NotConfirmed,
         text(
             "The operation was not confirmed",
-            "It changes the controllers, and there is no terminal to ask on.",
+            "It stops, replaces or deletes something, and there is no terminal to ask on.",
             "Repeat the command with --yes.",
         ),
-        text("操作未确认", "该操作会更改控制器，且没有可询问的终端。", "请加上 --yes 重新执行命令。"),
+        text("操作未确认", "该操作会停止、替换或删除某些内容，且没有可询问的终端。", "请加上 --yes 重新执行命令。"),
     ),
     (
         ErrorCode::CsrMismatch,
@@ -770,10 +770,19 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "The passphrase does not open the CA's key, or the key file is damaged.",
             "Enter the passphrase that was chosen when the CA was created.",
         ),
+        text("证书颁发机构的口令错误", "口令无法打开 CA 密钥，或密钥文件已损坏。", "请输入创建 CA 时设置的口令。"),
+    ),
+    (
+        ErrorCode::NoPassphrase,
         text(
-            "证书颁发机构的密码短语错误",
-            "密码短语无法打开 CA 密钥，或密钥文件已损坏。",
-            "请输入创建 CA 时设置的密码短语。",
+            "No passphrase was given",
+            "There is no terminal to ask for it, or the two entries differ.",
+            "Name a file with --passphrase-file, or enter the same passphrase twice.",
+        ),
+        text(
+            "未输入口令",
+            "没有可询问的终端，或两次输入的口令不一致。",
+            "请用 --passphrase-file 指定文件，或两次输入相同的口令。",
         ),
     ),
     (
@@ -867,7 +876,7 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "The backup was made with another passphrase, or was changed since.",
             "Enter the passphrase the CA had when the backup was made.",
         ),
-        text("密码短语无法打开备份", "备份时使用了其他密码短语，或备份已被修改。", "请输入备份时 CA 的密码短语。"),
+        text("口令无法打开备份", "备份时使用了其他口令，或备份已被修改。", "请输入备份时 CA 的口令。"),
     ),
     (
         ErrorCode::VerifyFailed,
@@ -1015,11 +1024,7 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "They were sealed with another passphrase, or with the connection password the controller had then.",
             "Enter the passphrase of the export.",
         ),
-        text(
-            "密码短语无法打开导出的设置",
-            "导出时使用了其他密码短语，或当时控制器的连接密码。",
-            "请输入导出时使用的密码短语。",
-        ),
+        text("口令无法打开导出的设置", "导出时使用了其他口令，或当时控制器的连接密码。", "请输入导出时使用的口令。"),
     ),
     (
         ErrorCode::BadPassphrase,
@@ -1028,7 +1033,7 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "A passphrase that protects an export or a CA has at least 8 characters.",
             "Choose a longer passphrase.",
         ),
-        text("密码短语过短", "保护导出文件或 CA 的密码短语至少为 8 个字符。", "请使用更长的密码短语。"),
+        text("口令过短", "保护导出文件或 CA 的口令至少为 8 个字符。", "请使用更长的口令。"),
     ),
     (
         ErrorCode::WorkspaceReadOnly,

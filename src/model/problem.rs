@@ -99,6 +99,7 @@ pub enum ErrorCode {
     AuthorityBusy,
     AuthorityDamaged,
     AuthorityPassphrase,
+    NoPassphrase,
     AuthorityExpired,
     CsrRefused,
     ShortKey,
@@ -196,6 +197,7 @@ impl ErrorCode {
                 | AuthorityBusy
                 | AuthorityDamaged
                 | AuthorityPassphrase
+                | NoPassphrase
                 | AuthorityExpired
                 | CsrRefused
                 | ShortKey
@@ -317,9 +319,9 @@ mod tests {
             CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,
-            NoAuthority | AuthorityExists | AuthorityBusy | AuthorityDamaged | AuthorityPassphrase
+            NoAuthority | AuthorityExists | AuthorityBusy | AuthorityDamaged | AuthorityPassphrase | NoPassphrase
             | AuthorityExpired | CsrRefused | ShortKey | AlreadySigned | UnknownSerial | AlreadyRevoked
-            | BackupDamaged | BackupPassphrase => 13,
+            | BackupDamaged | BackupPassphrase => 14,
             VerifyFailed => 1,
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,

@@ -38,6 +38,7 @@ pub enum CaCommand {
     Show,
     /// Save the whole CA in one file, sealed with its passphrase
     Backup {
+        /// Where to save it
         #[arg(long, value_name = "FILE")]
         out: PathBuf,
         #[command(flatten)]
@@ -45,6 +46,7 @@ pub enum CaCommand {
     },
     /// Put a backup back into a workspace without a CA
     Restore {
+        /// What `ca backup` saved
         file: PathBuf,
         #[command(flatten)]
         passphrase: PassphraseArgs,
@@ -60,7 +62,7 @@ pub struct PassphraseArgs {
 
 #[derive(Debug, Args)]
 pub struct RevokeArgs {
-    /// Serial numbers in hexadecimal, as `ca show` lists them
+    /// Whole serial numbers in hexadecimal, as `ca show` lists them
     #[arg(value_name = "SERIAL", required = true)]
     serials: Vec<String>,
     /// Why (RFC 5280): unspecified, keyCompromise, cACompromise, affiliationChanged, superseded, cessationOfOperation or

@@ -31,8 +31,8 @@ pub fn dialog(
     body: impl FnOnce(&mut Ui),
 ) -> Answer {
     let room = ui.ctx().content_rect();
-    let width = width.min(room.width() - 2.0 * theme::SPACE_LARGE);
     let frame = Frame::window(ui.style());
+    let width = width.min(room.width() - frame.total_margin().sum().x - 2.0 * theme::SPACE);
     let shown = Modal::new(Id::unique(id)).frame(frame).show(ui.ctx(), |ui| {
         ui.set_width(width);
         ui.add(egui::Label::new(RichText::new(title).heading().strong()).truncate());

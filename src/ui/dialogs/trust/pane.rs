@@ -163,6 +163,8 @@ fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &M
         ui.visuals_mut().selection.stroke.color = palette.text;
         let below =
             height - theme::HEADER_HEIGHT - ui.spacing().scroll.bar_width - ui.spacing().scroll.bar_outer_margin;
+        // When a dialog is measured before it is first drawn, columns would shrink to what they hold, and stay so.
+        let measured = ui.is_sizing_pass();
         let mut builder = TableBuilder::new(ui)
             .id_salt("lines")
             .striped(true)
@@ -177,7 +179,8 @@ fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &M
             let last = columns.last() == Some(column);
             let width = cell::width(*column);
             let kind = if last { Column::remainder() } else { Column::initial(width) };
-            builder = builder.column(kind.at_least(if last { width } else { theme::MIN_COLUMN }).clip(true));
+            builder =
+                builder.column(kind.at_least(if last || measured { width } else { theme::MIN_COLUMN }).clip(true));
         }
         if std::mem::take(&mut pane.reveal)
             && let Some(cursor) = pane.cursor()
