@@ -84,7 +84,7 @@ pub const DENSE_HEIGHT: f32 = 22.0;
 pub const DIALOG: f32 = 520.0;
 pub const DIALOG_WIDE: f32 = 680.0;
 /// What a dialog leaves of the window's height for its own frame.
-pub const DIALOG_MARGIN: f32 = 120.0;
+pub const DIALOG_MARGIN: f32 = 148.0;
 /// Of the server log's window: its width, its lines' height, and what it leaves of the window's height.
 pub const DIALOG_LOG: f32 = 980.0;
 pub const LOG_HEIGHT: f32 = 520.0;

@@ -51,13 +51,13 @@ pub async fn watch_trust(
             () = cancel.cancelled() => None,
             Err(problem) = watching => Some(problem),
         };
+        // A controller has room for few sessions; one whose connection was lost ends there by itself.
+        let is_lost = ended.as_ref().is_some_and(|problem| is_lost(problem.code));
+        if let Some(mut session) = session.filter(|_| !is_lost) {
+            session.close().await;
+        }
         match ended {
-            None => {
-                if let Some(mut session) = session {
-                    session.close().await;
-                }
-                return;
-            }
+            None => return,
             Some(problem) if is_final(problem.code) => return on_event(WatchEvent::Ended(problem)),
             // The controller was restarted, or the session was given up for others: nothing to tell.
             Some(problem) if problem.code == ErrorCode::SessionExpired => {}
@@ -68,6 +68,10 @@ pub async fn watch_trust(
             () = tokio::time::sleep(pause) => pause = (pause * 2).min(LAST_PAUSE),
         }
     }
+}
+
+const fn is_lost(code: ErrorCode) -> bool {
+    matches!(code, ErrorCode::ConnectionLost | ErrorCode::Unreachable | ErrorCode::Timeout | ErrorCode::SessionExpired)
 }
 
 const FIRST_PAUSE: Duration = Duration::from_millis(500);

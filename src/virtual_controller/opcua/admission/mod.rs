@@ -36,7 +36,8 @@
 //! # Limits of the OPC UA crate that remain
 //! Issuers sent in CreateSession are left out only before the first session of a channel, and only of a client that
 //! sent them in OpenSecureChannel too. TransferSubscriptions and Publish reach no node, so that only the activation
-//! guards them.
+//! guards them. A password in clear is taken out where nothing is signed; a client that signs but neither encrypts its
+//! channel nor its password, although told to, shows it to whoever listens.
 
 mod addresses;
 mod channel_keys;
