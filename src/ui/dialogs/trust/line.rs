@@ -45,7 +45,7 @@ pub fn show(
     let response = ui.interact(row, ui.scope_id().with("line"), Sense::click());
     if ticked {
         ui.painter().rect_filled(row, 0.0, ui.visuals().selection.bg_fill);
-    } else if position % 2 == 0 {
+    } else if position.is_multiple_of(2) {
         ui.painter().rect_filled(row, 0.0, palette.stripe);
     }
     if pane.cursor() == Some(position) {
