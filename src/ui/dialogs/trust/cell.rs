@@ -1,13 +1,14 @@
 //! What stands in the columns of a list.
 
-use egui::{Color32, Label, RichText, Sense, Ui, vec2};
+use std::borrow::Cow;
+
+use egui::Color32;
 
 use crate::pki::CrlHealth;
 use crate::ui::model::Model;
 use crate::ui::model::trust::{Crl, Entry, Life, TrustColumn};
 use crate::ui::texts::{self, TextKey as T};
-use crate::ui::theme::{self, Palette};
-use crate::ui::widgets::word;
+use crate::ui::theme::Palette;
 
 /// At first; it can be changed.
 pub const fn width(column: TrustColumn) -> f32 {
@@ -29,56 +30,75 @@ pub const fn width(column: TrustColumn) -> f32 {
     }
 }
 
-/// One column of one line.
-pub fn show(ui: &mut Ui, column: TrustColumn, entry: &Entry, model: &Model, palette: &Palette) {
+/// How a piece of text looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Look {
+    Plain,
+    Number,
+    /// A word that qualifies what stands beside it.
+    Small,
+}
+
+/// A piece of text in a column.
+#[derive(Debug)]
+pub struct Part<'a> {
+    pub text: Cow<'a, str>,
+    pub color: Color32,
+    pub look: Look,
+    /// A dot before it.
+    pub dot: bool,
+}
+
+/// What stands in one column of one line.
+pub fn parts<'a>(column: TrustColumn, entry: &'a Entry, model: &Model, palette: &Palette) -> [Option<Part<'a>>; 2] {
     use TrustColumn as C;
     let language = model.language;
-    let plain = |ui: &mut Ui, text: &str| drop(ui.add(Label::new(text).truncate()));
-    let weak = |ui: &mut Ui, text: &str, monospace: bool| {
-        let text = RichText::new(text).color(palette.weak);
-        ui.add(Label::new(if monospace { text.monospace() } else { text }).truncate());
-    };
+    let part = |text: Cow<'a, str>, color, look| Some(Part { text, color, look, dot: false });
+    let plain = |text: &'a str| [part(text.into(), palette.text, Look::Plain), None];
+    let weak = |text: &'a str| [part(text.into(), palette.weak, Look::Plain), None];
+    let number = |text: &'a str| [part(text.into(), palette.weak, Look::Number), None];
+    let (refusal, crl) = (entry.refusal.as_ref(), entry.crl.as_ref());
     match column {
         C::IssuedTo | C::Issuer => {
-            if entry.refusal.as_ref().is_some_and(|refusal| refusal.is_new) {
-                let (rect, _) = ui.allocate_exact_size(vec2(8.0, theme::ROW_HEIGHT), Sense::hover());
-                ui.painter().circle_filled(rect.center(), theme::CHIP_DOT + 1.0, palette.warning);
-                word(ui, T::TrustNew.text(language), palette.warning);
+            let name = part(entry.issued_to.as_str().into(), palette.text, Look::Plain);
+            match refusal {
+                Some(refusal) if refusal.is_new => {
+                    let text = T::TrustNew.text(language).into();
+                    [Some(Part { text, color: palette.warning, look: Look::Small, dot: true }), name]
+                }
+                _ => [name, None],
             }
-            ui.add(Label::new(RichText::new(&entry.issued_to).strong()).truncate());
         }
-        C::IssuedBy => plain(ui, &entry.issued_by),
-        C::FileName => plain(ui, &entry.file_name),
-        C::SerialNumber => weak(ui, &entry.serial_number, true),
-        C::Thumbprint => weak(ui, &entry.id, true),
+        C::IssuedBy => plain(&entry.issued_by),
+        C::FileName => plain(&entry.file_name),
+        C::SerialNumber | C::Number => number(&entry.serial_number),
+        C::Thumbprint => number(&entry.id),
         C::ValidFrom | C::ThisUpdate => {
             let color = if entry.life == Life::NotYet { palette.error } else { palette.text };
-            ui.label(RichText::new(&entry.from.text).color(color));
+            [part(entry.from.text.as_str().into(), color, Look::Plain), None]
         }
-        C::ValidUntil | C::NextUpdate => life(ui, entry, model, palette),
-        C::Number => weak(ui, &entry.serial_number, true),
-        C::Reason | C::Address | C::Count | C::FirstSeen | C::LastSeen => {
-            let Some(refusal) = &entry.refusal else { return };
-            match column {
-                C::Reason => {
-                    let said = refusal.status.explain(language);
-                    ui.add(Label::new(RichText::new(said).color(palette.error)).truncate()).on_hover_text(said);
-                }
-                C::Address => weak(ui, &refusal.address, true),
-                C::Count => plain(ui, &refusal.count.to_string()),
-                C::FirstSeen => weak(ui, &refusal.first_seen.text, false),
-                _ => weak(ui, &refusal.last_seen.text, false),
-            }
+        C::ValidUntil | C::NextUpdate => {
+            let Some(until) = &entry.until else { return weak("—") };
+            let words = match entry.life {
+                Life::Past => Some((T::Expired, palette.error)),
+                Life::Soon { .. } => Some((T::ExpiresSoon, palette.warning)),
+                Life::NotYet => Some((T::TrustNotYetValid, palette.error)),
+                Life::Good => None,
+            };
+            let color = words.map_or(palette.text, |(_, color)| color);
+            let word = words.and_then(|(key, color)| part(key.text(language).into(), color, Look::Small));
+            [part(until.text.as_str().into(), color, Look::Plain), word]
         }
-        C::Entries => {
-            if let Some(crl) = &entry.crl {
-                plain(ui, &crl.entries.to_string());
-            }
-        }
+        C::Reason => [refusal.and_then(|r| part(r.status.explain(language).into(), palette.error, Look::Plain)), None],
+        C::Address => refusal.map_or([None, None], |refusal| number(&refusal.address)),
+        C::Count => [refusal.and_then(|r| part(r.count.to_string().into(), palette.text, Look::Plain)), None],
+        C::FirstSeen => refusal.map_or([None, None], |refusal| weak(&refusal.first_seen.text)),
+        C::LastSeen => refusal.map_or([None, None], |refusal| weak(&refusal.last_seen.text)),
+        C::Entries => [crl.and_then(|crl| part(crl.entries.to_string().into(), palette.text, Look::Plain)), None],
         C::Health => {
-            let Some(health) = entry.crl.as_ref().and_then(|crl| Some((crl, crl.health.as_ref()?))) else { return };
-            let (said, color) = health_words(health.0, health.1, model, palette);
-            ui.add(Label::new(RichText::new(&said).color(color)).truncate()).on_hover_text(said);
+            let health = crl.and_then(|crl| Some((crl, crl.health.as_ref()?)));
+            let said = health.map(|(crl, health)| health_words(crl, health, model, palette));
+            [said.and_then(|(said, color)| part(said.into(), color, Look::Plain)), None]
         }
     }
 }
@@ -90,25 +110,5 @@ pub fn health_words(crl: &Crl, health: &CrlHealth, model: &Model, palette: &Pale
     match &crl.covers {
         Some(authority) => (texts::covers(model.language, words, authority), color),
         None => (words.text(model.language).to_owned(), color),
-    }
-}
-
-fn life(ui: &mut Ui, entry: &Entry, model: &Model, palette: &Palette) {
-    let Some(until) = &entry.until else {
-        ui.label(RichText::new("—").color(palette.weak));
-        return;
-    };
-    let words = match entry.life {
-        Life::Past => Some((T::Expired, palette.error)),
-        Life::Soon { .. } => Some((T::ExpiresSoon, palette.warning)),
-        Life::NotYet => Some((T::TrustNotYetValid, palette.error)),
-        Life::Good => None,
-    };
-    ui.label(RichText::new(&until.text).color(words.map_or(palette.text, |(_, color)| color)));
-    if let Some((key, color)) = words {
-        let response = word(ui, key.text(model.language), color);
-        if let Life::Soon { days } = entry.life {
-            response.on_hover_text(texts::days_left(model.language, days));
-        }
     }
 }

@@ -5,6 +5,7 @@ mod cell;
 mod delete;
 mod details;
 mod keys;
+mod line;
 mod pane;
 mod strip;
 

@@ -1,11 +1,12 @@
 use egui::{Align, Button, Checkbox, Frame, Label, Layout, RichText, ScrollArea, Sense, Stroke, Ui, Vec2, vec2};
-use egui_extras::{Column, TableBuilder, TableRow};
+use egui_extras::{Column, TableBuilder};
 
+use super::line::{self, Click, Lines};
 use super::{cell, moves};
-use crate::ui::model::trust::{Pane, PaneKind, TrustAction, TrustColumn, TrustForm};
+use crate::ui::model::trust::{Pane, PaneKind, TrustAction, TrustForm};
 use crate::ui::model::{Message, Model};
 use crate::ui::texts::{self, TextKey as T};
-use crate::ui::theme::{self, Palette, palette};
+use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{chip, sort_heading};
 
 /// One list: how full it is, what can be done with it, and its lines. Only the lines in sight are laid out. `alone`:
@@ -159,16 +160,13 @@ fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &M
     let mut clicked = None;
     ScrollArea::horizontal().id_salt("wide").auto_shrink(false).max_height(height).show(ui, |ui| {
         ui.spacing_mut().item_spacing = vec2(10.0, 0.0);
-        // The text of ticked rows.
-        ui.visuals_mut().selection.stroke.color = palette.text;
         let below =
             height - theme::HEADER_HEIGHT - ui.spacing().scroll.bar_width - ui.spacing().scroll.bar_outer_margin;
         // When a dialog is measured before it is first drawn, columns would shrink to what they hold, and stay so.
         let measured = ui.is_sizing_pass();
         let mut builder = TableBuilder::new(ui)
             .id_salt("lines")
-            .striped(true)
-            .sense(Sense::click())
+            .sense(Sense::hover())
             .resizable(true)
             .cell_layout(Layout::left_to_right(Align::Center))
             .auto_shrink(false)
@@ -190,8 +188,14 @@ fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &M
         builder
             .header(theme::HEADER_HEIGHT, |mut header| {
                 header.col(|ui| tick_all(ui, pane, model));
+                // Most columns lie beyond the edge of the list.
+                let mut beyond = false;
                 for column in columns {
+                    if beyond {
+                        break;
+                    }
                     header.col(|ui| {
+                        beyond = ui.max_rect().left() > ui.clip_rect().right();
                         let ascending = (pane.sort.0 == *column).then_some(pane.sort.1);
                         if sort_heading(ui, texts::trust_column(*column), ascending, model.language) {
                             pane.sort_by(*column);
@@ -199,9 +203,12 @@ fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &M
                     });
                 }
             })
-            .body(|body| {
+            .body(|mut body| {
+                let lines =
+                    Lines { clip: body.ui_mut().clip_rect(), widths: body.widths().to_vec(), columns, has_focus };
                 body.rows(theme::ROW_HEIGHT, pane.shown(), |mut row| {
-                    clicked = draw(&mut row, pane, columns, has_focus, model, palette).or(clicked);
+                    let position = row.index();
+                    row.col(|ui| clicked = line::show(ui, position, pane, &lines, model, palette).or(clicked));
                 });
             });
     });
@@ -230,62 +237,4 @@ fn tick_all(ui: &mut Ui, pane: &mut Pane, model: &Model) {
     if response.clicked() {
         pane.tick_shown(all);
     }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Click {
-    Tick { range: bool },
-    Place,
-    Open,
-}
-
-fn draw(
-    row: &mut TableRow<'_, '_>,
-    pane: &Pane,
-    columns: &[TrustColumn],
-    has_focus: bool,
-    model: &Model,
-    palette: &Palette,
-) -> Option<(usize, Click)> {
-    let position = row.index();
-    let entry = pane.at(position)?;
-    let ticked = pane.is_ticked(&entry.id);
-    row.set_selected(ticked);
-    let mut click = None;
-    let mut modifiers = egui::Modifiers::NONE;
-    row.col(|ui| {
-        modifiers = ui.input(|input| input.modifiers);
-        if pane.cursor() == Some(position) {
-            let rect = ui.max_rect();
-            let bar = egui::Rect::from_min_size(rect.left_top(), vec2(3.0, theme::ROW_HEIGHT));
-            ui.painter().rect_filled(bar, 0.0, if has_focus { palette.accent } else { palette.line });
-        }
-        ui.add_space(10.0);
-        let mut on = ticked;
-        let tick = ui.add(Checkbox::without_text(&mut on));
-        if tick.accessible_name(texts::tick_row(model.language, &entry.issued_to)).clicked() {
-            click = Some(Click::Tick { range: modifiers.shift });
-        }
-    });
-    // Most columns lie beyond the edge of the list, and each cell takes time.
-    let mut beyond = false;
-    for column in columns {
-        if beyond {
-            break;
-        }
-        row.col(|ui| {
-            beyond = ui.max_rect().left() > ui.clip_rect().right();
-            if ui.is_rect_visible(ui.max_rect()) {
-                cell::show(ui, *column, entry, model, palette);
-            }
-        });
-    }
-    let response = row.response();
-    if response.double_clicked() {
-        click = Some(Click::Open);
-    } else if response.clicked() {
-        let ticks = modifiers.shift || modifiers.command;
-        click = Some(if ticks { Click::Tick { range: modifiers.shift } } else { Click::Place });
-    }
-    click.map(|click| (position, click))
 }
