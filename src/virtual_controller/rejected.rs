@@ -114,19 +114,30 @@ impl RejectedClients {
         list.entries.iter().map(|entry| (entry.thumbprint.clone(), entry.certificate.clone())).collect()
     }
 
-    /// Takes in certificates that another list loses, and writes them to the disk before it says so.
-    pub fn insert(&self, entries: Vec<Entry>) -> Result<(), StoreError> {
-        {
-            let mut list = self.list.lock();
-            for entry in entries {
-                list.entries.retain(|known| known.thumbprint != entry.thumbprint);
-                list.entries.push(entry);
-                let last = list.entries.len() - 1;
-                list.make_room(Some(last));
-            }
-            self.touch(&mut list);
+    /// Takes in certificates that another list loses, and gives the entries that had to go for them. The disk hears of
+    /// it with [`RejectedClients::write`].
+    pub fn insert(&self, entries: Vec<Entry>) -> Vec<Entry> {
+        let mut list = self.list.lock();
+        let mut displaced = Vec::new();
+        for entry in entries {
+            displaced.extend(list.entries.extract_if(.., |known| known.thumbprint == entry.thumbprint));
+            list.entries.push(entry);
+            let last = list.entries.len() - 1;
+            displaced.extend(list.make_room(Some(last)));
         }
-        self.write()
+        self.touch(&mut list);
+        displaced
+    }
+
+    /// Undoes [`RejectedClients::insert`], but for what was refused again since.
+    pub fn take_back(&self, inserted: &[String], displaced: Vec<Entry>) {
+        if inserted.is_empty() && displaced.is_empty() {
+            return;
+        }
+        let mut list = self.list.lock();
+        list.entries.retain(|entry| entry.count > 0 || !inserted.contains(&entry.thumbprint));
+        list.put_back(displaced);
+        self.touch(&mut list);
     }
 
     /// Forgets certificates; the disk hears of it soon.
@@ -152,12 +163,7 @@ impl RejectedClients {
         }
         self.write().inspect_err(|_| {
             let mut list = self.list.lock();
-            for entry in removed {
-                if !list.entries.iter().any(|known| known.thumbprint == entry.thumbprint) {
-                    list.entries.push(entry);
-                }
-            }
-            list.make_room(None);
+            list.put_back(removed);
             self.touch(&mut list);
         })
     }
@@ -185,7 +191,8 @@ impl RejectedClients {
         }
     }
 
-    fn write(&self) -> Result<(), StoreError> {
+    /// Writes the list to the disk, if it has changed since.
+    pub fn write(&self) -> Result<(), StoreError> {
         let _writing = self.writing.lock();
         let entries = {
             let mut list = self.list.lock();
@@ -252,8 +259,19 @@ impl Refusals for RejectedClients {
 }
 
 impl List {
-    /// Drops entries until the list is within its bounds; not the one at `fresh`.
-    fn make_room(&mut self, fresh: Option<usize>) {
+    /// Takes in what had gone, where there is no newer entry.
+    fn put_back(&mut self, entries: Vec<Entry>) {
+        for entry in entries {
+            if !self.entries.iter().any(|known| known.thumbprint == entry.thumbprint) {
+                self.entries.push(entry);
+            }
+        }
+        self.make_room(None);
+    }
+
+    /// Drops entries until the list is within its bounds, not the one at `fresh`; and gives them.
+    fn make_room(&mut self, fresh: Option<usize>) -> Vec<Entry> {
+        let mut dropped = Vec::new();
         let keep = fresh.and_then(|index| self.entries.get(index)).map(|entry| entry.thumbprint.clone());
         let mut bytes: usize = self.entries.iter().map(Entry::bytes).sum();
         while self.entries.len() > MAX_ENTRIES || bytes > MAX_BYTES {
@@ -268,9 +286,12 @@ impl List {
                 .filter(|(_, entry)| keep.as_ref() != Some(&entry.thumbprint))
                 .max_by_key(|(_, entry)| (owned[&entry.address.map(network)], std::cmp::Reverse(entry.last_seen)))
                 .map(|(index, _)| index);
-            let Some(victim) = victim else { return };
-            bytes -= self.entries.swap_remove(victim).bytes();
+            let Some(victim) = victim else { break };
+            let victim = self.entries.swap_remove(victim);
+            bytes -= victim.bytes();
+            dropped.push(victim);
         }
+        dropped
     }
 }
 
@@ -460,7 +481,8 @@ mod tests {
             let certificate = certificate(i);
             Entry::moved(Base64Bytes(certificate.der().to_vec()), certificate.thumbprint_sha1(), Utc::now())
         };
-        rejected.insert(vec![entry(1)]).unwrap();
+        rejected.insert(vec![entry(1)]);
+        rejected.write().unwrap();
         faults.update(|switches| switches.disk_full = true);
         let one = certificate(1).thumbprint_sha1();
         rejected.remove(std::slice::from_ref(&one)).unwrap_err();
@@ -469,6 +491,31 @@ mod tests {
         rejected.remove(&[one]).unwrap();
         assert_eq!(open(folder.path()).list(), []);
         assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing half written is left");
+    }
+
+    #[test]
+    fn what_is_taken_back_leaves_the_list_as_it_was() {
+        let folder = tempfile::tempdir().unwrap();
+        let rejected = open(folder.path());
+        let known = certificate(0);
+        for number in 0..u32::try_from(MAX_ENTRIES).unwrap() {
+            rejected.record(&[certificate(number)], IpAddr::from([10, 0, 0, 1]), &untrusted());
+        }
+        let before = rejected.list();
+        let moved = |certificate: &Certificate| {
+            let der = Base64Bytes(certificate.der().to_vec());
+            Entry::moved(der, certificate.thumbprint_sha1(), Utc::now())
+        };
+        let new = certificate(9999);
+        let thumbprints = [known.thumbprint_sha1(), new.thumbprint_sha1()];
+        let displaced = rejected.insert(vec![moved(&known), moved(&new)]);
+        assert_eq!(displaced.len(), 2, "the former entry of one, and the oldest for the other");
+        rejected.take_back(&thumbprints, displaced);
+        let order = |mut list: Vec<RejectedClient>| {
+            list.sort_by_key(|client| client.summary.thumbprint.clone());
+            list
+        };
+        assert_eq!(order(rejected.list()), order(before));
     }
 
     #[test]
@@ -491,7 +538,8 @@ mod tests {
             added,
         };
         let der = Base64Bytes(moved.der().to_vec());
-        rejected.insert(vec![Entry::moved(der, moved.thumbprint_sha1(), Utc::now())]).unwrap();
+        rejected.insert(vec![Entry::moved(der, moved.thumbprint_sha1(), Utc::now())]);
+        rejected.write().unwrap();
         for i in [2, 3, 4] {
             rejected.record(&[certificate(i)], HOME, &untrusted());
         }

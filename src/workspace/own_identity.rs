@@ -1,10 +1,10 @@
 use std::fs::File;
-use std::io::{self, Read as _};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use chrono::{DateTime, Utc};
 
-use super::{WorkspaceError, atomic, write_atomic};
+use super::{WorkspaceError, atomic, read_bounded, write_atomic};
 use crate::model::{ErrorCode, Problem};
 use crate::pki::{Certificate, MAX_CERTIFICATE_BYTES, MAX_KEY_FILE_BYTES, client_identity, read_pair};
 
@@ -99,9 +99,8 @@ impl OwnPaths {
 }
 
 fn read(path: &Path, most: usize) -> Result<Option<Vec<u8>>, Problem> {
-    let mut bytes = Vec::new();
-    match File::open(path).and_then(|file| file.take(most as u64 + 1).read_to_end(&mut bytes)) {
-        Ok(_) => Ok(Some(bytes)),
+    match read_bounded(path, most as u64) {
+        Ok(bytes) => Ok(Some(bytes)),
         Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
         Err(e) => Err(Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", path.display()))),
     }

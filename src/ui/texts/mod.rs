@@ -431,7 +431,7 @@ texts! {
     VerifyRefused: "a careful client refuses it", "客户端将拒绝";
     VerifyAgain: "Verify again", "重新验证";
     VerifyTrust: "Trust this configurator…", "信任本配置工具…";
-    VerifyTrustText: "The server lets in only clients whose certificate is in Trusted. That of this configurator is not there; it can be added now, or later from this file.", "服务器仅允许证书在[信任]列表中的客户端连接。本配置工具的证书不在其中，可立即添加，或以后使用此文件添加。";
+    VerifyTrustText: "The server lets in only clients whose certificate is in Trusted. That of this configurator is not there; it can be added now, or later from the file in this folder.", "服务器仅允许证书在[信任]列表中的客户端连接。本配置工具的证书不在其中，可立即添加，或以后使用此文件夹中的文件添加。";
     VerifyLogin: "To try logging in, give a user of the controller. The password is sent encrypted only, and not again once it was refused.", "如需尝试登录，请输入控制器的用户。密码仅以加密方式发送，被拒绝后不会再次发送。";
     TrustConfiguratorTitle: "Trust this configurator", "信任本配置工具";
     ConfirmTrustConfigurator: "The certificate of this configurator is put into Trusted and stays there: with a user of the controller, or where anonymous users are let in, it may connect like any other client.", "将把本配置工具的证书添加到[信任]并保留：使用控制器的用户，或在允许匿名时，可与其他客户端一样连接。";

@@ -65,6 +65,8 @@ impl Controller {
 struct Draft {
     rejected: Arc<RejectedClients>,
     arrived: Vec<String>,
+    /// Entries that had to go for those.
+    displaced: Vec<Entry>,
     left: Vec<String>,
 }
 
@@ -72,9 +74,10 @@ impl Draft {
     /// Blocks for the disk.
     fn new(rejected: Arc<RejectedClients>, arrived: Vec<Entry>, left: Vec<String>) -> Result<Self, Problem> {
         let thumbprints = arrived.iter().map(|entry| entry.thumbprint.clone()).collect();
-        let draft = Self { rejected, arrived: thumbprints, left };
+        let mut draft = Self { rejected, arrived: thumbprints, displaced: Vec::new(), left };
         if !arrived.is_empty() {
-            draft.rejected.insert(arrived)?;
+            draft.displaced = draft.rejected.insert(arrived);
+            draft.rejected.write()?;
         }
         Ok(draft)
     }
@@ -82,6 +85,7 @@ impl Draft {
     /// The change is in force. That the disk does not hear of it at once does no harm: see [`RejectedClients::open`].
     async fn settle(mut self) {
         self.arrived.clear();
+        self.displaced.clear();
         self.rejected.forget(&self.left);
         self.rejected.write_soon().await;
     }
@@ -89,7 +93,7 @@ impl Draft {
 
 impl Drop for Draft {
     fn drop(&mut self) {
-        self.rejected.forget(&self.arrived);
+        self.rejected.take_back(&self.arrived, std::mem::take(&mut self.displaced));
     }
 }
 
