@@ -312,6 +312,11 @@ fn what_the_ca_does_not_do_says_why() {
     office.refused("crl", &[], 2, "authority-passphrase");
     office.refused("backup", &["--out", "ca.backup"], 2, "authority-passphrase");
     fs::write(office.path("passphrase"), PASSPHRASE).unwrap();
+    let mut without = program();
+    let without = without.args(["--workspace", office.path("workspace").to_str().unwrap(), "--json", "ca", "crl"]);
+    let Finished { code, stdout, .. } = Running::start(without.args(["--out", "x.crl"])).unwrap().finish(DONE);
+    assert_eq!(code, Some(2), "there is no terminal to ask on");
+    assert!(stdout.contains(r#""no-passphrase""#), "{stdout}");
     let held = Workspace::new(office.path("workspace")).authority().open(&PASSPHRASE.into()).unwrap();
     office.refused("crl", &[], 2, "authority-busy");
     drop(held);
