@@ -4,15 +4,49 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 
 use base64::Engine as _;
+use chrono::NaiveDate;
 use opcua_configurator::model::SecurityPolicy;
 use opcua_configurator::pki::Role;
 
 use super::forge::now;
 use super::world::{Ask, Built, World};
 
-pub fn is_there() -> bool {
-    let version = Command::new("openssl").arg("version").stdout(Stdio::null()).stderr(Stdio::null()).status();
-    version.is_ok_and(|status| status.success())
+/// Which OpenSSL judges: that of the library, which an update may change without the command.
+#[derive(Debug)]
+pub struct Version {
+    /// As `openssl version` prints it.
+    pub text: String,
+    pub released: Option<NaiveDate>,
+}
+
+impl Version {
+    /// `None` if there is no `openssl`.
+    pub fn ask() -> Option<Self> {
+        let output = Command::new("openssl").arg("version").stdin(Stdio::null()).stderr(Stdio::null()).output().ok()?;
+        output.status.success().then(|| Self::read(&String::from_utf8_lossy(&output.stdout)))
+    }
+
+    /// From `OpenSSL 3.0.19 27 Jan 2026 (Library: OpenSSL 3.0.19 27 Jan 2026)`; older ones print no library.
+    fn read(text: &str) -> Self {
+        let text = text.trim();
+        let words: Vec<&str> = text.trim_end_matches(')').split_whitespace().collect();
+        let date = words.last_chunk::<3>().map(|date| date.join(" "));
+        let released = date.and_then(|date| NaiveDate::parse_from_str(&date, "%d %b %Y").ok());
+        Self { text: text.to_owned(), released }
+    }
+}
+
+#[test]
+fn the_version_is_that_of_the_library() {
+    let released = |text| Version::read(text).released;
+    let date = |year, month, day| NaiveDate::from_ymd_opt(year, month, day);
+    assert_eq!(
+        released("OpenSSL 3.0.19 27 Jan 2026 (Library: OpenSSL 3.0.22 25 Aug 2026)\n"),
+        date(2026, 8, 25),
+        "only the library was updated"
+    );
+    assert_eq!(released("OpenSSL 1.1.1w  11 Sep 2023\n"), date(2023, 9, 11));
+    assert_eq!(released("LibreSSL 3.3.6\n"), None);
 }
 
 /// Whether `openssl verify` accepts it, and what it prints.

@@ -45,7 +45,7 @@ pub(super) fn revocations(table: &mut Table) {
                 &format!("revoked at {at} in a delta list beside a whole one"),
                 length,
                 expected,
-                Agrees,
+                Changed { merged: NO_DELTA_AS_A_WHOLE, before: &Agrees, after: &NEW_DELTAS },
                 |world| {
                     let mut delta = world.lists[at].clone();
                     delta.this_update += Duration::hours(1);
@@ -157,7 +157,7 @@ pub(super) fn bad_lists(table: &mut Table) {
                 list.drop(AUTHORITY_KEY_ID);
                 list.extensions.push(authority_key_id(&[9; 20]));
             });
-            let delta = Differs("OpenSSL takes a delta list for a whole one, unless it is told about them");
+            let delta = Changed { merged: NO_DELTA_AS_A_WHOLE, before: &OLD_DELTAS, after: &Agrees };
             bad("a delta list", delta, &|list| list.extensions.push(Extension::new("2.5.29.27", true, int(&[1]))));
             bad("an indirect list", Agrees, &|list| list.extensions.push(point(0x84, &[0xff])));
             // The root's list is about the root as well, which is no application but a CA.

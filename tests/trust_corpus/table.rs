@@ -6,13 +6,14 @@ mod revocation_cases;
 mod trust_cases;
 mod usage_cases;
 
-use chrono::Duration;
+use chrono::{Duration, NaiveDate};
 use opcua_configurator::model::CertificateStatus::{self as Status, *};
 use opcua_configurator::model::SecurityPolicy as Policy;
 use opcua_configurator::pki::{Role, TrustPolicy};
 
 use super::der::{boolean, int, oid, seq, tlv};
 use super::forge::{Algorithm, *};
+use super::openssl::Version;
 use super::world::{APPLICATION_URI, Ask, World, authority, issue, world};
 
 pub struct Case {
@@ -30,8 +31,32 @@ pub enum Peer {
     Agrees,
     /// The opposite, rightly.
     Differs(&'static str),
+    /// It depends on the version: a change is in every release, of any branch, made after it was merged.
+    Changed { merged: NaiveDate, before: &'static Peer, after: &'static Peer },
 }
-use Peer::{Agrees, Differs};
+use Peer::{Agrees, Changed, Differs};
+
+impl Peer {
+    /// What this version says: [`Peer::Agrees`] or [`Peer::Differs`]. `None`: the version does not tell.
+    pub fn of(self, version: &Version) -> Option<Self> {
+        match self {
+            Agrees | Differs(_) => Some(self),
+            Changed { merged, before, after } => {
+                if version.released? > merged {
+                    after.of(version)
+                } else {
+                    before.of(version)
+                }
+            }
+        }
+    }
+}
+
+/// Since then OpenSSL takes no delta list for a whole one (openssl/openssl#31044); first released on 2026-08-25, in
+/// 3.0.22.
+const NO_DELTA_AS_A_WHOLE: NaiveDate = NaiveDate::from_ymd_opt(2026, 6, 17).expect("a date");
+const OLD_DELTAS: Peer = Differs("OpenSSL takes a delta list for a whole one, unless it is told about them");
+const NEW_DELTAS: Peer = Differs("OpenSSL ignores a delta list, and what it revokes, unless it is told about them");
 
 #[derive(Default)]
 struct Table(Vec<Case>);
