@@ -4,7 +4,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use serde_json::{Value, json};
 
 use super::batch::{Presentation, STATE, Shown};
-use super::passwords::read_secret;
+use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
 use crate::jobs::{

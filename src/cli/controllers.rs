@@ -4,7 +4,7 @@ use clap::{Args, Subcommand};
 use secrecy::SecretString;
 use serde_json::json;
 
-use super::passwords::read_secret;
+use super::secret_file::read_secret;
 use super::table::table;
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Enrolled};

@@ -16,6 +16,7 @@ mod log;
 mod output;
 mod passwords;
 mod pki;
+mod secret_file;
 mod select;
 mod server;
 mod settings;

@@ -1,31 +1,12 @@
-use std::io::{IsTerminal as _, Read as _};
+use std::io::IsTerminal as _;
 use std::path::Path;
 
 use secrecy::{ExposeSecret as _, SecretString};
 
+use super::secret_file::read_secret;
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Fingerprint;
 use crate::workspace::{KeyringPasswords, Passwords};
-
-/// No password is longer; a wrong file is noticed instead of read.
-const MAX_PASSWORD_BYTES: u64 = 1024;
-
-/// Reads a password: the first line of a file, or of standard input for `-`.
-pub fn read_secret(path: &Path) -> Result<SecretString, Problem> {
-    let unreadable =
-        |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", path.display()));
-    let mut text = zeroize::Zeroizing::new(String::new());
-    let read = if path == Path::new("-") {
-        std::io::stdin().take(MAX_PASSWORD_BYTES + 1).read_to_string(&mut text)
-    } else {
-        std::fs::File::open(path).and_then(|file| file.take(MAX_PASSWORD_BYTES + 1).read_to_string(&mut text))
-    };
-    let bytes = read.map_err(|e| unreadable(&e))?;
-    if bytes as u64 > MAX_PASSWORD_BYTES {
-        return Err(unreadable(&"too long for a password"));
-    }
-    Ok(SecretString::from(text.lines().next().unwrap_or_default()))
-}
 
 /// The passphrase of the small CA: from a file, or asked for on the terminal, twice where it is chosen.
 pub fn ca_passphrase(file: Option<&Path>, chosen: bool) -> Result<SecretString, Problem> {

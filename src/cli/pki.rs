@@ -4,7 +4,7 @@ use chrono::{DateTime, Utc};
 use clap::{Args, Subcommand, ValueEnum};
 use serde_json::json;
 
-use super::passwords::read_secret;
+use super::secret_file::read_secret;
 use super::{Ending, Settled, read_bounded};
 use crate::model::{CertificateStatus, ErrorCode, Problem, SecurityPolicy};
 use crate::pki::{

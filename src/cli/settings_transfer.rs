@@ -4,7 +4,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::batch::{Presentation, STATE, Shown};
-use super::passwords::read_secret;
+use super::secret_file::read_secret;
 use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{ExportSettings, ImportSettings, Outcome};

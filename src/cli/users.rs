@@ -5,7 +5,7 @@ use secrecy::ExposeSecret as _;
 use serde_json::json;
 
 use super::batch::{Presentation, STATE, Shown};
-use super::passwords::read_secret;
+use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
 use crate::jobs::{AddUser, ListUsers, Outcome, RemoveUsers};

@@ -5,7 +5,7 @@ use secrecy::ExposeSecret as _;
 use serde_json::{Value, json};
 
 use super::batch::{Presentation, Shown};
-use super::passwords::read_secret;
+use super::secret_file::read_secret;
 use super::select::Select;
 use super::table::table;
 use super::{Ending, Settled};

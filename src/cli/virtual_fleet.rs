@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 use secrecy::SecretString;
 
-use super::passwords::read_secret;
+use super::secret_file::read_secret;
 use super::{Ending, runtime};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};

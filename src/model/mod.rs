@@ -20,6 +20,7 @@ mod info;
 mod language;
 mod problem;
 mod settings;
+pub mod text;
 mod user;
 
 pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};

@@ -8,7 +8,9 @@ use thiserror::Error;
 
 use super::{Base64Bytes, WireSecret};
 use crate::model::activation::ActivationKeys;
-use crate::model::{ControllerSeries, ErrorCode, FirmwareVersion, Problem, SerialNumber, ServerSettings, UserName};
+use crate::model::{
+    ControllerSeries, ErrorCode, FirmwareVersion, Problem, SerialNumber, ServerSettings, UserName, text,
+};
 use crate::pki::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 
 /// Legacy firmware: asks for a [`SettingsExport`] (manual 2.6.4).
@@ -147,7 +149,7 @@ impl SettingsExport {
         Ok(export)
     }
 
-    /// Reads a file. What is in it is not opened, but whole.
+    /// Reads a file, in an encoding of [`text::decode`]. What is in it is not opened, but whole.
     pub fn from_json(bytes: &[u8]) -> Result<Self, ExportError> {
         /// What every format has.
         #[derive(Deserialize)]
@@ -161,14 +163,15 @@ impl SettingsExport {
         if bytes.len() > MAX_EXPORT_BYTES {
             return Err(ExportError::TooLarge);
         }
-        let head: Head = serde_json::from_slice(bytes).map_err(place)?;
+        let text = text::decode(bytes).map_err(|e| ExportError::NotAnExport(e.to_string()))?;
+        let head: Head = serde_json::from_str(&text).map_err(place)?;
         if head.format != EXPORT_FORMAT {
             return Err(ExportError::NotAnExport("another format".to_owned()));
         }
         if head.version != EXPORT_VERSION {
             return Err(ExportError::Version(head.version));
         }
-        let export: Self = serde_json::from_slice(bytes).map_err(place)?;
+        let export: Self = serde_json::from_str(&text).map_err(place)?;
         export.check()?;
         Ok(export)
     }
@@ -319,6 +322,20 @@ mod tests {
         assert!(matches!(read("{}"), Err(ExportError::NotAnExport(_))));
         assert!(matches!(read(&text.replace(EXPORT_FORMAT, "shopping")), Err(ExportError::NotAnExport(_))));
         assert_eq!(read(&" ".repeat(MAX_EXPORT_BYTES + 1)), Err(ExportError::TooLarge));
+    }
+
+    /// Editors and PowerShell save JSON with a byte order mark, or as UTF-16.
+    #[test]
+    fn an_export_that_was_saved_again_by_an_editor_is_the_same() {
+        let export = export();
+        let text = format!("\u{feff}{}", String::from_utf8(export.to_json()).unwrap());
+        let wide: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        for bytes in [text.as_bytes(), &wide] {
+            assert_eq!(SettingsExport::from_json(bytes).as_ref(), Ok(&export));
+        }
+        let latin = [b"{\"format\": \"M\xfcller\"}".as_slice(), b"\n"].concat();
+        let told = SettingsExport::from_json(&latin).unwrap_err().to_string();
+        assert!(told.contains("line 1 is not UTF-8 text"), "{told}");
     }
 
     #[test]

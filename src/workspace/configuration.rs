@@ -4,7 +4,7 @@ use std::io;
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize, Serializer};
 
-use crate::model::{Address, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, Language, Problem};
+use crate::model::{Address, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, Language, Problem, text};
 use crate::pki::Fingerprint;
 
 const VERSION: u32 = 1;
@@ -129,7 +129,8 @@ impl Default for Configuration {
 impl Configuration {
     /// The reason in words when the bytes are not a configuration.
     pub(super) fn from_json(bytes: &[u8]) -> Result<Self, String> {
-        let mut configuration: Self = serde_json::from_slice(bytes).map_err(|e| e.to_string())?;
+        let text = text::decode(bytes).map_err(|e| e.to_string())?;
+        let mut configuration: Self = serde_json::from_str(&text).map_err(|e| e.to_string())?;
         if configuration.version != VERSION {
             return Err(format!("version {} is not one this program knows", configuration.version));
         }
@@ -212,6 +213,8 @@ mod tests {
     fn a_file_with_less_in_it_gets_the_defaults() {
         let configuration = Configuration::from_json(br#"{"version":1}"#).unwrap();
         assert_eq!(configuration, Configuration::default());
+        // As an editor may save it again.
+        assert_eq!(Configuration::from_json(b"\xef\xbb\xbf{\"version\":1}").as_ref(), Ok(&configuration));
         let silly = Configuration::from_json(br#"{"version":1,"options":{"parallelism":0}}"#).unwrap();
         assert_eq!(silly.options.parallelism, 1);
     }

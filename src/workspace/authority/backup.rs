@@ -12,6 +12,7 @@ use zeroize::Zeroizing;
 use super::database::{Database, StoredAuthority};
 use super::files::{AuthorityFiles, ROOT, SIGNING, Unlock, unlock_pem};
 use super::{Authority, AuthorityError, AuthorityOverview};
+use crate::model::text;
 use crate::pki::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 use crate::protocol::Base64Bytes;
 use crate::workspace::{WorkspaceError, read_bounded, write_atomic};
@@ -123,7 +124,8 @@ fn read(path: &Path, passphrase: &SecretString) -> Result<Content, AuthorityErro
     if bytes.len() as u64 > MAX_BACKUP_BYTES {
         return Err(damaged(format!("it has more than {MAX_BACKUP_BYTES} bytes")));
     }
-    let backup: Backup = serde_json::from_slice(&bytes).map_err(|e| damaged(e.to_string()))?;
+    let text = text::decode(&bytes).map_err(|e| damaged(e.to_string()))?;
+    let backup: Backup = serde_json::from_str(&text).map_err(|e| damaged(e.to_string()))?;
     if backup.format != FORMAT || backup.version != VERSION {
         return Err(damaged(format!("it is \"{}\", version {}", backup.format, backup.version)));
     }
