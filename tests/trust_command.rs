@@ -30,6 +30,60 @@ fn mixed() -> Desk {
     desk
 }
 
+/// Starts the OPC UA server of "weld", for anonymous users.
+fn serve(desk: &Desk) {
+    let words = ["cert", "self-signed", "--country", "jp", "--state", "N", "--locality", "S", "--organisation", "E"];
+    let (code, lines) = desk.json(&[&words[..], &["--years", "5", "--yes", "weld"]].concat());
+    assert_eq!(code, Some(0), "{lines:?}");
+    let settings = ["settings", "set", "--tokens", "anonymous", "--startup", "auto", "--yes", "weld"];
+    assert_eq!(desk.json(&settings).0, Some(0));
+    assert_eq!(desk.json(&["start", "weld"]).0, Some(0));
+}
+
+/// RFC 5280 §4.2.1.9 makes an authority, whatever its subject alternative name: it completes the client's chain and
+/// lets in nobody else.
+#[test]
+fn an_authority_with_a_uri_that_comes_with_a_client_lets_in_no_stranger() {
+    let desk = Desk::with(1, &["--seed", "3", "--firmware", "current"]);
+    assert_eq!(desk.add(0, "weld").0, Some(0));
+    serve(&desk);
+    let ca = Authority::with_uri("NO Plant CA");
+    let (client, stranger) = (ca.client("client", 7), ca.client("stranger", 8));
+    let bundle =
+        Bundle { certificates: vec![client.certificate.clone(), ca.certificate.clone()], crls: vec![ca.crl(1, &[])] };
+    let chain = write(&desk, "nochain-crl.p7b", clients::p7b(&bundle));
+    let authority = write(&desk, "ca.der", ca.certificate.der());
+
+    let (code, lines) = desk.json(&["clients", "add", "--list", "trusted", &authority, "weld"]);
+    assert_eq!(code, Some(2), "nobody agreed to let in every client of it");
+    assert_error(&lines, "not-confirmed");
+    let (code, lines) = desk.json(&["clients", "add", "--yes", &chain, "weld"]);
+    let counts = ["trusted", "issuers", "crls"].map(|list| lines[0]["result"][list].clone());
+    assert_eq!((code, counts), (Some(0), [json!(1), json!(1), json!(1)]), "{lines:?}");
+    let (_, lines) = desk.json(&["clients", "list", "--list", "issuers", "weld"]);
+    assert_eq!(lines[0]["result"]["issuers"][0]["certificate"]["thumbprint"], json!(ca.certificate.thumbprint_sha1()));
+
+    let runtime = tokio::runtime::Runtime::new().unwrap();
+    let endpoint = desk.ready[0]["opcua"].as_str().unwrap().to_owned();
+    runtime.block_on(async {
+        let inside = Client::connect(&endpoint, &client).await.expect("trusted by itself");
+        assert!(Client::connect(&endpoint, &stranger).await.is_err(), "nobody named it");
+        inside.close().await;
+    });
+    let (_, lines) = desk.json(&["clients", "list", "--list", "rejected", "weld"]);
+    let refused = &lines[0]["result"]["rejected"][0];
+    assert_eq!(
+        (&refused["status"], &refused["certificate"]["issued_to"]),
+        (&json!("BadCertificateUntrusted"), &json!("stranger"))
+    );
+
+    // Without its CRL, the authority is named as one that lacks it.
+    let id = bundle.crls[0].id();
+    assert_eq!(desk.json(&["crl", "remove", &id, "weld", "--yes"]).0, Some(0));
+    let (_, lines) = desk.json(&["crl", "list", "weld"]);
+    assert_eq!(lines[0]["result"]["without_crl"], json!([ca.certificate.thumbprint_sha1()]));
+}
+
 #[test]
 fn certificates_are_added_listed_and_removed_in_many_controllers() {
     let desk = mixed();
@@ -158,13 +212,7 @@ fn a_refused_client_is_remembered_by_a_killed_controller_and_can_be_trusted() {
     {
         let desk = Desk::with(1, &["--seed", "3", "--firmware", "current", "--data", &folder]);
         assert_eq!(desk.add(0, "weld").0, Some(0));
-        let words =
-            ["cert", "self-signed", "--country", "jp", "--state", "N", "--locality", "S", "--organisation", "E"];
-        let (code, lines) = desk.json(&[&words[..], &["--years", "5", "--yes", "weld"]].concat());
-        assert_eq!(code, Some(0), "{lines:?}");
-        let settings = ["settings", "set", "--tokens", "anonymous", "--startup", "auto", "--yes", "weld"];
-        assert_eq!(desk.json(&settings).0, Some(0));
-        assert_eq!(desk.json(&["start", "weld"]).0, Some(0));
+        serve(&desk);
         assert!(knock(&desk).is_err());
         let (_, lines) = desk.json(&["clients", "list", "--list", "rejected", "weld"]);
         let seen = &lines[0]["result"]["rejected"][0];

@@ -184,12 +184,6 @@ impl Certificate {
         &self.facts
     }
 
-    /// Whether it is there to issue others. One with an application URI is that application's, whatever it says of
-    /// signing others: so do the self-signed ones of some OPC UA stacks.
-    pub fn is_authority(&self) -> bool {
-        self.is_ca() && self.application_uri().is_none()
-    }
-
     /// What a list shows of it. A name is its common name, or the whole name where there is none.
     pub fn summary(&self) -> CertificateSummary {
         CertificateSummary {

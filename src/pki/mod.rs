@@ -6,6 +6,7 @@
 //! | `facts` | what is read from a certificate, once |
 //! | `signature` | which signatures there are, and whether one is right |
 //! | `crl` | [`Crl`]: one certificate revocation list, indexed |
+//! | `authority` | [`is_authority`]: whether a certificate is that of an authority or of an application |
 //! | `bundle` | [`read_bundle`]: any file with certificates and revocation lists |
 //! | `trust` | [`TrustLists`]: whether a certificate may be trusted (OPC 10000-4 §6.1.3) |
 //! | `describe` | [`describe`]: everything public inside a file, to be read |
@@ -35,6 +36,7 @@
 //! [`MAX_CERTIFICATE_FILE_BYTES`], [`MAX_KEY_FILE_BYTES`], [`MAX_PKCS12_BYTES`], [`MAX_CRL_BYTES`],
 //! [`MAX_BUNDLE_BYTES`]. Text taken from a certificate holds no control characters.
 
+mod authority;
 mod bundle;
 mod ca;
 mod certificate;
@@ -65,6 +67,7 @@ mod tlv;
 mod trust;
 mod trust_health;
 
+pub use authority::is_authority;
 pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
 pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, REVOCATION_REASONS, RevokedCertificate};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};

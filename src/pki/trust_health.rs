@@ -1,7 +1,7 @@
 use chrono::{DateTime, Utc};
 use serde::Serialize;
 
-use super::{Certificate, Crl, KeyUsage};
+use super::{Certificate, Crl, KeyUsage, is_authority};
 
 /// What is wrong with CRLs and the authorities they are for, before a client is refused because of it.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
@@ -62,7 +62,7 @@ impl TrustHealth {
             .collect();
         let without_crl = authorities
             .iter()
-            .filter(|authority| authority.is_authority())
+            .filter(|authority| is_authority(authority, authorities.iter().copied()))
             .map(|authority| authority.thumbprint_sha1())
             .filter(|own| {
                 !crls.iter().any(|crl| {

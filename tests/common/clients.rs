@@ -82,9 +82,19 @@ impl Identity {
 
 impl Authority {
     pub fn new(name: &str) -> Self {
+        Self::made(name, Vec::new())
+    }
+
+    /// With a URI in its subject alternative name, as node-opcua-pki makes authorities.
+    pub fn with_uri(name: &str) -> Self {
+        Self::made(name, vec![SanType::URI(format!("urn:{}", name.replace(' ', "-")).try_into().unwrap())])
+    }
+
+    fn made(name: &str, names: Vec<SanType>) -> Self {
         let mut params = params(name, 1);
         params.is_ca = IsCa::Ca(BasicConstraints::Unconstrained);
         params.key_usages = vec![KeyUsagePurpose::KeyCertSign, KeyUsagePurpose::CrlSign];
+        params.subject_alt_names = names;
         let issuer = CertifiedIssuer::self_signed(params, rsa()).unwrap();
         let certificate = Certificate::from_der(issuer.der()).unwrap();
         Self { issuer, certificate }

@@ -5,7 +5,7 @@ use chrono::{DateTime, Utc};
 
 use super::TrustSnapshot;
 use crate::model::{CertificateSummary, ClientList, CrlSummary, ErrorCode, FirmwareGeneration, ListLimits, Problem};
-use crate::pki::{Bundle, Certificate, Crl};
+use crate::pki::{Bundle, Certificate, Crl, is_authority};
 use crate::protocol::{Base64Bytes, MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES, TrustStep};
 
 /// A file with certificates and CRLs, read and parsed.
@@ -120,6 +120,11 @@ impl TrustPlan {
         let held_crls = held.into_iter().flat_map(|held| &held.crls).filter_map(|held| held.crl.as_ref());
         let held_crls = held_crls.filter_map(|der| Crl::from_der(&der.0).ok()).collect();
         let offered_crls = files.iter().flat_map(|file| &file.bundle.crls).collect();
+        let at_hand: Vec<Certificate> = files
+            .iter()
+            .flat_map(|file| file.bundle.certificates.iter().cloned())
+            .chain(held.into_iter().flat_map(TrustSnapshot::certificates))
+            .collect();
         let sorter = Sorter { destination, generation, now, held, held_crls, offered_crls };
         let mut seen = BTreeSet::new();
         let mut items = Vec::new();
@@ -136,11 +141,12 @@ impl TrustPlan {
                 };
                 items.push(Planned { file_name: file.file_name.clone(), shown_as, thing, fate });
             };
-            let with_application = file.bundle.certificates.iter().any(|c| !c.is_authority());
-            let with_authority = file.bundle.certificates.iter().any(Certificate::is_authority);
-            for certificate in &file.bundle.certificates {
+            let judged: Vec<(&Certificate, bool)> =
+                file.bundle.certificates.iter().map(|c| (c, is_authority(c, &at_hand))).collect();
+            let with_application = judged.iter().any(|(_, authority)| !authority);
+            let with_authority = judged.iter().any(|(_, authority)| *authority);
+            for (certificate, authority) in judged {
                 let summary = certificate.summary();
-                let authority = certificate.is_authority();
                 let fate =
                     sorter.certificate(certificate, &summary.thumbprint, authority, with_application, with_authority);
                 let id = summary.thumbprint.clone();
@@ -364,7 +370,9 @@ fn shown_as(file_name: &str, several: Option<(usize, &str)>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::{application, authority, listed, listed_crl, now, snapshot};
+    use super::super::samples::{
+        application, authority, issuing_application, listed, listed_crl, now, rejected, snapshot,
+    };
     use super::*;
 
     fn file(name: &str, certificates: &[&Certificate], crls: &[&Crl]) -> TrustFile {
@@ -407,6 +415,29 @@ mod tests {
             let legacy = plan(&files, destination, Legacy);
             assert_eq!(fates(&legacy)[1], goes(Target::Trusted, &[Note::TrustsAllItIssues]));
             assert!(legacy.needs_a_look());
+        }
+    }
+
+    #[test]
+    fn what_issued_a_certificate_at_hand_is_an_authority_whatever_it_says() {
+        let (plain, issuing) = (application("plain"), issuing_application("signer"));
+        let files = [file("signer.der", &[&issuing.certificate], &[])];
+        let alone = plan(&files, Destination::ByKind, Current);
+        assert_eq!(fates(&alone), [goes(Target::Trusted, &[])]);
+        let below = issuing.client("client");
+        let with_client = [files[0].clone(), file("client.der", &[&below], &[])];
+        let planned = plan(&with_client, Destination::ByKind, Current);
+        assert_eq!(fates(&planned), [goes(Target::Issuers, &[]), goes(Target::Trusted, &[])]);
+        for held_somewhere in [true, false] {
+            let mut held = snapshot(Current);
+            if held_somewhere {
+                held.trusted.push(listed(&below));
+            } else {
+                held.rejected.push(rejected(&below));
+            }
+            held.trusted.push(listed(&plain));
+            let planned = TrustPlan::for_controller(&files, Destination::Trusted, &held);
+            assert_eq!(fates(&planned), [goes(Target::Trusted, &[Note::TrustsAllItIssues])]);
         }
     }
 

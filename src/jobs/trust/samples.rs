@@ -1,9 +1,12 @@
 //! Certificates and CRLs for the tests of this room.
 
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use chrono::{DateTime, TimeDelta, Utc};
 use rcgen::{
     BasicConstraints, CertificateParams, CertificateRevocationListParams, CertifiedIssuer, DnType, IsCa, KeyIdMethod,
-    KeyPair, KeyUsagePurpose, SanType, SerialNumber,
+    KeyPair, KeyUsagePurpose, PKCS_RSA_SHA256, RsaKeySize, SanType, SerialNumber,
 };
 
 use super::TrustSnapshot;
@@ -24,17 +27,44 @@ pub fn authority(name: &str) -> Authority {
     let mut params = params(name);
     params.is_ca = IsCa::Ca(BasicConstraints::Unconstrained);
     params.key_usages = vec![KeyUsagePurpose::KeyCertSign, KeyUsagePurpose::CrlSign];
-    let issuer = CertifiedIssuer::self_signed(params, KeyPair::generate().unwrap()).unwrap();
-    let certificate = Certificate::from_der(issuer.der()).unwrap();
-    Authority { issuer, certificate }
+    made(params, KeyPair::generate().unwrap())
 }
 
 /// A self-signed application that says it may sign others, as those of some stacks do.
 pub fn application(name: &str) -> Certificate {
+    issuing_application(name).certificate
+}
+
+/// The same, with the key it may sign others with.
+pub fn issuing_application(name: &str) -> Authority {
     let mut params = params(name);
     params.subject_alt_names = vec![SanType::URI(format!("urn:{name}").try_into().unwrap())];
     params.is_ca = IsCa::Ca(BasicConstraints::Unconstrained);
-    Certificate::from_der(params.self_signed(&KeyPair::generate().unwrap()).unwrap().der()).unwrap()
+    params.key_usages = APPLICATION_USAGES.to_vec();
+    params.key_usages.push(KeyUsagePurpose::KeyCertSign);
+    made(params, rsa_key())
+}
+
+fn made(params: CertificateParams, key: KeyPair) -> Authority {
+    let issuer = CertifiedIssuer::self_signed(params, key).unwrap();
+    let certificate = Certificate::from_der(issuer.der()).unwrap();
+    Authority { issuer, certificate }
+}
+
+const APPLICATION_USAGES: [KeyUsagePurpose; 4] = [
+    KeyUsagePurpose::DigitalSignature,
+    KeyUsagePurpose::ContentCommitment,
+    KeyUsagePurpose::KeyEncipherment,
+    KeyUsagePurpose::DataEncipherment,
+];
+
+/// Keys are slow to make: one after the other of a few.
+fn rsa_key() -> KeyPair {
+    static KEYS: LazyLock<[Vec<u8>; 4]> = LazyLock::new(|| {
+        [(); 4].map(|()| KeyPair::generate_rsa_for(&PKCS_RSA_SHA256, RsaKeySize::_2048).unwrap().serialize_der())
+    });
+    static NEXT: AtomicUsize = AtomicUsize::new(0);
+    KeyPair::try_from(KEYS[NEXT.fetch_add(1, Ordering::Relaxed) % KEYS.len()].as_slice()).unwrap()
 }
 
 fn params(name: &str) -> CertificateParams {
@@ -47,6 +77,16 @@ fn params(name: &str) -> CertificateParams {
 }
 
 impl Authority {
+    /// An application with a certificate from it.
+    pub fn client(&self, name: &str) -> Certificate {
+        let mut params = params(name);
+        params.subject_alt_names = vec![SanType::URI(format!("urn:{name}").try_into().unwrap())];
+        params.key_usages = APPLICATION_USAGES.to_vec();
+        // Not one of the shared keys: with the key of its issuer it would be a renewed certificate.
+        let key = KeyPair::generate_rsa_for(&PKCS_RSA_SHA256, RsaKeySize::_2048).unwrap();
+        Certificate::from_der(params.signed_by(&key, &self.issuer).unwrap().der()).unwrap()
+    }
+
     pub fn crl(&self, number: u64) -> Crl {
         let params = CertificateRevocationListParams {
             this_update: rcgen::date_time_ymd(2029, 12, 1),

@@ -111,6 +111,13 @@ impl TrustSnapshot {
             .find(|list| self.holds(*list, thumbprint))
     }
 
+    /// Every certificate the controller has or was shown; those that cannot be read are left out.
+    pub(super) fn certificates(&self) -> impl Iterator<Item = Certificate> + '_ {
+        let listed = self.trusted.iter().chain(&self.issuers).map(|listed| &listed.certificate);
+        let shown = self.rejected.iter().flat_map(|client| std::iter::once(&client.certificate).chain(&client.chain));
+        listed.chain(shown).filter_map(|der| Certificate::from_der(&der.0).ok())
+    }
+
     pub fn holds(&self, list: ClientList, thumbprint: &str) -> bool {
         self.thumbprints(list).any(|held| held == thumbprint)
     }
