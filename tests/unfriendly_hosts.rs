@@ -131,11 +131,40 @@ async fn an_opc_ua_server_port_instead_of_the_management_port() {
         while let Ok((mut stream, _)) = listener.accept().await {
             let mut hello = [0; 64];
             let _read = stream.read(&mut hello).await;
-            // It closes on anything that is not OPC UA.
-            drop(stream);
+            // OPC 10000-6 §7.1.2.5: Error, BadTcpMessageTypeInvalid, no reason.
+            let _sent = stream.write_all(b"ERRF\x10\0\0\0\0\0\x7e\x80\xff\xff\xff\xff").await;
         }
     });
     assert_eq!(probe(&address).await, ErrorCode::NotAController);
+}
+
+#[tokio::test]
+async fn a_host_that_hangs_up_during_the_handshake_may_be_a_busy_controller() {
+    let (listener, address) = listener().await;
+    tokio::spawn(async move {
+        while let Ok((stream, _)) = listener.accept().await {
+            drop(stream);
+        }
+    });
+    assert_eq!(probe(&address).await, ErrorCode::HandshakeLost);
+}
+
+#[tokio::test]
+async fn a_handshake_that_is_lost_twice_is_tried_a_third_time() {
+    let (acceptor, _) = tls("a busy controller");
+    let (listener, address) = listener().await;
+    tokio::spawn(async move {
+        for _ in 0..2 {
+            drop(listener.accept().await);
+        }
+        let (stream, _) = listener.accept().await?;
+        let mut stream = acceptor.accept(stream).await?;
+        let mut request = [0; 4096];
+        let _read = stream.read(&mut request).await?;
+        stream.write_all(&http("{}")).await?;
+        stream.shutdown().await
+    });
+    assert_eq!(probe(&address).await, ErrorCode::NotAController, "an answer, although not a controller's");
 }
 
 #[tokio::test]

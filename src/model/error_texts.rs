@@ -132,6 +132,19 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ),
     ),
     (
+        ErrorCode::HandshakeLost,
+        text(
+            "The connection ended before encryption was agreed on",
+            "The controller has too many connections at the moment, or the port belongs to another service.",
+            "Try again in a minute. If it happens again, check the address and the port of the controller's management.",
+        ),
+        text(
+            "连接在加密协商完成前中断",
+            "控制器当前的连接过多，或该端口属于其他服务。",
+            "请一分钟后重试。若再次发生，请检查控制器管理的地址和端口。",
+        ),
+    ),
+    (
         ErrorCode::NotAController,
         text(
             "What answers at this address is not a controller",

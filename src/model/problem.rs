@@ -34,6 +34,7 @@ pub enum ErrorCode {
     Timeout,
     ConnectionLost,
     AnswerLost,
+    HandshakeLost,
     NotAController,
     ProtocolVersion,
     FingerprintChanged,
@@ -171,6 +172,7 @@ impl ErrorCode {
                 | Timeout
                 | ConnectionLost
                 | AnswerLost
+                | HandshakeLost
                 | NotAController
                 | ProtocolVersion
                 | FingerprintChanged
@@ -279,9 +281,9 @@ mod tests {
         match code {
             NotActivated | NoCertificate | InvalidParameter | PortConflict | ServerError | ServerLogOn
             | ServerLogFull => 7,
-            Unreachable | Timeout | ConnectionLost | AnswerLost | NotAController | ProtocolVersion
+            Unreachable | Timeout | ConnectionLost | AnswerLost | HandshakeLost | NotAController | ProtocolVersion
             | FingerprintChanged | FingerprintUnknown | WrongPassword | PasswordMissing | LockedOut
-            | SessionExpired => 12,
+            | SessionExpired => 13,
             FirmwareNotSupported
             | FirmwareTooNew
             | FirmwareTooOld

@@ -41,6 +41,9 @@ impl Default for Timeouts {
     }
 }
 
+/// Pauses before another attempt after a handshake that the peer ended.
+const HANDSHAKE_RETRIES: [Duration; 2] = [Duration::from_millis(100), Duration::from_millis(400)];
+
 /// Opens sessions over HTTPS with a pinned certificate.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ManagementConnector {
@@ -136,7 +139,7 @@ impl Link {
             request = request.header(CONTENT_TYPE, "application/json").body(json);
         }
         let lost = || *self.unanswered.lock() = based_on;
-        let response = request.send().await.map_err(|e| {
+        let response = self.exchange(request).await.map_err(|e| {
             // Without a connection nothing was sent.
             if !e.is_connect() {
                 lost();
@@ -165,6 +168,21 @@ impl Link {
         Err(Problem::with_detail(ErrorCode::NotAController, format!("HTTP {status}")))
     }
 
+    /// Sends a request. While the peer ends connections during the TLS handshake, as a controller with too many of them
+    /// does, it is tried again a few times: nothing has been sent yet.
+    async fn exchange(&self, request: reqwest::RequestBuilder) -> reqwest::Result<reqwest::Response> {
+        for pause in HANDSHAKE_RETRIES {
+            let Some(again) = request.try_clone() else { break };
+            match again.send().await {
+                Err(error) if error.is_connect() && handshake_failure(&error) == Some(ErrorCode::HandshakeLost) => {
+                    tokio::time::sleep(pause).await;
+                }
+                done => return done,
+            }
+        }
+        request.send().await
+    }
+
     /// A lying server must not fill the memory of this one.
     async fn read_bounded(&self, mut response: reqwest::Response) -> Result<Vec<u8>, Problem> {
         let mut bytes = Vec::new();
@@ -189,8 +207,7 @@ impl Link {
         }
         let detail = innermost(error);
         if error.is_connect() {
-            let code = if is_handshake_failure(error) { ErrorCode::NotAController } else { ErrorCode::Unreachable };
-            return Problem::with_detail(code, detail);
+            return Problem::with_detail(handshake_failure(error).unwrap_or(ErrorCode::Unreachable), detail);
         }
         if error.is_timeout() {
             return ErrorCode::Timeout.into();
@@ -232,17 +249,20 @@ fn innermost(error: &reqwest::Error) -> String {
     causes(error).last().map(ToString::to_string).unwrap_or_default()
 }
 
-/// The TCP connection stood, but the TLS handshake failed: the peer talks something else, or hung up on it.
-fn is_handshake_failure(error: &reqwest::Error) -> bool {
-    causes(error).any(|e| {
-        e.is::<rustls::Error>()
-            || e.downcast_ref::<io::Error>().is_some_and(|io| {
-                matches!(
-                    io.kind(),
-                    io::ErrorKind::ConnectionReset | io::ErrorKind::BrokenPipe | io::ErrorKind::UnexpectedEof
-                )
-            })
-    })
+/// Why the TLS handshake failed on a TCP connection that stood: the peer speaks something else, or it hung up without a
+/// word, which a controller under load does too. `None` if it was not the handshake.
+fn handshake_failure(error: &reqwest::Error) -> Option<ErrorCode> {
+    let hung_up = |error: &io::Error| {
+        use io::ErrorKind::{BrokenPipe, ConnectionAborted, ConnectionReset, UnexpectedEof};
+        matches!(error.kind(), BrokenPipe | ConnectionAborted | ConnectionReset | UnexpectedEof)
+    };
+    if causes(error).any(|e| e.is::<rustls::Error>()) {
+        Some(ErrorCode::NotAController)
+    } else if causes(error).filter_map(|e| e.downcast_ref::<io::Error>()).any(hung_up) {
+        Some(ErrorCode::HandshakeLost)
+    } else {
+        None
+    }
 }
 
 fn is_caused_by_http_parse(error: &reqwest::Error) -> bool {

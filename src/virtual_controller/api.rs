@@ -22,6 +22,7 @@ use tokio_util::sync::CancellationToken;
 use super::certificate_changes;
 use super::changes;
 use super::controller::{Controller, Effect, Outcome};
+use super::listener::Peer;
 use super::login::{Sessions, Throttle};
 use super::password::is_password;
 use super::settings_transfer;
@@ -84,7 +85,7 @@ pub struct Api {
 #[derive(Debug, Clone)]
 pub struct Connection {
     pub api: Arc<Api>,
-    pub peer: IpAddr,
+    pub peer: Arc<Peer>,
     /// The controller's address the client used.
     pub local: IpAddr,
     /// Cuts the connection without an answer.
@@ -151,6 +152,7 @@ impl<S: Send + Sync> FromRequestParts<S> for Caller {
         if !connection.api.sessions.lock().touch(token, Instant::now()) {
             return Err(Problem::new(ErrorCode::SessionExpired).into());
         }
+        connection.peer.has_session();
         let token = WireSecret(token.into());
         Ok(Self { connection, token })
     }
@@ -178,13 +180,13 @@ async fn login(Extension(connection): Extension<Connection>, body: Body) -> Answ
     let api = &connection.api;
     let right = {
         let mut throttle = api.throttle.lock().await;
-        throttle.admit(connection.peer, Instant::now())?;
+        throttle.admit(connection.peer.address(), Instant::now())?;
         let hash = api.controller.state().connection_password_hash.clone();
         let right = is_password(&hash, &password.0).await;
         if right {
-            throttle.right(connection.peer);
+            throttle.right(connection.peer.address());
         } else {
-            throttle.wrong(connection.peer, Instant::now());
+            throttle.wrong(connection.peer.address(), Instant::now());
         }
         right
     };
@@ -193,6 +195,7 @@ async fn login(Extension(connection): Extension<Connection>, body: Body) -> Answ
         return Err(Problem::new(ErrorCode::WrongPassword).into());
     }
     let token = api.sessions.lock().open(Instant::now())?;
+    connection.peer.has_session();
     Ok(Json(Session { token: WireSecret(token), idle_secs: SESSION_IDLE_SECS }))
 }
 

@@ -1,4 +1,4 @@
-use std::net::SocketAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -8,49 +8,92 @@ use hyper::{Request, server::conn::http1};
 use hyper_util::rt::{TokioIo, TokioTimer};
 use rustls::ServerConfig;
 use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::Semaphore;
 use tokio::task::JoinSet;
+use tokio::time::Instant;
 use tokio_rustls::TlsAcceptor;
 use tokio_util::sync::CancellationToken;
 use tower_service::Service as _;
 
 use super::api::{Api, Connection, ROUTER};
+use super::connection_limits::{Activity, Occupant, PlaceLimits, Places, Source, Standing};
 
-/// More wait in the operating system's queue until one has gone.
-const MAX_CONNECTIONS: usize = 64;
+/// An engineer's program keeps one connection for each session. No change takes as long as `silence`.
+const PLACES: PlaceLimits = PlaceLimits { connections: 64, per_source: 16, silence: Duration::from_secs(180) };
 const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(5);
+/// From the first byte to the first request with a valid session.
+const SESSION_TIMEOUT: Duration = Duration::from_secs(20);
 /// For the head of a request, and for a connection without one.
 const HEAD_TIMEOUT: Duration = Duration::from_secs(10);
 /// No connection is older, whatever it does: one that reads its answers slowly is over some day.
 const MAX_AGE: Duration = Duration::from_secs(600);
 /// What a request in hand gets when the controller is switched off or the connection has become too old.
 const GRACE: Duration = Duration::from_secs(2);
-/// After an error of `accept`, which is almost always a want of file handles.
+/// After an error of `accept`, which is most likely that the process is out of file descriptors.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+
+/// One connection of a peer of the management protocol.
+#[derive(Debug)]
+pub struct Peer {
+    address: IpAddr,
+    activity: Activity,
+    evicted: CancellationToken,
+}
+
+impl Peer {
+    fn new(address: SocketAddr) -> Self {
+        Self { address: address.ip().to_canonical(), activity: Activity::new(), evicted: CancellationToken::new() }
+    }
+
+    pub fn address(&self) -> IpAddr {
+        self.address
+    }
+
+    /// A request with a valid session has come.
+    pub fn has_session(&self) {
+        self.activity.reached(Standing::InSession);
+        self.activity.used();
+    }
+}
+
+impl Occupant for Peer {
+    fn source(&self) -> Source {
+        Source::new(self.address)
+    }
+
+    fn activity(&self) -> &Activity {
+        &self.activity
+    }
+
+    fn evict(&self) {
+        self.evicted.cancel();
+    }
+}
 
 /// Accepts connections of the management protocol until `off`, then lets the requests in hand finish.
 pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<Api>, off: CancellationToken) {
     let acceptor = TlsAcceptor::from(tls);
-    let slots = Arc::new(Semaphore::new(MAX_CONNECTIONS));
+    let places = Arc::new(Places::new(PLACES));
     let mut connections = JoinSet::new();
-    while let Some(Ok(slot)) = off.run_until_cancelled(Arc::clone(&slots).acquire_owned()).await {
-        let accepted = loop {
-            tokio::select! {
-                accepted = listener.accept() => break Some(accepted),
-                Some(_) = connections.join_next() => {}
-                () = off.cancelled() => break None,
-            }
+    loop {
+        let accepted = tokio::select! {
+            accepted = listener.accept() => accepted,
+            Some(_) = connections.join_next() => continue,
+            () = off.cancelled() => break,
         };
         match accepted {
-            None => break,
-            Some(Ok((stream, peer))) => {
+            Ok((stream, address)) => {
+                let Some(place) = places.enter(Peer::new(address)) else {
+                    tracing::debug!(%address, "too many management connections, one more refused");
+                    continue;
+                };
                 let (acceptor, api, off) = (acceptor.clone(), Arc::clone(&api), off.clone());
                 connections.spawn(async move {
-                    let _slot = slot;
-                    converse(stream, peer, acceptor, api, off).await;
+                    let peer = &place.connection;
+                    let served = serve_peer(stream, peer, &acceptor, api, &off);
+                    peer.evicted.run_until_cancelled(served).await;
                 });
             }
-            Some(Err(error)) => {
+            Err(error) => {
                 tracing::warn!(%error, "a connection could not be accepted");
                 tokio::time::sleep(ACCEPT_PAUSE).await;
             }
@@ -60,19 +103,27 @@ pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<Api>,
     while connections.join_next().await.is_some() {}
 }
 
-/// One connection from its handshake to its end.
-async fn converse(stream: TcpStream, peer: SocketAddr, acceptor: TlsAcceptor, api: Arc<Api>, off: CancellationToken) {
+/// Serves one connection from its handshake to its end.
+async fn serve_peer(
+    stream: TcpStream,
+    peer: &Arc<Peer>,
+    acceptor: &TlsAcceptor,
+    api: Arc<Api>,
+    off: &CancellationToken,
+) {
+    let accepted = Instant::now();
     let Ok(local) = stream.local_addr() else { return };
     // Small answers should not wait for acknowledgements.
     let _ = stream.set_nodelay(true);
     let handshake = tokio::time::timeout(HANDSHAKE_TIMEOUT, acceptor.accept(stream));
     let stream = match off.run_until_cancelled(handshake).await {
         Some(Ok(Ok(stream))) => stream,
-        Some(Ok(Err(error))) => return tracing::debug!(%peer, %error, "TLS failed"),
+        Some(Ok(Err(error))) => return tracing::debug!(peer = %peer.address, %error, "TLS failed"),
         Some(Err(_)) | None => return,
     };
+    peer.activity.reached(Standing::Opened);
     let cut = CancellationToken::new();
-    let connection = Connection { api, peer: peer.ip().to_canonical(), local: local.ip(), cut: cut.clone() };
+    let connection = Connection { api, peer: Arc::clone(peer), local: local.ip(), cut: cut.clone() };
     let service = service_fn(move |mut request: Request<Incoming>| {
         let connection = connection.clone();
         async move {
@@ -87,11 +138,18 @@ async fn converse(stream: TcpStream, peer: SocketAddr, acceptor: TlsAcceptor, ap
     let mut http = http1::Builder::new();
     http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIMEOUT);
     let mut serving = std::pin::pin!(http.serve_connection(TokioIo::new(stream), service));
+    let without_session = async {
+        tokio::time::sleep_until(accepted + SESSION_TIMEOUT).await;
+        if peer.activity.has_session() {
+            std::future::pending::<()>().await;
+        }
+    };
     let ended = tokio::select! {
         ended = serving.as_mut() => Some(ended),
         () = cut.cancelled() => return,
         () = off.cancelled() => None,
-        () = tokio::time::sleep(MAX_AGE) => None,
+        () = without_session => None,
+        () = tokio::time::sleep_until(accepted + MAX_AGE) => None,
     };
     let ended = match ended {
         Some(ended) => ended,
@@ -101,6 +159,6 @@ async fn converse(stream: TcpStream, peer: SocketAddr, acceptor: TlsAcceptor, ap
         }
     };
     if let Err(error) = ended {
-        tracing::debug!(%peer, %error, "a connection broke off");
+        tracing::debug!(peer = %peer.address, %error, "a connection broke off");
     }
 }

@@ -1,5 +1,5 @@
 use std::collections::HashMap;
-use std::net::{IpAddr, Ipv6Addr};
+use std::net::IpAddr;
 use std::time::{Duration, Instant};
 
 use base64::Engine as _;
@@ -9,14 +9,15 @@ use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq as _;
 use zeroize::Zeroizing;
 
+use super::connection_limits::Source;
 use crate::model::{ErrorCode, Problem};
 use crate::protocol::{LOCK_OUT_SECS, LOGIN_ATTEMPTS, SESSION_IDLE_SECS};
 
-/// Counts wrong passwords by network address, and locks an address out after [`LOGIN_ATTEMPTS`] of them.
+/// Counts wrong passwords by source, and locks a source out after [`LOGIN_ATTEMPTS`] of them.
 ///
 /// The count begins anew after a right password, and after [`LOCK_OUT_SECS`] without a wrong one.
 #[derive(Debug, Default)]
-pub struct Throttle(HashMap<IpAddr, Failures>);
+pub struct Throttle(HashMap<Source, Failures>);
 
 #[derive(Debug)]
 struct Failures {
@@ -42,7 +43,7 @@ const IDLE: Duration = Duration::from_secs(SESSION_IDLE_SECS);
 
 impl Throttle {
     pub fn admit(&self, from: IpAddr, now: Instant) -> Result<(), Problem> {
-        match self.0.get(&network(from)) {
+        match self.0.get(&Source::new(from)) {
             Some(failures) if failures.count >= LOGIN_ATTEMPTS && !failures.forgotten(now) => {
                 Err(ErrorCode::LockedOut.into())
             }
@@ -51,7 +52,7 @@ impl Throttle {
     }
 
     pub fn wrong(&mut self, from: IpAddr, now: Instant) {
-        let from = network(from);
+        let from = Source::new(from);
         self.0.retain(|_, failures| !failures.forgotten(now));
         if self.0.len() >= MAX_ADDRESSES && !self.0.contains_key(&from) {
             let oldest = self.0.iter().min_by_key(|(_, failures)| failures.last).map(|(address, _)| *address);
@@ -63,7 +64,7 @@ impl Throttle {
     }
 
     pub fn right(&mut self, from: IpAddr) {
-        self.0.remove(&network(from));
+        self.0.remove(&Source::new(from));
     }
 }
 
@@ -124,14 +125,6 @@ fn digest(token: &str) -> [u8; 32] {
     Sha256::digest(token.as_bytes()).into()
 }
 
-/// One host may own a whole /64 of IPv6; there the network counts as one address.
-pub(super) fn network(address: IpAddr) -> IpAddr {
-    match address.to_canonical() {
-        IpAddr::V6(v6) => IpAddr::V6(Ipv6Addr::from_bits(v6.to_bits() & (u128::MAX << 64))),
-        v4 => v4,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -173,8 +166,6 @@ mod tests {
             throttle.wrong(IpAddr::V4(i.into()), now);
         }
         assert_eq!(throttle.0.len(), MAX_ADDRESSES);
-        let (a, b): (IpAddr, IpAddr) = ("2001:db8::1".parse().unwrap(), "2001:db8::2:1".parse().unwrap());
-        assert_eq!(network(a), network(b));
     }
 
     #[test]

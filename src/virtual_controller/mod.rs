@@ -18,11 +18,13 @@
 //! | `faults` | [`Faults`]: the switches for what goes wrong |
 //! | `controller` | [`VirtualController`]: state, store and OPC UA server together; changes whole or not at all |
 //! | `password` | the connection password: Argon2id once, then a memory of this process |
-//! | `login` | wrong passwords by address, sessions by token |
+//! | `login` | wrong passwords by source, sessions by token |
 //! | `api` | the paths of [`crate::protocol`], and bodies within bounds |
-//! | `listener` | connections: accepted, bounded in number and time, encrypted |
+//! | `connection_limits` | what peers may take of either listener before they have a session |
+//! | `listener` | connections of the management protocol: accepted, bounded in number and time, encrypted |
 //! | `tls` | the management identity as a TLS server |
 //! | `server_log` | the log of the OPC UA server, and what happens when it is full |
+//! | `log_share` | how much of it peers may fill that have proved nothing |
 //! | `opcua` | the OPC UA server |
 //! | `memory` | what stopped servers leave free, given back |
 //! | `ports` | TCP ports nobody uses |
@@ -57,12 +59,14 @@ mod activation_keys;
 mod api;
 mod certificate_changes;
 mod changes;
+mod connection_limits;
 mod controller;
 mod demo;
 mod faults;
 mod file_limit;
 mod fleet;
 mod listener;
+mod log_share;
 mod login;
 mod memory;
 mod new_controller;

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 use tokio::sync::Notify;
 use tokio_util::sync::CancellationToken;
 
+use super::connection_limits::Source;
 use super::faults::Faults;
-use super::login::network;
 use super::opcua::Refusals;
 use super::state::{Listed, State};
 use super::store::{StoreError, replace_private_file};
@@ -275,16 +275,16 @@ impl List {
         let keep = fresh.and_then(|index| self.entries.get(index)).map(|entry| entry.thumbprint.clone());
         let mut bytes: usize = self.entries.iter().map(Entry::bytes).sum();
         while self.entries.len() > MAX_ENTRIES || bytes > MAX_BYTES {
-            let mut owned: HashMap<Option<IpAddr>, usize> = HashMap::new();
+            let mut owned: HashMap<Option<Source>, usize> = HashMap::new();
             for entry in &self.entries {
-                *owned.entry(entry.address.map(network)).or_default() += 1;
+                *owned.entry(entry.address.map(Source::new)).or_default() += 1;
             }
             let victim = self
                 .entries
                 .iter()
                 .enumerate()
                 .filter(|(_, entry)| keep.as_ref() != Some(&entry.thumbprint))
-                .max_by_key(|(_, entry)| (owned[&entry.address.map(network)], std::cmp::Reverse(entry.last_seen)))
+                .max_by_key(|(_, entry)| (owned[&entry.address.map(Source::new)], std::cmp::Reverse(entry.last_seen)))
                 .map(|(index, _)| index);
             let Some(victim) = victim else { break };
             let victim = self.entries.swap_remove(victim);

@@ -1,12 +1,14 @@
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read as _, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
 use chrono::SecondsFormat;
 use parking_lot::Mutex;
 use tokio::sync::Notify;
 
 use super::faults::Faults;
+use super::log_share::StrangersShare;
 use super::opcua::Event;
 use crate::protocol::{LogChunk, MAX_LOG_CHUNK_BYTES};
 
@@ -14,13 +16,20 @@ use crate::protocol::{LogChunk, MAX_LOG_CHUNK_BYTES};
 /// by the controller's clock.
 ///
 /// It never grows beyond its limit, [`LOG_LIMIT`] unless a fault switch says otherwise: the last line says that it is
-/// full, and [`ServerLog::filled`] ends, so that the server can be stopped.
+/// full, and [`ServerLog::filled`] ends, so that the server can be stopped. Peers that have proved nothing get a part of
+/// it only ([`StrangersShare`]).
 #[derive(Debug)]
 pub struct ServerLog {
     path: PathBuf,
     faults: Faults,
-    file: Mutex<Option<File>>,
+    writing: Mutex<Option<Writing>>,
     full: Notify,
+}
+
+#[derive(Debug)]
+struct Writing {
+    file: File,
+    strangers: StrangersShare,
 }
 
 /// Bytes after which the server stops. The manual names no number; this is about ten thousand events.
@@ -32,7 +41,7 @@ const MAX_LINE_CHARS: usize = 120;
 
 impl ServerLog {
     pub fn new(folder: &Path, faults: Faults) -> Self {
-        Self { path: folder.join("server.log"), faults, file: Mutex::new(None), full: Notify::new() }
+        Self { path: folder.join("server.log"), faults, writing: Mutex::new(None), full: Notify::new() }
     }
 
     /// Writes one line, unless the log is full. A log that cannot be written is no reason to fail.
@@ -84,8 +93,8 @@ impl ServerLog {
     }
 
     pub fn delete(&self) -> io::Result<()> {
-        let mut file = self.file.lock();
-        *file = None;
+        let mut writing = self.writing.lock();
+        *writing = None;
         match fs::remove_file(&self.path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
             _ => Ok(()),
@@ -98,19 +107,30 @@ impl ServerLog {
     }
 
     fn append(&self, event: Event<'_>) -> io::Result<()> {
-        let mut slot = self.file.lock();
-        let file = match &mut *slot {
-            Some(file) => file,
-            none => none.insert(open(&self.path)?),
+        let mut slot = self.writing.lock();
+        let Writing { file, strangers } = match &mut *slot {
+            Some(writing) => writing,
+            none => {
+                let file = open(&self.path)?;
+                let strangers = StrangersShare::new(file.metadata()?.len(), Instant::now());
+                none.insert(Writing { file, strangers })
+            }
         };
         let threshold = self.threshold();
-        let size = file.metadata()?.len();
-        if size >= threshold {
+        if file.metadata()?.len() >= threshold {
             return Ok(());
         }
+        let now = Instant::now();
         let level = if event.is_warning() { "WARN" } else { "INFO" };
-        let what: String = event.to_string().chars().filter(|c| !c.is_control()).take(MAX_LINE_CHARS).collect();
-        file.write_all(self.line(level, &what).as_bytes())?;
+        let what = clean(&event.to_string());
+        let line = self.line(level, &what);
+        let is_written = !event.is_open_to_strangers() || strangers.admit(&what, line.len() as u64, threshold);
+        if let Some(summary) = strangers.summary(now) {
+            file.write_all(self.line("WARN", &clean(&summary)).as_bytes())?;
+        }
+        if is_written {
+            file.write_all(line.as_bytes())?;
+        }
         if file.metadata()?.len() >= threshold {
             file.write_all(self.line("WARN", "the log is full; the server stops").as_bytes())?;
             self.full.notify_one();
@@ -121,6 +141,11 @@ impl ServerLog {
     fn line(&self, level: &str, what: &str) -> String {
         format!("{} {level} {what}\n", self.faults.now().to_rfc3339_opts(SecondsFormat::Millis, true))
     }
+}
+
+/// Without control characters, and not longer than a line may be.
+fn clean(what: &str) -> String {
+    what.chars().filter(|c| !c.is_control()).take(MAX_LINE_CHARS).collect()
 }
 
 fn open(path: &Path) -> io::Result<File> {
@@ -141,8 +166,32 @@ mod tests {
         ServerLog::new(folder, faults)
     }
 
-    fn connected(log: &ServerLog) {
-        log.write(Event::Connected { client: "192.168.0.9:50000".parse().unwrap() });
+    fn logged_in(log: &ServerLog) {
+        log.write(Event::LoggedIn { user: Some("operator1"), policy: "Basic256Sha256", mode: "Sign" });
+    }
+
+    fn connected(log: &ServerLog, address: [u8; 4]) {
+        log.write(Event::Connected { client: (address, 50_000).into() });
+    }
+
+    #[tokio::test]
+    async fn strangers_cannot_fill_a_log_and_those_who_have_proved_something_can() {
+        let folder = tempfile::tempdir().unwrap();
+        let log = log(folder.path(), 32 * 1024);
+        logged_in(&log);
+        for number in 0..20_000_u32 {
+            let address = (0x0a00_0000 + number).to_be_bytes();
+            connected(&log, address);
+            log.write(Event::Refused { client: (address, 50_000).into(), reason: "not an OPC UA message" });
+            log.write(Event::LoginRefused { user: None, reason: "no such user" });
+            log.write(Event::LoggedIn { user: None, policy: "None", mode: "None" });
+        }
+        let size = log.read(None).unwrap().size;
+        assert!((4096..9 * 1024).contains(&size) && !log.is_full(), "{size}");
+        while !log.is_full() {
+            logged_in(&log);
+        }
+        tokio::time::timeout(std::time::Duration::from_secs(5), log.filled()).await.expect("said so");
     }
 
     #[tokio::test]
@@ -150,12 +199,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let log = log(folder.path(), 4096);
         while !log.is_full() {
-            connected(&log);
+            logged_in(&log);
         }
         tokio::time::timeout(std::time::Duration::from_secs(5), log.filled()).await.expect("said so");
         let size = log.read(None).unwrap().size;
         assert!((3072..=4096).contains(&size), "{size}");
-        connected(&log);
+        logged_in(&log);
         let chunk = log.read(None).unwrap();
         assert_eq!(chunk.size, size);
         assert!(chunk.text.ends_with("WARN the log is full; the server stops\n"), "{}", chunk.text);
@@ -164,7 +213,7 @@ mod tests {
         log.delete().unwrap();
         assert!(!log.is_full());
         assert_eq!(log.read(None).unwrap(), LogChunk::default());
-        connected(&log);
+        logged_in(&log);
         assert_eq!(log.read(None).unwrap().text.lines().count(), 1);
     }
 
@@ -173,7 +222,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let log = log(folder.path(), LOG_LIMIT);
         while !log.is_full() {
-            connected(&log);
+            logged_in(&log);
         }
         let whole = fs::read_to_string(folder.path().join("server.log")).unwrap();
         let (mut text, mut from, mut pieces) = (String::new(), 0, 0);

@@ -71,7 +71,8 @@ pub async fn watch_trust(
 }
 
 const fn is_lost(code: ErrorCode) -> bool {
-    matches!(code, ErrorCode::ConnectionLost | ErrorCode::Unreachable | ErrorCode::Timeout | ErrorCode::SessionExpired)
+    use ErrorCode::*;
+    matches!(code, ConnectionLost | Unreachable | HandshakeLost | Timeout | SessionExpired)
 }
 
 const FIRST_PAUSE: Duration = Duration::from_millis(500);

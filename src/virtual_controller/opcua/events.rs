@@ -1,6 +1,8 @@
 use std::fmt;
-use std::net::{IpAddr, SocketAddr};
+use std::net::SocketAddr;
 use std::sync::Arc;
+
+use crate::virtual_controller::connection_limits::Source;
 
 /// Who is told what happens in a running server; nobody by default.
 ///
@@ -40,18 +42,18 @@ pub enum Event<'a> {
         client: SocketAddr,
         reason: &'a str,
     },
-    /// No more refusals of this address are told for a while.
-    Locked {
-        address: IpAddr,
+    /// No more refusals of this source are told for a minute.
+    RefusalsQuiet {
+        source: Source,
     },
-    /// They are again; so many were not.
-    Unlocked {
-        address: IpAddr,
-        left_out: u64,
+    /// No more connections of this source are told for a minute.
+    ConnectionsQuiet {
+        source: Source,
     },
-    /// No more connections of this address are told for a while.
-    LeftOut {
-        address: IpAddr,
+    /// So many lines about this source were not told.
+    LinesLeftOut {
+        source: Source,
+        count: u64,
     },
     LoggedIn {
         user: Option<&'a str>,
@@ -90,10 +92,27 @@ impl Event<'_> {
             Self::TooManyConnections { .. }
                 | Self::Refused { .. }
                 | Self::Cut { .. }
-                | Self::Locked { .. }
-                | Self::Unlocked { .. }
+                | Self::RefusalsQuiet { .. }
+                | Self::LinesLeftOut { .. }
                 | Self::LoginRefused { .. }
         )
+    }
+
+    /// Whether any peer can make it happen, and as often as it likes: one that has neither the key of a trusted
+    /// certificate nor a password.
+    pub fn is_open_to_strangers(&self) -> bool {
+        match self {
+            Self::Started { .. } | Self::Stopped { .. } | Self::Cut { .. } => false,
+            Self::LoggedIn { user, mode, .. } => user.is_none() && *mode == "None",
+            Self::Connected { .. }
+            | Self::Disconnected { .. }
+            | Self::TooManyConnections { .. }
+            | Self::Refused { .. }
+            | Self::RefusalsQuiet { .. }
+            | Self::ConnectionsQuiet { .. }
+            | Self::LinesLeftOut { .. }
+            | Self::LoginRefused { .. } => true,
+        }
     }
 }
 
@@ -107,9 +126,11 @@ impl fmt::Display for Event<'_> {
             Self::TooManyConnections { client } => write!(f, "connection from {client} refused: too many"),
             Self::Refused { client, reason } => write!(f, "client {client} refused: {reason}"),
             Self::Cut { client, reason } => write!(f, "client {client} cut off: {reason}"),
-            Self::Locked { address } => write!(f, "refusals of {address} are too many; left out for a minute"),
-            Self::Unlocked { address, left_out } => write!(f, "{left_out} refusals of {address} were left out"),
-            Self::LeftOut { address } => write!(f, "connections of {address} are too many; left out for a minute"),
+            Self::RefusalsQuiet { source } => write!(f, "refusals of {source} are too many; left out for a minute"),
+            Self::ConnectionsQuiet { source } => {
+                write!(f, "connections of {source} are too many; left out for a minute")
+            }
+            Self::LinesLeftOut { source, count } => write!(f, "{count} lines about {source} were left out"),
             Self::LoggedIn { user, policy, mode } => {
                 write!(f, "session of {} activated: {policy}, {mode}", user.unwrap_or("an anonymous user"))
             }

@@ -118,13 +118,7 @@ pub enum Refusal {
 
 impl Client {
     pub fn new(controller: &VirtualController) -> Self {
-        let provider = Arc::new(aws_lc_rs::default_provider());
-        let tls = rustls::ClientConfig::builder_with_provider(Arc::clone(&provider))
-            .with_safe_default_protocol_versions()
-            .unwrap()
-            .dangerous()
-            .with_custom_certificate_verifier(Arc::new(Pin(controller.fingerprint(), provider)))
-            .with_no_client_auth();
+        let tls = tls(controller);
         let http = reqwest::Client::builder()
             .tls_backend_preconfigured(tls)
             .no_proxy()
@@ -176,6 +170,17 @@ impl Client {
     pub async fn hello(&self) -> Hello {
         self.get(protocol::HELLO).await.unwrap()
     }
+}
+
+/// TLS to a controller whose certificate is known.
+pub fn tls(controller: &VirtualController) -> rustls::ClientConfig {
+    let provider = Arc::new(aws_lc_rs::default_provider());
+    rustls::ClientConfig::builder_with_provider(Arc::clone(&provider))
+        .with_safe_default_protocol_versions()
+        .unwrap()
+        .dangerous()
+        .with_custom_certificate_verifier(Arc::new(Pin(controller.fingerprint(), provider)))
+        .with_no_client_auth()
 }
 
 /// The code of a request that must fail.

@@ -8,5 +8,6 @@ mod keys_log_and_settings;
 mod persistence;
 mod sessions;
 mod starting;
+mod starvation;
 mod trust;
 mod whole_or_nothing;

@@ -26,6 +26,7 @@ use super::rewrap::{ChainedClient, Own};
 use super::upward::{Upward, read_hello};
 use crate::model::{CertificateStatus, SecurityPolicy};
 use crate::pki::{Certificate, Rejection, TrustLists};
+use crate::virtual_controller::connection_limits::Standing;
 
 /// Stands in front of the OPC UA crate's server, which listens on a loopback port, and lets in whom it may.
 ///
@@ -75,7 +76,7 @@ impl Gate {
         pki: PkiFolder,
         reporter: Reporter,
     ) -> Self {
-        let connections = Connections::new(settings.limits);
+        let connections = Connections::new(settings.limits.places);
         Self { settings, server, own: Arc::new(own), judge, pki, connections, reporter }
     }
 
@@ -125,7 +126,6 @@ impl Gate {
     async fn serve(self: Arc<Self>, client: TcpStream, address: SocketAddr) {
         let (stop, stopped) = watch::channel(None);
         let Some(place) = self.connections.enter(address, stop) else {
-            tracing::warn!(%address, "too many OPC UA connections, one more refused");
             self.reporter.too_many(address);
             let fault = Fault::new(StatusCode::BadTcpNotEnoughResources, "too many connections");
             let _ = client.try_write(&fault.to_message());
@@ -135,7 +135,7 @@ impl Gate {
         // Both ends write whole messages.
         let _ = client.set_nodelay(true);
         let (mut from, mut to) = client.into_split();
-        if self.talk(&place.connection, &mut from, &mut to, stopped).await {
+        if self.talk(place.connection(), &mut from, &mut to, stopped).await {
             // Closing while there is something unread could keep the last words from arriving.
             let _ = timeout(self.settings.limits.linger, unheard(&mut from)).await;
         }
@@ -173,7 +173,7 @@ impl Gate {
         };
         let in_vain = async {
             sleep_until(start + limits.open + limits.session).await;
-            if !connection.has_session() {
+            if !connection.activity.has_session() {
                 connection.stop(Stop::Told(Fault::new(StatusCode::BadTimeout, "no session in time")));
             }
             std::future::pending::<()>().await;
@@ -392,6 +392,8 @@ impl Gate {
             return Err(StatusCode::from(rejection.status.code()));
         }
         connection.state.lock().add_session(session);
+        connection.activity.reached(Standing::InSession);
+        connection.activity.used();
         Ok(())
     }
 }

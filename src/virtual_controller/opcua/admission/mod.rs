@@ -16,8 +16,7 @@
 //! | `rewrap` | clients that send their issuers along, which the crate cannot read |
 //! | `channel_keys` | the same in CreateSession |
 //! | `guard` | sessions that do not belong to their secure channel |
-//! | `connections` | the connections there are, and who makes room for whom |
-//! | `addresses` | lock-out of addresses that are refused too often |
+//! | `connections` | the connections there are, in the places of `connection_limits` |
 //! | `limits` | how many, how long, how large |
 //! | `report` | who is told of a refusal |
 //! | `fault` | why a peer is turned away, in the words it is told |
@@ -39,7 +38,6 @@
 //! guards them. A password in clear is taken out where nothing is signed; a client that signs but neither encrypts its
 //! channel nor its password, although told to, shows it to whoever listens.
 
-mod addresses;
 mod channel_keys;
 mod connections;
 mod downward;

@@ -6,9 +6,8 @@ use std::time::Instant;
 use parking_lot::Mutex;
 
 use super::super::{Event, Events};
-use super::addresses::{Addresses, Line, Toll};
-use super::connections::source;
 use crate::pki::{Certificate, Rejection};
+use crate::virtual_controller::connection_limits::{Line, Lines, Refusal, Source};
 
 /// Who keeps the list of rejected clients.
 pub trait Refusals: Send + Sync {
@@ -20,56 +19,61 @@ pub trait Refusals: Send + Sync {
     fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection);
 }
 
-/// Tells of connections and refusals, and keeps quiet when one address causes too many of them.
+/// Tells of connections and refusals, and keeps quiet when one source causes too many of them.
 pub(in super::super) struct Reporter {
     events: Events,
     refusals: Option<Arc<dyn Refusals>>,
-    addresses: Mutex<Addresses>,
+    lines: Mutex<Lines>,
 }
 
 impl Reporter {
     pub(in super::super) fn new(events: Events, refusals: Option<Arc<dyn Refusals>>) -> Self {
-        Self { events, refusals, addresses: Mutex::default() }
+        Self { events, refusals, lines: Mutex::default() }
     }
 
-    /// A certificate was refused. False if nobody was told, because the address is locked.
+    /// A certificate was refused. False if nobody was told, because its source is kept quiet.
     pub(super) fn rejected(&self, client: SocketAddr, sent: &[Certificate], rejection: &Rejection) -> bool {
         let told = self.refused(client, &rejection.to_string());
         if told
             && !sent.is_empty()
             && let Some(refusals) = &self.refusals
         {
-            refusals.record(sent, source(client), rejection);
+            refusals.record(sent, client.ip().to_canonical(), rejection);
         }
         told
     }
 
-    /// Something else than a certificate was refused. False if nobody was told, because the address is locked.
+    /// Something else than a certificate was refused. False if nobody was told, because its source is kept quiet.
     pub(super) fn refused(&self, client: SocketAddr, reason: &str) -> bool {
-        let toll = self.addresses.lock().refused(source(client), Instant::now());
-        match toll {
-            Toll::Tell { left_out } => {
-                if left_out > 0 {
-                    self.events.tell(Event::Unlocked { address: source(client), left_out });
-                }
+        let source = Source::new(client.ip());
+        let refusal = self.lines.lock().refused(source, Instant::now());
+        match refusal {
+            Refusal::Tell { left_out } => {
+                self.left_out(source, left_out);
                 self.events.tell(Event::Refused { client, reason });
                 tracing::info!(%client, reason, "OPC UA client refused");
             }
-            Toll::TellAndLock => {
+            Refusal::TellLast => {
                 self.events.tell(Event::Refused { client, reason });
-                self.events.tell(Event::Locked { address: source(client) });
+                self.events.tell(Event::RefusalsQuiet { source });
                 tracing::warn!(%client, reason, "OPC UA client refused, as too many before; no more is said of this address");
             }
-            Toll::Quiet => return false,
+            Refusal::Quiet => return false,
         }
         true
+    }
+
+    fn left_out(&self, source: Source, count: u64) {
+        if count > 0 {
+            self.events.tell(Event::LinesLeftOut { source, count });
+        }
     }
 
     /// An open connection was ended because its certificate is not trusted any more. Never kept quiet: it was let in.
     pub(super) fn cut(&self, client: SocketAddr, sent: &[Certificate], rejection: &Rejection) {
         self.events.tell(Event::Cut { client, reason: &rejection.to_string() });
         if let Some(refusals) = &self.refusals {
-            refusals.record(sent, source(client), rejection);
+            refusals.record(sent, client.ip().to_canonical(), rejection);
         }
     }
 
@@ -86,10 +90,14 @@ impl Reporter {
     }
 
     fn line(&self, client: SocketAddr, event: Event<'_>) {
-        let line = self.addresses.lock().line(source(client), Instant::now());
+        let source = Source::new(client.ip());
+        let line = self.lines.lock().line(source, Instant::now());
         match line {
-            Line::Tell => self.events.tell(event),
-            Line::LastOne => self.events.tell(Event::LeftOut { address: source(client) }),
+            Line::Tell { left_out } => {
+                self.left_out(source, left_out);
+                self.events.tell(event);
+            }
+            Line::LastOne => self.events.tell(Event::ConnectionsQuiet { source }),
             Line::Quiet => {}
         }
     }

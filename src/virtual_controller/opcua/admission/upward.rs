@@ -78,7 +78,7 @@ impl<'a> Upward<'a> {
                 let _ = to.shutdown().await;
                 return Ok(());
             }
-            self.connection.heard();
+            self.connection.activity.used();
         }
     }
 
@@ -90,7 +90,7 @@ impl<'a> Upward<'a> {
                 (Kind::Message, Some(SecurityPolicy::None)) => {
                     self.plain(header).map_err(|fault| self.gate.refuse(self.connection, fault))?
                 }
-                (Kind::Message, Some(_)) if self.chained.is_some() && !self.connection.has_session() => {
+                (Kind::Message, Some(_)) if self.chained.is_some() && !self.connection.activity.has_session() => {
                     self.before_session(header)
                 }
                 (Kind::Message | Kind::Close, Some(_)) => {
