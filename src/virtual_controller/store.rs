@@ -53,6 +53,9 @@ impl Store {
     /// Makes the folder if it is missing. One process at a time works on a folder.
     pub fn open(folder: &Path, faults: Faults) -> Result<Self, StoreError> {
         private_folder(folder).map_err(|source| StoreError::Io { path: folder.to_owned(), source })?;
+        // Left behind by a process that was killed.
+        let temporary = folder.join(TEMPORARY);
+        remove_if_there(&temporary).map_err(|source| StoreError::Io { path: temporary, source })?;
         Ok(Self { folder: folder.to_owned(), faults })
     }
 
@@ -108,11 +111,8 @@ pub(super) fn replace_private_file(path: &Path, bytes: &[u8], faults: &Faults) -
 
 fn write_private_file(path: &Path, bytes: &[u8], faults: &Faults) -> io::Result<()> {
     // One that a killed process left behind.
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
-        _ => {}
-    }
-    let mut file = private_file(path)?;
+    remove_if_there(path)?;
+    let mut file = private_file(File::options().create_new(true), path)?;
     if faults.get().disk_full {
         let (half, _) = bytes.split_at(bytes.len() / 2);
         file.write_all(half)?;
@@ -198,7 +198,15 @@ fn decode(bytes: &[u8]) -> Result<State, Unreadable> {
     Ok(state)
 }
 
-fn private_folder(folder: &Path) -> io::Result<()> {
+fn remove_if_there(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Makes a folder and its parents, for this account only (0700).
+pub(super) fn private_folder(folder: &Path) -> io::Result<()> {
     let mut builder = DirBuilder::new();
     builder.recursive(true);
     #[cfg(unix)]
@@ -209,9 +217,9 @@ fn private_folder(folder: &Path) -> io::Result<()> {
     builder.create(folder)
 }
 
-fn private_file(path: &Path) -> io::Result<File> {
-    let mut options = OpenOptions::new();
-    options.write(true).create_new(true);
+/// Opens a file for writing; one that is made is for this account only (0600).
+pub(super) fn private_file(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
+    options.write(true);
     #[cfg(unix)]
     {
         use std::os::unix::fs::OpenOptionsExt as _;
@@ -272,6 +280,10 @@ mod tests {
         // A process that is killed runs no destructor.
         std::mem::forget(store.stage(&new).unwrap());
         assert_eq!(store.load().unwrap(), Some(old));
+        assert_eq!(names(folder.path()).len(), 2);
+        let store = Store::open(folder.path(), Faults::default()).unwrap();
+        assert_eq!(names(folder.path()), [FILE], "it holds private keys");
+        std::mem::forget(store.stage(&new).unwrap());
         store.save(&new).unwrap();
         assert_eq!(store.load().unwrap(), Some(new));
         assert_eq!(names(folder.path()), [FILE]);
