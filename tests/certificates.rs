@@ -102,7 +102,7 @@ async fn from_a_csr_to_a_running_server_with_a_ca_signed_certificate() {
         put(&files, report, &ca.sign(&saved_csr(report)));
     }
     for report in plant.run(import(&files)).await {
-        let Ok(Outcome::Imported { summary, findings }) = &report.result else { panic!("{report:?}") };
+        let Ok(Outcome::Imported { summary, findings, .. }) = &report.result else { panic!("{report:?}") };
         assert_eq!((summary.issued_by.as_str(), findings.as_slice()), ("Plant CA", &[][..]));
         let in_use = report.info.unwrap().certificate.unwrap();
         assert_eq!((in_use.kind, &in_use.summary), (CertificateType::CaSigned, summary));
@@ -165,8 +165,11 @@ async fn a_csr_is_saved_in_the_format_asked_for_and_the_key_only_for_legacy_firm
     let pem = CreateCsr { format: FileFormat::Pem, backup: true, ..csr(&files) };
     for (index, report) in plant.run(pem).await.iter().enumerate() {
         let Ok(Outcome::Csr { saved, .. }) = &report.result else { panic!("{report:?}") };
-        let in_folder: Vec<_> = fs::read_dir(saved.csr.parent().unwrap()).unwrap().map(|e| e.unwrap().path()).collect();
-        assert_eq!(in_folder, std::slice::from_ref(&saved.csr), "the older request is gone");
+        let in_folder = fs::read_dir(saved.csr.parent().unwrap()).unwrap().map(|e| e.unwrap().path());
+        let files: Vec<_> = in_folder.filter(|path| path.is_file()).collect();
+        assert_eq!(files, std::slice::from_ref(&saved.csr), "the former request made room");
+        let [former] = &saved.moved_aside[..] else { panic!("{saved:?}") };
+        assert!(former.is_file() && former.ends_with("3_csr.der") && !former.ends_with("CSR/3_csr.der"));
         assert!(fs::read_to_string(&saved.csr).unwrap().starts_with("-----BEGIN CERTIFICATE REQUEST-----\n"));
         let legacy = plant.controller(index).firmware().to_string().starts_with('7');
         assert_eq!(saved.key.is_some(), legacy);
@@ -307,11 +310,12 @@ async fn a_self_signed_certificate_is_exported_in_both_formats() {
     plant.run(self_signed()).await;
     for format in FileFormat::ALL {
         for report in plant.run(export(format)).await {
-            let Ok(Outcome::Exported { summary, file }) = &report.result else { panic!("{report:?}") };
+            let Ok(Outcome::Exported { summary, saved }) = &report.result else { panic!("{report:?}") };
             let info = report.info.unwrap();
             let expected = format!("{}/Cert/SelfSigned/1_cert.{}", info.serial, format.extension());
-            assert_eq!(file, &folder.path().join(expected));
-            assert_eq!(&Certificate::from_any(&fs::read(file).unwrap()).unwrap().summary(), summary);
+            assert_eq!(saved.file, folder.path().join(expected));
+            assert!(saved.moved_aside.is_empty(), "the same certificate in another format");
+            assert_eq!(&Certificate::from_any(&fs::read(&saved.file).unwrap()).unwrap().summary(), summary);
             assert_eq!(info.certificate.unwrap().summary, *summary);
         }
     }

@@ -88,5 +88,5 @@ fn an_import_of_settings_says_that_it_may_replace_the_keys() {
     assert_eq!(desk.add(0, "weld").0, Some(0));
     let asked = desk.typing("n\n", &["import-settings", "weld"]);
     assert_eq!(asked.code, Some(2));
-    assert!(asked.stderr.contains("activation keys if the export holds any"), "{}", asked.stderr);
+    assert!(asked.stderr.contains("activation keys if it holds any"), "{}", asked.stderr);
 }

@@ -14,6 +14,7 @@ use opcua_configurator::model::{
 use opcua_configurator::pki::{Certificate, Finding, Issuers, PrivateKey, ServerNames, self_signed};
 use opcua_configurator::protocol::{Base64Bytes, HeldCertificate, HeldCertificates, Revisioned};
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::workspace::SavedFile;
 
 /// Of current firmware, and of legacy firmware.
 const CURRENT: &str = "Weld 1";
@@ -94,7 +95,8 @@ fn export_self_signed() {
     picture(&mut window, "confirm_export_self_signed");
     click(&mut window, "OK");
     let file = window.state().model.workspace.root().join("SN0000123/Cert/SelfSigned/1_cert.pem");
-    let exported = Outcome::Exported { summary: summary(), file };
+    let moved_aside = vec![file.with_file_name("20260301_120000").join("1_cert.pem")];
+    let exported = Outcome::Exported { summary: summary(), saved: SavedFile { file, moved_aside } };
     end(&mut window, vec![Ok(exported), Err(ErrorCode::CertificateNotStored.into())]);
     picture(&mut window, "export_self_signed_completed");
 }
@@ -193,7 +195,7 @@ fn checked(findings: Vec<Finding>) -> Result<Outcome, Problem> {
 
 fn checked_with(findings: Vec<Finding>, issuers: Option<Issuers>) -> Result<Outcome, Problem> {
     let summary = CertificateSummary { issued_by: "Plant CA".into(), ..summary() };
-    Ok(Outcome::Checked { summary, findings, issuers })
+    Ok(Outcome::Checked { summary: Some(summary), findings, issuers })
 }
 
 fn summary() -> CertificateSummary {

@@ -39,7 +39,7 @@ impl Desk {
 
 #[test]
 fn settings_of_many_are_exported_and_put_back() {
-    let mut desk = Desk::with_controllers(2, FleetFirmware::Legacy);
+    let (mut desk, manager) = Desk::with_file_manager(2, FleetFirmware::Legacy);
     desk.add_user("operator1");
     desk.click("Tick all");
     desk.choose("Export…");
@@ -47,8 +47,19 @@ fn settings_of_many_are_exported_and_put_back() {
     assert!(shows(&desk.window, "At least 8 characters, or none") && !is_enabled(&desk.window, "Export"));
     type_into(&mut desk.window, "Passphrase", "correct horse");
     desk.click("Export");
-    assert!(shows(&desk.window, "Backup files of the same name"));
-    desk.confirm_and_finish("2 done");
+    assert!(shows(&desk.window, "A settings export of the same name in the workspace is overwritten"));
+    assert!(!shows(&desk.window, "ackup"), "it is an export");
+    desk.click("OK");
+    desk.wait_for("Completed");
+    // Each file, and the folder that holds them all.
+    for index in 0..2 {
+        let file = desk.file(index).strip_prefix(desk.workspace.root()).unwrap().display().to_string();
+        assert!(shows(&desk.window, &file), "{file}");
+    }
+    assert!(shows(&desk.window, "Saved in") && shows(&desk.window, &desk.workspace.root().display().to_string()));
+    let root = desk.workspace.root().to_owned();
+    desk.open_folder(&manager, &root);
+    desk.finish("2 done");
     assert!(desk.file(0).is_file() && desk.file(1).is_file());
 
     desk.add_user("operator2");
@@ -70,10 +81,13 @@ fn settings_of_many_are_exported_and_put_back() {
 
 #[test]
 fn the_file_of_one_controller_is_looked_at_before_it_is_imported() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Legacy);
+    let (mut desk, manager) = Desk::with_file_manager(1, FleetFirmware::Legacy);
     desk.click("Tick cell 1");
     desk.choose("Import…");
     desk.wait_for("option.json");
+    // The folder can be opened before there is anything in it.
+    let folder = desk.file(0).parent().unwrap().to_owned();
+    desk.open_folder(&manager, &folder);
     wait_until(&mut desk.window, PATIENCE, |window| shows(window, "Remedy"));
     assert!(!is_enabled(&desk.window, "Import"));
     desk.click("Cancel");
@@ -86,7 +100,10 @@ fn the_file_of_one_controller_is_looked_at_before_it_is_imported() {
     desk.choose("Import…");
     desk.wait_for(&format!("firmware {}", desk.plant.controller(0).firmware()));
     desk.click("Import");
-    desk.confirm_and_finish("1 done");
+    desk.click("OK");
+    desk.wait_for("Completed");
+    assert!(shows(&desk.window, "Imported from") && shows(&desk.window, &folder.display().to_string()));
+    desk.finish("1 done");
     assert_eq!(desk.users(0), 0);
 }
 

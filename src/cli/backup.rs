@@ -18,7 +18,7 @@ pub fn run(settled: &Settled, command: BackupCommand) -> Result<Ending, Problem>
     let backup = match command {
         BackupCommand::Show => settled.configuration()?.options.backup,
         BackupCommand::On | BackupCommand::Off => {
-            let lock = settled.workspace.lock()?;
+            let lock = settled.lock()?;
             let mut configuration = settled.configuration()?;
             configuration.options.backup = matches!(command, BackupCommand::On);
             settled.workspace.save(&configuration, &lock)?;

@@ -16,7 +16,8 @@ use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Opera
 use crate::model::{ControllerInfo, ErrorCode, Problem};
 use crate::pki::Severity;
 use crate::session::ManagementConnector;
-use crate::workspace::{Configuration, ControllerEntry, Passwords, Retrieved};
+use crate::ui::texts;
+use crate::workspace::{Configuration, ControllerEntry, Passwords, Retrieved, WorkspaceLock};
 
 /// What is shown of one controller's success.
 pub struct Shown {
@@ -219,11 +220,18 @@ impl Settled {
         Ok(slots.drain(..).flatten().collect())
     }
 
+    /// Takes the right to change the workspace, and clears away what a program that was killed left there.
+    pub fn lock(&self) -> Result<WorkspaceLock, Problem> {
+        let lock = self.workspace.lock()?;
+        self.workspace.remove_leftovers(&lock);
+        Ok(lock)
+    }
+
     /// Keeps what was read for the window. A window that is open keeps its own.
     fn remember(&self, chosen: &[ControllerEntry], reports: &[Report]) {
         let now = chrono::Utc::now();
         let keep = || -> Result<(), Problem> {
-            let lock = self.workspace.lock()?;
+            let lock = self.lock()?;
             let mut configuration = self.workspace.load()?.configuration;
             for (entry, report) in chosen.iter().zip(reports) {
                 let found = configuration.controllers.iter_mut().find(|c| c.name == entry.name);
@@ -256,8 +264,13 @@ impl Settled {
             self.output.text(&table(&header, &rows));
         }
         for (entry, report) in chosen.iter().zip(reports) {
-            if let Err(problem) = &report.result {
-                self.output.explain(Some(entry.name.as_str()), problem);
+            match &report.result {
+                Ok(outcome) => {
+                    for file in outcome.moved_aside() {
+                        self.output.text(&texts::moved_aside(self.output.language(), entry.name.as_str(), file));
+                    }
+                }
+                Err(problem) => self.output.explain(Some(entry.name.as_str()), problem),
             }
         }
     }
@@ -272,25 +285,9 @@ impl Settled {
         }
         let names: Vec<&str> = chosen.iter().map(|c| c.name.as_str()).collect();
         eprintln!("This changes {}:", names.join(", "));
-        for (applies, says) in [
-            (confirmation.stops_server, "the OPC UA server is stopped, and started again if it was running"),
-            (confirmation.replaces_certificate, "the server certificate of the same type is replaced"),
-            (confirmation.overwrites_backup, "backup files of the same name are replaced"),
-            (
-                confirmation.invalidates_ca_signed,
-                "below firmware 8.0.0 the CA-signed certificate becomes invalid at once, and a server that uses it stops",
-            ),
-            (confirmation.overwrites_files, "files of the same name on this computer are replaced"),
-            (confirmation.deletes_log, "the server log is deleted"),
-            (confirmation.disconnects_clients, "clients that are not trusted any more are disconnected at once"),
-            (
-                confirmation.replaces_settings,
-                "settings and users are replaced by those that were exported, and so are the activation keys if the export holds any",
-            ),
-        ] {
-            if applies {
-                eprintln!("  - {says}");
-            }
+        let language = self.output.language();
+        for sentence in texts::confirmation(confirmation) {
+            eprintln!("  - {}", sentence.text(language));
         }
         for remark in remarks {
             eprintln!("  - {remark}");

@@ -8,13 +8,15 @@ use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
 use crate::jobs::{
-    CaCertificateSource, CheckCaCertificate, CheckUserCertificate, CreateCsr, CsrFields, ExportSelfSigned,
-    ImportCaCertificate, ImportUserCertificate, Outcome, SelectCertificateType, SelfSigned, SelfSignedFields,
-    UserCertificateFiles,
+    CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, CreateCsr, CsrFields,
+    ExportSelfSigned, ImportCaCertificate, ImportUserCertificate, Outcome, RestoreCertificate, SelectCertificateType,
+    SelfSigned, SelfSignedFields, UserCertificateFiles,
 };
-use crate::model::{CertificateType, ErrorCode, FileFormat, KeyLength, Language, Problem, Validity};
+use crate::model::{
+    CertificateSummary, CertificateType, ErrorCode, FileFormat, KeyLength, Language, Problem, Validity,
+};
 use crate::pki::{Finding, Severity};
-use crate::workspace::{Configuration, ControllerEntry};
+use crate::workspace::{BackupKind, Configuration, ControllerEntry, KeyBackupSource};
 
 #[derive(Debug, Subcommand)]
 pub enum CertCommand {
@@ -47,6 +49,22 @@ pub enum CertCommand {
         #[command(flatten)]
         select: Select,
     },
+    /// Put a backup of a key back into controllers with firmware below 8.0.0, as what it was made as; --yes also accepts
+    /// what clients may complain about
+    Restore {
+        /// What it is a backup of: a self-signed certificate with its key (Cert/SelfSigned/1_key.pfx), or a signing
+        /// request with its key and the certificate from the CA (Cert/CASigned/3_key.pfx)
+        #[arg(value_name = "TYPE")]
+        kind: BackupOf,
+        /// This key file instead, such as one that was moved into a folder named after its date; for one controller
+        #[arg(long)]
+        file: Option<PathBuf>,
+        /// File with the password of the key file, "-" for standard input [default: the connection password]
+        #[arg(long, value_name = "FILE")]
+        password_file: Option<PathBuf>,
+        #[command(flatten)]
+        select: Select,
+    },
     /// Save the self-signed certificate as Cert/SelfSigned/1_cert in the controller's folder of the workspace
     Export {
         #[arg(long, value_enum, default_value_t = Format::Der)]
@@ -69,6 +87,21 @@ impl From<Kind> for CertificateType {
             Kind::SelfSigned => Self::SelfSigned,
             Kind::User => Self::UserSpecified,
             Kind::Ca => Self::CaSigned,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+pub enum BackupOf {
+    SelfSigned,
+    Ca,
+}
+
+impl From<BackupOf> for BackupKind {
+    fn from(kind: BackupOf) -> Self {
+        match kind {
+            BackupOf::SelfSigned => Self::SelfSigned,
+            BackupOf::Ca => Self::CaSigned,
         }
     }
 }
@@ -144,6 +177,7 @@ const CERTIFICATE: Presentation = Presentation {
                 "status": info.status,
                 "certificate": summary,
                 "saved": saved.as_ref().map(|s| json!({ "certificate": s.certificate, "key": s.key })),
+                "moved_aside": outcome.moved_aside(),
             }),
             cells: vec![
                 info.status.as_str().to_owned(),
@@ -166,6 +200,7 @@ const CSR: Presentation = Presentation {
                 "status": info.status,
                 "common_name": common_name,
                 "saved": { "csr": saved.csr, "key": saved.key },
+                "moved_aside": outcome.moved_aside(),
             }),
             cells: vec![info.status.as_str().to_owned(), common_name.clone(), saved.csr.display().to_string()],
         }
@@ -175,7 +210,7 @@ const CSR: Presentation = Presentation {
 pub const IMPORTED: Presentation = Presentation {
     header: &["STATUS", "ISSUED TO", "ISSUED BY", "EXPIRY", "THUMBPRINT", "WARNINGS"],
     show: |outcome, info| {
-        let Outcome::Imported { summary, findings } = outcome else {
+        let Outcome::Imported { summary, findings, moved_aside } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
@@ -183,6 +218,7 @@ pub const IMPORTED: Presentation = Presentation {
                 "status": info.status,
                 "certificate": summary,
                 "findings": findings.iter().map(finding).collect::<Vec<_>>(),
+                "moved_aside": moved_aside,
             }),
             cells: vec![
                 info.status.as_str().to_owned(),
@@ -199,15 +235,39 @@ pub const IMPORTED: Presentation = Presentation {
 const EXPORTED: Presentation = Presentation {
     header: &["EXPIRY", "THUMBPRINT", "FILE"],
     show: |outcome, _| {
-        let Outcome::Exported { summary, file } = outcome else {
+        let Outcome::Exported { summary, saved } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
-            json: json!({ "certificate": summary, "file": file }),
+            json: json!({ "certificate": summary, "file": saved.file, "moved_aside": saved.moved_aside }),
             cells: vec![
                 summary.not_after.format("%Y-%m-%d").to_string(),
                 summary.thumbprint.clone(),
-                file.display().to_string(),
+                saved.file.display().to_string(),
+            ],
+        }
+    },
+};
+
+const RESTORED: Presentation = Presentation {
+    header: &["STATUS", "ISSUED TO", "EXPIRY", "THUMBPRINT", "WARNINGS"],
+    show: |outcome, info| {
+        let Outcome::Restored { summary, findings } = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        let cell = |of: fn(&CertificateSummary) -> String| summary.as_ref().map_or("-".to_owned(), of);
+        Shown {
+            json: json!({
+                "status": info.status,
+                "certificate": summary,
+                "findings": findings.iter().map(finding).collect::<Vec<_>>(),
+            }),
+            cells: vec![
+                info.status.as_str().to_owned(),
+                cell(|summary| summary.issued_to.clone()),
+                cell(|summary| summary.not_after.format("%Y-%m-%d").to_string()),
+                cell(|summary| summary.thumbprint.clone()),
+                findings.iter().map(Finding::status).collect::<Vec<_>>().join(" "),
             ],
         }
     },
@@ -262,6 +322,18 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
         CertCommand::SelectType { kind, select } => {
             let chosen = select.resolve(&configuration)?;
             settled.batch(&configuration, &chosen, SelectCertificateType(kind.into()), &STATE)
+        }
+        CertCommand::Restore { kind, file, password_file, select } => {
+            let chosen = select.resolve(&configuration)?;
+            if file.is_some() {
+                one_only(&chosen)?;
+            }
+            let password = password_file.as_deref().map(read_secret).transpose()?;
+            let source =
+                KeyBackupSource { files: settled.workspace.certificate_files(), kind: kind.into(), chosen: file };
+            let check = CheckCertificateBackup { source: source.clone(), password: password.clone() };
+            let restore = |accept_warnings| RestoreCertificate { source, password, accept_warnings };
+            settled.import(&configuration, &chosen, check, restore, &RESTORED)
         }
         CertCommand::Export { format, select } => {
             let chosen = select.resolve(&configuration)?;

@@ -113,7 +113,7 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
     let password = password(settled, args.password_file.as_ref())?;
     // Held from the check to the save, so that two commands cannot add the same name.
-    let lock = settled.workspace.lock()?;
+    let lock = settled.lock()?;
     let mut configuration = settled.configuration()?;
     configuration.check_new(&name, &address)?;
     let Some(enrolled) = meet(settled, &name, &address, given, password)? else {
@@ -188,7 +188,7 @@ fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Endi
     let series: ControllerSeries = series.parse().map_err(|e| Problem::with_detail(ErrorCode::BadName, e))?;
     let path = file.unwrap_or_else(|| settled.workspace.connection_list_path());
     let list = ConnectionList::parse(&super::read_bounded(&path, MAX_CONNECTION_LIST_BYTES)?)?;
-    let lock = settled.workspace.lock()?;
+    let lock = settled.lock()?;
     let mut configuration = settled.configuration()?;
     let plan = list.plan(&configuration);
     let new = plan.iter().filter_map(|planned| planned.verdict.clone().ok());
@@ -225,7 +225,7 @@ fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Endi
 fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
     let password = password(settled, args.password_file.as_ref())?;
-    let lock = settled.workspace.lock()?;
+    let lock = settled.lock()?;
     let mut configuration = settled.configuration()?;
     let unknown = || Problem::with_detail(ErrorCode::UnknownController, &args.name);
     let entry = configuration.controllers.iter_mut().find(|c| c.name.as_str() == args.name).ok_or_else(unknown)?;
@@ -254,7 +254,7 @@ fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
 }
 
 fn remove(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
-    let lock = settled.workspace.lock()?;
+    let lock = settled.lock()?;
     let mut configuration = settled.configuration()?;
     if let Some(unknown) = names.iter().find(|n| configuration.find(n).is_none()) {
         return Err(Problem::with_detail(ErrorCode::UnknownController, unknown));

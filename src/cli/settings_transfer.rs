@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::batch::{Presentation, STATE, Shown};
+use super::batch::{Presentation, Shown};
 use super::secret_file::read_secret;
 use super::select::Select;
 use super::{Ending, Settled};
@@ -14,7 +14,7 @@ use crate::workspace::check_passphrase;
 #[derive(Debug, Args)]
 pub struct TransferArgs {
     /// File with the passphrase that protects the exports, at least 8 characters, "-" for standard input; without it
-    /// the connection password does
+    /// the connection password does, unless it is empty
     #[arg(long, value_name = "FILE")]
     passphrase_file: Option<PathBuf>,
     #[command(flatten)]
@@ -34,6 +34,19 @@ const EXPORTED: Presentation = Presentation {
     },
 };
 
+const IMPORTED: Presentation = Presentation {
+    header: &["STATUS", "REVISION", "FILE"],
+    show: |outcome, info| {
+        let Outcome::SettingsImported { path } = outcome else {
+            return Shown { json: json!(null), cells: Vec::new() };
+        };
+        Shown {
+            json: json!({ "status": info.status, "revision": info.revision, "file": path }),
+            cells: vec![info.status.as_str().to_owned(), info.revision.to_string(), path.display().to_string()],
+        }
+    },
+};
+
 pub fn export(settled: &Settled, args: &TransferArgs) -> Result<Ending, Problem> {
     let configuration = settled.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
@@ -48,5 +61,5 @@ pub fn import(settled: &Settled, args: &TransferArgs) -> Result<Ending, Problem>
     let chosen = args.select.resolve(&configuration)?;
     let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
     let operation = ImportSettings { files: settled.workspace.settings_files(), passphrase };
-    settled.batch(&configuration, &chosen, operation, &STATE)
+    settled.batch(&configuration, &chosen, operation, &IMPORTED)
 }

@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use async_trait::async_trait;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
 use crate::model::activation::{ActivationFile, ActivationKeys, Entry};
 use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem, SerialNumber};
 use crate::protocol;
@@ -48,7 +48,7 @@ fn legacy(firmware: FirmwareVersion) -> Result<(), Problem> {
 #[async_trait]
 impl Operation for Activate {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+        Some(Confirmation { server: ServerEffect::Restarts, ..Confirmation::default() })
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {

@@ -52,7 +52,7 @@ pub struct CreateCsr {
 #[async_trait]
 impl Operation for CreateCsr {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { invalidates_ca_signed: true, overwrites_files: true, ..Confirmation::default() })
+        Some(Confirmation { invalidates_ca_signed: true, moves_files_aside: true, ..Confirmation::default() })
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
@@ -75,8 +75,9 @@ impl CreateCsr {
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
         let legacy = info.generation() == FirmwareGeneration::Legacy;
-        let (files, serial, with_key) = (self.files.clone(), info.serial.clone(), self.backup && legacy);
-        run.off_thread(move || Ok(files.check_csr_writable(&serial, with_key)?)).await?;
+        let (files, serial) = (self.files.clone(), info.serial.clone());
+        let key_password = (self.backup && legacy).then(|| run.password.clone());
+        run.off_thread(move || files.check_csr_writable(&serial, key_password.as_ref())).await?;
         let (made, key) = if legacy {
             let (made, key) = make_and_send(run, info, request).await?;
             (made, Some(key))
@@ -89,7 +90,7 @@ impl CreateCsr {
         (run.on_step)(Step::SaveBackup);
         let (files, serial, password) = (self.files.clone(), info.serial.clone(), run.password.clone());
         let (format, key, saving) = (self.format, key.filter(|_| self.backup), csr.clone());
-        let save = move || files.save_csr(&serial, &saving, format, key.as_ref().map(|key| (key, &password)));
+        let save = move || files.save_csr(&serial, &saving, format, key.as_ref(), &password);
         Ok((csr, run.off_thread(save).await?))
     }
 }
@@ -117,6 +118,7 @@ async fn make_and_send(
         csr: Base64Bytes(csr.der().to_vec()),
         pkcs12: Base64Bytes(pkcs12),
         password: WireSecret(password),
+        certificate: None,
     };
     Ok((run.session.import_csr(change).await?, key))
 }

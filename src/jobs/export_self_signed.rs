@@ -15,7 +15,7 @@ pub struct ExportSelfSigned {
 #[async_trait]
 impl Operation for ExportSelfSigned {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { overwrites_files: true, ..Confirmation::default() })
+        Some(Confirmation { moves_files_aside: true, ..Confirmation::default() })
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
@@ -25,7 +25,10 @@ impl Operation for ExportSelfSigned {
         let missing = || Problem::with_detail(ErrorCode::CertificateNotStored, CertificateType::SelfSigned.as_str());
         let certificate = Certificate::from_der(held.value.of(CertificateType::SelfSigned).ok_or_else(missing)?)?;
         run.begin(Step::SaveBackup)?;
-        let file = self.files.export_self_signed(&info.serial, &certificate, self.format)?;
-        Ok(Outcome::Exported { summary: certificate.summary(), file })
+        let (files, format, password) = (self.files.clone(), self.format, run.password.clone());
+        let exporting = certificate.clone();
+        let export = move || files.export_self_signed(&info.serial, &exporting, format, &password);
+        let saved = run.off_thread(export).await?;
+        Ok(Outcome::Exported { summary: certificate.summary(), saved })
     }
 }

@@ -2,7 +2,7 @@ use std::path::{Path, PathBuf};
 
 use async_trait::async_trait;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, Step, preflight};
+use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
 use crate::model::{ControllerInfo, ErrorCode, Problem, SerialNumber};
 use crate::pki::{Certificate, Csr, Issuers, MAX_CERTIFICATE_FILE_BYTES, issuers_of, read_bundle};
 use crate::protocol::{Base64Bytes, ImportCaSigned};
@@ -88,7 +88,7 @@ pub struct ImportCaCertificate {
 #[async_trait]
 impl Operation for ImportCaCertificate {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, replaces_certificate: true, ..Confirmation::default() })
+        Some(Confirmation { server: ServerEffect::Restarts, replaces_certificate: true, ..Confirmation::default() })
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
@@ -106,7 +106,7 @@ impl Operation for ImportCaCertificate {
         run.begin(Step::Apply)?;
         let change = ImportCaSigned { revision: info.revision, certificate: Base64Bytes(certificate.der().to_vec()) };
         run.session.import_ca_signed(change).await?;
-        Ok(Outcome::Imported { summary: certificate.summary(), findings })
+        Ok(Outcome::Imported { summary: certificate.summary(), findings, moved_aside: Vec::new() })
     }
 }
 
@@ -125,6 +125,6 @@ impl Operation for CheckCaCertificate {
         let info = run.session.info().await?;
         let (certificate, issuers) = read_for_csr(&self.0, run, &info).await?;
         let findings = preflight::examine(run, &info, &certificate).await?;
-        Ok(Outcome::Checked { summary: certificate.summary(), findings, issuers: Some(issuers) })
+        Ok(Outcome::Checked { summary: Some(certificate.summary()), findings, issuers: Some(issuers) })
     }
 }

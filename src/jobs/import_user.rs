@@ -4,7 +4,7 @@ use async_trait::async_trait;
 use secrecy::{ExposeSecret as _, SecretString};
 
 use super::self_signed::transfer_password;
-use super::{Confirmation, JobController, Operation, Outcome, Run, Step, preflight};
+use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
 use crate::model::{CertificateType, ErrorCode, FirmwareGeneration, Problem, SerialNumber};
 use crate::pki::{
     Certificate, MAX_CERTIFICATE_FILE_BYTES, MAX_KEY_FILE_BYTES, MAX_PKCS12_BYTES, PkiError, PrivateKey, pkcs12_read,
@@ -91,7 +91,7 @@ pub struct ImportUserCertificate {
 #[async_trait]
 impl Operation for ImportUserCertificate {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, replaces_certificate: true, ..Confirmation::default() })
+        Some(Confirmation { server: ServerEffect::Restarts, replaces_certificate: true, ..Confirmation::default() })
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
@@ -124,7 +124,7 @@ impl Operation for ImportUserCertificate {
             password: WireSecret(password),
         };
         run.session.import_certificate(change).await?;
-        Ok(Outcome::Imported { summary, findings })
+        Ok(Outcome::Imported { summary, findings, moved_aside: Vec::new() })
     }
 }
 
@@ -147,6 +147,6 @@ impl Operation for CheckUserCertificate {
         let (_, certificate) = run.on_a_core(move || files.read(password.as_ref())).await??;
         let info = run.session.info().await?;
         let findings = preflight::examine(run, &info, &certificate).await?;
-        Ok(Outcome::Checked { summary: certificate.summary(), findings, issuers: None })
+        Ok(Outcome::Checked { summary: Some(certificate.summary()), findings, issuers: None })
     }
 }

@@ -15,6 +15,7 @@
 //! | `sign_csrs` | have the small CA sign what controllers ask for, and import it |
 //! | `push_authority` | give controllers the CRL and certificate of the small CA |
 //! | `import_user` | check and import key and certificate made with another tool |
+//! | `restore_certificate` | check and put back a backup of a key |
 //! | `preflight` | what is looked at before such an import |
 //! | `select_certificate` | list the server certificates held, select one |
 //! | `export_self_signed` | save the self-signed certificate on the PC |
@@ -35,6 +36,7 @@ mod import_user;
 mod operation;
 mod preflight;
 mod push_authority;
+mod restore_certificate;
 mod runner;
 mod select_certificate;
 mod self_signed;
@@ -54,8 +56,9 @@ pub use export_self_signed::ExportSelfSigned;
 pub use get_info::GetInfo;
 pub use import_ca::{CaCertificateSource, CheckCaCertificate, ImportCaCertificate};
 pub use import_user::{CheckUserCertificate, ImportUserCertificate, UserCertificateFiles};
-pub use operation::{Confirmation, Operation, Outcome, Run, Step};
+pub use operation::{Confirmation, Operation, Outcome, Run, ServerEffect, Step};
 pub use push_authority::PushAuthority;
+pub use restore_certificate::{CheckCertificateBackup, RestoreCertificate};
 pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
 pub use select_certificate::{ListCertificates, SelectCertificateType};
 pub use self_signed::{SelfSigned, SelfSignedFields};

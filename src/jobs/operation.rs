@@ -1,4 +1,4 @@
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use async_trait::async_trait;
 use secrecy::SecretString;
@@ -9,7 +9,7 @@ use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, Serve
 use crate::pki::{Finding, Issuers};
 use crate::protocol::{HeldCertificates, LogChunk, Revisioned};
 use crate::session::ControllerSession;
-use crate::workspace::{SavedCertificate, SavedCsr};
+use crate::workspace::{SavedCertificate, SavedCsr, SavedFile};
 
 /// What is done to one controller.
 #[async_trait]
@@ -35,24 +35,44 @@ pub trait Operation: Send + Sync {
     }
 }
 
-/// What an operation does that a person must agree to.
+/// What an operation does to a running OPC UA server.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum ServerEffect {
+    /// It goes on running.
+    #[default]
+    GoesOn,
+    /// It is stopped for the change, which ends all connections, and started again.
+    Restarts,
+    /// It is stopped, which ends all connections, and stays so.
+    Stops,
+}
+
+/// What an operation does that a person must agree to. What only some controllers are subject to is said as well.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Confirmation {
-    /// The OPC UA server is stopped for the change, and started again if it was running.
-    pub stops_server: bool,
-    /// The server certificate of the same type in the controller is replaced.
+    pub server: ServerEffect,
+    /// The server certificate of the same type in the controller is replaced, and the server uses the new one.
     pub replaces_certificate: bool,
-    /// Backup files of the same name on the PC are replaced.
-    pub overwrites_backup: bool,
-    /// On legacy firmware, the CA-signed certificate in the controller becomes invalid at once, and a server that uses
-    /// it stops.
+    /// The server uses another of the certificates in the controller.
+    pub changes_certificate: bool,
+    /// On legacy firmware, the CA-signed certificate in the controller becomes invalid at once. A server that uses it
+    /// stops, which ends all connections, and cannot be started until another certificate is imported or selected.
     pub invalidates_ca_signed: bool,
-    /// Files of the same name on the PC are replaced.
-    pub overwrites_files: bool,
+    /// The signing request in the controller and its key are replaced by those of a backup. If the backup holds no
+    /// certificate for them, the same follows as of [`Confirmation::invalidates_ca_signed`].
+    pub replaces_request: bool,
+    /// Clients reach the server by other ports, security policies or user tokens than before.
+    pub changes_endpoints: bool,
+    /// The server log is switched on: the server stops by itself once the log is full.
+    pub starts_log: bool,
     /// The server log in the controller is deleted.
     pub deletes_log: bool,
-    /// Settings and users in the controller are replaced by those of a file.
+    /// Settings, users and activation keys in the controller are replaced by those of a file.
     pub replaces_settings: bool,
+    /// Files on the PC that belong to a former certificate or request are moved into a folder named after their date.
+    pub moves_files_aside: bool,
+    /// A former settings export on the PC is replaced.
+    pub overwrites_export: bool,
     /// Clients that are connected and not trusted any more are disconnected. The server is not stopped.
     pub disconnects_clients: bool,
 }
@@ -87,6 +107,10 @@ pub enum Outcome {
     SettingsExported {
         path: PathBuf,
     },
+    /// The settings of this file are in the controller.
+    SettingsImported {
+        path: PathBuf,
+    },
     Certificate {
         summary: CertificateSummary,
         saved: Option<SavedCertificate>,
@@ -100,10 +124,20 @@ pub enum Outcome {
     Imported {
         summary: CertificateSummary,
         findings: Vec<Finding>,
+        /// Where the files of the former request are now, if one was made for it.
+        moved_aside: Vec<PathBuf>,
+    },
+    /// A backup of a key was put back.
+    Restored {
+        /// The certificate that the server uses now; `None` if the backup is of a signing request for which no CA has
+        /// issued a certificate.
+        summary: Option<CertificateSummary>,
+        findings: Vec<Finding>,
     },
     /// A server certificate from elsewhere was looked at.
     Checked {
-        summary: CertificateSummary,
+        /// `None`: a signing request and its key, without a certificate.
+        summary: Option<CertificateSummary>,
         findings: Vec<Finding>,
         /// Of a certificate from a CA.
         issuers: Option<Issuers>,
@@ -114,7 +148,7 @@ pub enum Outcome {
     /// A server certificate was saved on the PC.
     Exported {
         summary: CertificateSummary,
-        file: PathBuf,
+        saved: SavedFile,
     },
 }
 
@@ -124,6 +158,28 @@ impl Outcome {
         match self {
             Self::Verified(report) if !report.all_works() => Some(ErrorCode::VerifyFailed.into()),
             _ => None,
+        }
+    }
+
+    /// The file on the PC that was asked for, or that was used.
+    pub fn file(&self) -> Option<&Path> {
+        match self {
+            Self::Exported { saved, .. } => Some(&saved.file),
+            Self::Csr { saved, .. } => Some(&saved.csr),
+            Self::Certificate { saved: Some(saved), .. } => Some(&saved.certificate),
+            Self::SettingsExported { path } | Self::SettingsImported { path } => Some(path),
+            _ => None,
+        }
+    }
+
+    /// Where files on the PC are now that had to make room.
+    pub fn moved_aside(&self) -> &[PathBuf] {
+        match self {
+            Self::Exported { saved, .. } => &saved.moved_aside,
+            Self::Csr { saved, .. } => &saved.moved_aside,
+            Self::Imported { moved_aside, .. } => moved_aside,
+            Self::Certificate { saved: Some(saved), .. } => &saved.moved_aside,
+            _ => &[],
         }
     }
 }

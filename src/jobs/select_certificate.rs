@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
 use crate::model::{CertificateType, ErrorCode, FirmwareGeneration, Problem};
 use crate::protocol;
 
@@ -28,7 +28,7 @@ pub struct SelectCertificateType(pub CertificateType);
 #[async_trait]
 impl Operation for SelectCertificateType {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+        Some(Confirmation { server: ServerEffect::Restarts, changes_certificate: true, ..Confirmation::default() })
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {

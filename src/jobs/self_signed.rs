@@ -4,7 +4,7 @@ use async_trait::async_trait;
 use chrono::Utc;
 use secrecy::SecretString;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
 use crate::model::{
     CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, Subject,
     Validity,
@@ -60,9 +60,9 @@ pub(super) fn bad_request(error: impl std::fmt::Display) -> Problem {
 impl Operation for SelfSigned {
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation {
-            stops_server: true,
+            server: ServerEffect::Restarts,
             replaces_certificate: true,
-            overwrites_backup: self.backup.is_some(),
+            moves_files_aside: self.backup.is_some(),
             ..Confirmation::default()
         })
     }
@@ -80,7 +80,8 @@ impl Operation for SelfSigned {
         request.check(&settings.value.security_policies).map_err(bad_request)?;
         if let Some(files) = &self.backup {
             let (files, serial) = (files.clone(), info.serial.clone());
-            run.off_thread(move || Ok(files.check_writable(&serial)?)).await?;
+            let key_password = (info.generation() == FirmwareGeneration::Legacy).then(|| run.password.clone());
+            run.off_thread(move || files.check_writable(&serial, key_password.as_ref())).await?;
         }
         let (installed, key) = match info.generation() {
             FirmwareGeneration::Current => {
@@ -101,8 +102,7 @@ impl Operation for SelfSigned {
                 (run.on_step)(Step::SaveBackup);
                 let (files, serial, password) = (files.clone(), info.serial.clone(), run.password.clone());
                 let certificate = certificate.clone();
-                let save =
-                    move || files.save_self_signed(&serial, &certificate, key.as_ref().map(|key| (key, &password)));
+                let save = move || files.save_self_signed(&serial, &certificate, key.as_ref(), &password);
                 Some(run.off_thread(save).await?)
             }
         };

@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, Outcome, Run, Step};
+use super::{Confirmation, Operation, Outcome, Run, ServerEffect, Step};
 use crate::model::{Problem, ServerStatus};
 
 /// Starts the OPC UA server (manual 2.4.3).
@@ -31,7 +31,7 @@ pub struct StopServer;
 #[async_trait]
 impl Operation for StopServer {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+        Some(Confirmation { server: ServerEffect::Stops, ..Confirmation::default() })
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {

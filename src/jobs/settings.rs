@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, Outcome, Run, Step};
+use super::{Confirmation, Operation, Outcome, Run, ServerEffect, Step};
 use crate::model::{ErrorCode, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy};
 use crate::protocol;
 
@@ -78,7 +78,14 @@ pub struct SetSettings {
 #[async_trait]
 impl Operation for SetSettings {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, deletes_log: self.change.delete_log, ..Confirmation::default() })
+        let SettingsChange { port, security_policies, user_tokens, server_log, delete_log, startup: _ } = &self.change;
+        Some(Confirmation {
+            server: ServerEffect::Restarts,
+            changes_endpoints: port.is_some() || security_policies.is_some() || user_tokens.is_some(),
+            starts_log: *server_log == Some(true),
+            deletes_log: *delete_log,
+            ..Confirmation::default()
+        })
     }
 
     fn check(&self, controller: &super::JobController) -> Result<(), Problem> {

@@ -1,18 +1,18 @@
 use async_trait::async_trait;
 use secrecy::SecretString;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
 use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem};
 use crate::protocol::{self, WireSecret};
-use crate::workspace::{SettingsFiles, check_passphrase};
+use crate::workspace::{SettingsFiles, check_passphrase, check_protects_files};
 
 /// Saves the settings, users and keys of legacy controllers to the workspace (manual 2.6.4). The controller seals
 /// them: passwords' hashes never lie open on the PC.
 #[derive(Debug, Clone)]
 pub struct ExportSettings {
     pub files: SettingsFiles,
-    /// `None`: each controller's connection password, as with its key files; with an empty one the file mode alone
-    /// protects the export.
+    /// `None`: each controller's connection password, as with its key files; an empty one is refused
+    /// ([`ErrorCode::UnprotectedFile`]).
     pub passphrase: Option<SecretString>,
 }
 
@@ -34,7 +34,7 @@ fn legacy(firmware: FirmwareVersion) -> Result<(), Problem> {
 #[async_trait]
 impl Operation for ExportSettings {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { overwrites_backup: true, ..Confirmation::default() })
+        Some(Confirmation { overwrites_export: true, ..Confirmation::default() })
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
@@ -46,6 +46,9 @@ impl Operation for ExportSettings {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         legacy(info.firmware)?;
+        if self.passphrase.is_none() {
+            check_protects_files(run.password)?;
+        }
         let passphrase = WireSecret(self.passphrase.as_ref().unwrap_or(run.password).clone());
         let export = run.session.export_settings(protocol::ExportSettings { passphrase }).await?;
         // Another one's would be refused at the import, when it is too late.
@@ -60,7 +63,7 @@ impl Operation for ExportSettings {
 #[async_trait]
 impl Operation for ImportSettings {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, replaces_settings: true, ..Confirmation::default() })
+        Some(Confirmation { server: ServerEffect::Restarts, replaces_settings: true, ..Confirmation::default() })
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
@@ -75,17 +78,17 @@ impl Operation for ImportSettings {
         let passphrase = self.passphrase.as_ref().unwrap_or(run.password).clone();
         let tried = passphrase.clone();
         // Whatever is wrong with the file is found before anything is sent.
-        let export = run
+        let (export, path) = run
             .on_a_core(move || -> Result<_, Problem> {
-                let export = files.load(&info.serial)?;
+                let (export, path) = files.load(&info.serial)?;
                 export.check_for(&info.serial, info.series, info.firmware)?;
                 export.open(&tried)?;
-                Ok(export)
+                Ok((export, path))
             })
             .await??;
         run.begin(Step::Apply)?;
         let change = protocol::ImportSettings { revision, export, passphrase: WireSecret(passphrase) };
         run.session.import_settings(change).await?;
-        Ok(Outcome::Done)
+        Ok(Outcome::SettingsImported { path })
     }
 }

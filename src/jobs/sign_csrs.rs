@@ -5,8 +5,8 @@ use chrono::Utc;
 use parking_lot::Mutex;
 use secrecy::SecretString;
 
-use super::{Confirmation, CreateCsr, JobController, Operation, Outcome, Run, Step, preflight};
-use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, Validity};
+use super::{Confirmation, CreateCsr, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
+use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, ServerStatus, Validity};
 use crate::pki::{Certificate, Csr, IssueRequest};
 use crate::protocol::{Base64Bytes, ImportCaSigned};
 use crate::workspace::authority::{Authority, AuthorityFiles, Drafted, IssuedFor};
@@ -77,10 +77,11 @@ impl Signed {
 impl Operation for SignCsrs {
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation {
-            stops_server: true,
+            server: ServerEffect::Restarts,
             replaces_certificate: true,
-            invalidates_ca_signed: self.new_key,
-            overwrites_files: self.new_key,
+            // A request is also made where there is none.
+            invalidates_ca_signed: true,
+            moves_files_aside: true,
             ..Confirmation::default()
         })
     }
@@ -93,9 +94,12 @@ impl Operation for SignCsrs {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         let held = run.session.certificates().await?.value;
-        let csr = match &held.csr {
-            Some(csr) if !self.new_key => Csr::from_der(&csr.0)?,
-            _ => self.request.make(run, &info).await?.0,
+        let (csr, moved_aside) = match &held.csr {
+            Some(csr) if !self.new_key => (Csr::from_der(&csr.0)?, Vec::new()),
+            _ => {
+                let (csr, saved) = self.request.make(run, &info).await?;
+                (csr, saved.moved_aside)
+            }
         };
         run.begin(Step::Sign)?;
         let signed = self.sign(run, csr).await?;
@@ -109,9 +113,13 @@ impl Operation for SignCsrs {
             // Another one than above, if a request was made.
             let revision = run.session.info().await?.revision;
             let change = ImportCaSigned { revision, certificate: Base64Bytes(certificate.der().to_vec()) };
-            run.session.import_ca_signed(change).await?;
+            let imported = run.session.import_ca_signed(change).await?;
+            // On legacy firmware, a new request took the certificate away from a server that used it.
+            if info.status == ServerStatus::Run && imported.changed.status == ServerStatus::Stop {
+                run.session.start_server().await?;
+            }
         }
-        Ok(Outcome::Imported { summary: certificate.summary(), findings })
+        Ok(Outcome::Imported { summary: certificate.summary(), findings, moved_aside })
     }
 }
 

@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, Outcome, Run, Step};
+use super::{Confirmation, Operation, Outcome, Run, ServerEffect, Step};
 use crate::model::{Credential, ErrorCode, MAX_USERS, Problem, UserName};
 use crate::protocol::{self, WireSecret};
 
@@ -31,7 +31,7 @@ pub struct AddUser {
 #[async_trait]
 impl Operation for AddUser {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+        Some(Confirmation { server: ServerEffect::Restarts, ..Confirmation::default() })
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
@@ -66,7 +66,7 @@ pub struct RemoveUsers {
 #[async_trait]
 impl Operation for RemoveUsers {
     fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { stops_server: true, ..Confirmation::default() })
+        Some(Confirmation { server: ServerEffect::Restarts, ..Confirmation::default() })
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {

@@ -1049,6 +1049,21 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("口令过短", "保护导出文件或 CA 的口令至少为 8 个字符。", "请使用更长的口令。"),
     ),
     (
+        ErrorCode::UnprotectedFile,
+        text(
+            "The connection password is empty and protects no file",
+            "A backup of a key, and an export of settings without a passphrase, are protected by the connection password \
+             of the controller. With an empty one everybody who can read the file could open it, so nothing was changed.",
+            "For an export, give a passphrase. For a backup of keys, set a connection password in the controller, or \
+             switch the backup off.",
+        ),
+        text(
+            "连接密码为空，无法保护文件",
+            "密钥备份以及未设口令的设置导出文件由控制器的连接密码保护。连接密码为空时，任何能读取该文件的人都能打开，因此未做任何更改。",
+            "导出时请输入口令。备份密钥时，请在控制器中设置连接密码，或关闭备份。",
+        ),
+    ),
+    (
         ErrorCode::WorkspaceReadOnly,
         text(
             "The workspace cannot be written",

@@ -126,6 +126,7 @@ pub enum ErrorCode {
     ExportDamaged,
     WrongPassphrase,
     BadPassphrase,
+    UnprotectedFile,
     // the PC
     WorkspaceReadOnly,
     WorkspaceFull,
@@ -208,6 +209,7 @@ impl ErrorCode {
                 | AlreadyRevoked
                 | BackupDamaged
                 | BackupPassphrase
+                | UnprotectedFile
                 | Cancelled
         )
     }
@@ -328,7 +330,7 @@ mod tests {
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
-            | BadPassphrase => 7,
+            | BadPassphrase | UnprotectedFile => 8,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
             | NoDisplay | NoFilePicker | FolderNotOpened | FileTooLarge | FileNotRecognised | Cancelled | Internal => {
                 12
@@ -339,7 +341,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 12 + 20 + 14 + 14 + 14 + 1 + 4 + 1 + 7 + 12;
+        let all = 7 + 12 + 20 + 14 + 14 + 14 + 1 + 4 + 1 + 8 + 12;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

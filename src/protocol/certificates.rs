@@ -42,8 +42,11 @@ pub struct MakeCsr {
     pub request: CsrRequest,
 }
 
-/// Legacy firmware: key and CSR made on the PC. The controller has room for one key only, so its CA-signed certificate
-/// is gone from then on; a server that used it stops.
+/// Legacy firmware: key and CSR made on the PC, now or earlier (a backup). The controller has room for one key only, so
+/// its CA-signed certificate is gone from then on unless it is for the same key; a server that used it stops.
+///
+/// With `certificate`, key and certificate are replaced in one change: the certificate is installed and selected as by
+/// [`ImportCaSigned`], and a server that runs is started again with it.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCsr {
@@ -54,6 +57,9 @@ pub struct ImportCsr {
     pub pkcs12: Base64Bytes,
     /// The password of `pkcs12`, made up for this one transfer.
     pub password: WireSecret,
+    /// What a CA issued for `csr`, in DER.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub certificate: Option<Base64Bytes>,
 }
 
 /// The controller holds a new CSR.

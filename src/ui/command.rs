@@ -27,6 +27,7 @@ pub enum UiCommand {
     CaSigned,
     ExportSelfSigned,
     TypeSelect,
+    RestoreBackup,
     ClientLists,
     Crl,
     Backup,
@@ -40,7 +41,7 @@ pub enum UiCommand {
 }
 
 impl UiCommand {
-    pub const ALL: [Self; 29] = [
+    pub const ALL: [Self; 30] = [
         Self::AddController,
         Self::DeleteControllers,
         Self::ConnectionList,
@@ -60,6 +61,7 @@ impl UiCommand {
         Self::CaSigned,
         Self::ExportSelfSigned,
         Self::TypeSelect,
+        Self::RestoreBackup,
         Self::ClientLists,
         Self::Crl,
         Self::Backup,
@@ -101,6 +103,7 @@ impl UiCommand {
             Self::CaSigned => (T::CaSigned, T::CaSignedTip),
             Self::ExportSelfSigned => (T::ExportSelfSigned, T::ExportSelfSignedTip),
             Self::TypeSelect => (T::TypeSelect, T::TypeSelectTip),
+            Self::RestoreBackup => (T::RestoreBackup, T::RestoreBackupTip),
             Self::ClientLists => (T::ClientLists, T::ClientListsTip),
             Self::Crl => (T::Crl, T::CrlTip),
             Self::Backup => (T::Backup, T::BackupTip),
@@ -155,7 +158,7 @@ impl UiCommand {
             Self::ConfirmIdentity => model.ticked_unconfirmed().next().is_none().then_some(T::WhyConfirmed),
             Self::Activation if model.rows.ticked_count() == 0 => Some(T::WhyTick),
             Self::Activation => model.ticked_has_current_firmware().then_some(T::WhyActivationOption),
-            Self::ExportSettings | Self::ImportSettings => match model.rows.ticked_count() {
+            Self::ExportSettings | Self::ImportSettings | Self::RestoreBackup => match model.rows.ticked_count() {
                 0 => Some(T::WhyTick),
                 _ => model.rows.any_ticked_is_current().then_some(T::WhyLegacyOnly),
             },

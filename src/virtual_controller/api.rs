@@ -310,11 +310,14 @@ async fn make_csr(caller: Caller, body: Body) -> Answer<CsrMade> {
 }
 
 async fn import_csr(caller: Caller, body: Body) -> Answer<CsrMade> {
-    let ImportCsr { revision, csr, pkcs12, password } = read(body, Malformed::secret(ErrorCode::FileFormat)).await?;
+    let ImportCsr { revision, csr, pkcs12, password, certificate } =
+        read(body, Malformed::secret(ErrorCode::FileFormat)).await?;
+    let effect = if certificate.is_some() { Effect::Restart } else { Effect::CertificateLost };
     let outcome = caller
         .controller()
-        .change(revision, Effect::CertificateLost, move |state, _| {
-            certificate_changes::import_csr(state, &csr.0, &pkcs12.0, password.expose())
+        .change(revision, effect, move |state, around| {
+            let certificate = certificate.as_ref().map(|certificate| certificate.0.as_slice());
+            certificate_changes::import_csr(state, around, &csr.0, &pkcs12.0, password.expose(), certificate)
         })
         .await;
     let (changed, csr) = caller.settle(outcome).await?;

@@ -3,7 +3,7 @@
 
 use super::changes::install;
 use super::secret_bytes::SecretBytes;
-use super::state::{PendingCsr, State, Surroundings};
+use super::state::{KeyPair, PendingCsr, State, Surroundings};
 use crate::model::{CertificateType, CsrRequest, ErrorCode, FirmwareGeneration, Problem};
 use crate::pki::{Certificate, Csr, PkiError, PrivateKey, check_usable, make_csr as csr_for, pkcs12_read_key};
 use crate::protocol::Base64Bytes;
@@ -22,9 +22,16 @@ pub fn make_csr(state: &mut State, around: &Surroundings, request: &CsrRequest) 
     keep(state, &csr, &key)
 }
 
-/// Manual 2.7.1.5 on legacy firmware: key and CSR come from the PC, and the CA-signed certificate held so far is gone.
-/// Gives the CSR's DER.
-pub fn import_csr(state: &mut State, csr: &[u8], pkcs12: &[u8], password: &str) -> Result<Vec<u8>, Problem> {
+/// Manual 2.7.1.5 on legacy firmware: key and CSR come from the PC, and the CA-signed certificate held so far is gone
+/// unless it is for the same key. A certificate that comes with them is installed and selected. Gives the CSR's DER.
+pub fn import_csr(
+    state: &mut State,
+    around: &Surroundings,
+    csr: &[u8],
+    pkcs12: &[u8],
+    password: &str,
+    certificate: Option<&[u8]>,
+) -> Result<Vec<u8>, Problem> {
     if state.generation() == FirmwareGeneration::Current {
         return Err(ErrorCode::FirmwareTooNew.into());
     }
@@ -36,8 +43,15 @@ pub fn import_csr(state: &mut State, csr: &[u8], pkcs12: &[u8], password: &str) 
     if !state.key_length_fits(key.bits()) {
         return Err(PkiError::KeyLengthNotAllowed(key.bits()).into());
     }
-    state.certificates.remove(&CertificateType::CaSigned);
-    keep(state, &csr, &key)
+    let is_of_key = |held: &KeyPair| held.parse().is_ok_and(|certificate| csr.matches(&certificate));
+    if !state.certificates.get(&CertificateType::CaSigned).is_some_and(is_of_key) {
+        state.certificates.remove(&CertificateType::CaSigned);
+    }
+    let made = keep(state, &csr, &key)?;
+    if let Some(certificate) = certificate {
+        import_ca_signed(state, around, certificate)?;
+    }
+    Ok(made)
 }
 
 /// Manual 2.7.1.5: installs and selects what the CA issued for the CSR held here. Gives the certificate's DER.

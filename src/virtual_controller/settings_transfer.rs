@@ -2,7 +2,7 @@
 
 use argon2::Params;
 use argon2::password_hash::PasswordHash;
-use secrecy::SecretString;
+use secrecy::{ExposeSecret as _, SecretString};
 
 use super::changes;
 use super::state::{State, Surroundings, User};
@@ -12,6 +12,9 @@ use crate::protocol::{ExportContent, ExportedUser, SettingsExport};
 /// Seals what manual 2.6.1 to 2.6.3 sets.
 pub fn export(state: &State, around: &Surroundings, passphrase: &SecretString) -> Result<SettingsExport, Problem> {
     legacy(state)?;
+    if passphrase.expose_secret().is_empty() {
+        return Err(ErrorCode::BadPassphrase.into());
+    }
     let user = |user: &User| ExportedUser { name: user.name.clone(), password_hash: user.password_hash.clone() };
     let content = ExportContent {
         settings: state.settings.clone(),

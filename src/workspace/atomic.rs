@@ -21,47 +21,64 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), WorkspaceError> {
     Staged::new(path, bytes)?.persist()
 }
 
-/// Writes two files that belong together: both are whole on the disk before the first takes its name.
-///
-/// No file system renames two files at once. Between the two renames the program can be killed or the power fail, and
-/// then the first is new and the second old; so the first should be the one that is of use alone.
-pub fn write_pair_atomic(first: (&Path, &[u8]), second: (&Path, &[u8])) -> Result<(), WorkspaceError> {
-    let (first, second) = (Staged::new(first.0, first.1)?, Staged::new(second.0, second.1)?);
-    first.persist()?;
-    second.persist()
+/// Opens a lock file, readable by its owner only; makes it, and its folder, if they are missing.
+pub(super) fn open_lock_file(path: &Path) -> Result<fs::File, WorkspaceError> {
+    if let Some(folder) = path.parent() {
+        create_folder(folder)?;
+    }
+    let mut options = fs::File::options();
+    options.create(true).write(true).truncate(false);
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options.open(path).map_err(|e| WorkspaceError::writing(path, e))
+}
+
+/// Makes renames in a folder outlive a power cut. Windows does so by itself.
+pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
+    #[cfg(unix)]
+    fs::File::open(folder)?.sync_all()?;
+    #[cfg(not(unix))]
+    let _ = folder;
+    Ok(())
 }
 
 /// A file that is whole on the disk and has only to take its name; removed if it does not.
-struct Staged<'a> {
+pub(super) struct Staged<'a> {
     path: &'a Path,
     folder: &'a Path,
     file: tempfile::NamedTempFile,
 }
 
 impl<'a> Staged<'a> {
-    fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, WorkspaceError> {
+    pub(super) fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, WorkspaceError> {
         // A bare name is in the current folder.
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         create_folder(folder)?;
         let failed = |e| WorkspaceError::writing(path, e);
         // `tempfile` makes it 0600.
         let mut file = tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder).map_err(failed)?;
+        // Tells other processes that it is being written. Not every file system has locks.
+        let locked = file.as_file().try_lock().is_ok();
         file.write_all(bytes).map_err(failed)?;
         file.as_file().sync_all().map_err(failed)?;
+        if locked {
+            file.as_file().unlock().map_err(failed)?;
+        }
         Ok(Self { path, folder, file })
     }
 
-    fn persist(self) -> Result<(), WorkspaceError> {
+    pub(super) fn persist(self) -> Result<(), WorkspaceError> {
         let failed = |e| WorkspaceError::writing(self.path, e);
         self.file.persist(self.path).map_err(|e| failed(e.error))?;
-        #[cfg(unix)]
-        fs::File::open(self.folder).and_then(|f| f.sync_all()).map_err(failed)?;
-        Ok(())
+        sync_folder(self.folder).map_err(failed)
     }
 }
 
 /// Removes temporary files that a program which was killed left under a folder: only files, only under the names
-/// [`write_atomic`] gives them, and only when nobody can still be writing them. Returns how many.
+/// [`write_atomic`] gives them, and none that another process is writing. Returns how many.
+///
+/// A file that is being written is locked, or younger than [`YOUNG`]. Where the file system has no locks, a file is left
+/// alone for [`NEVER_WRITTEN_FOR`].
 pub(super) fn remove_leftovers(root: &Path, now: SystemTime) -> usize {
     let mut removed = 0;
     let mut folders = vec![(root.to_owned(), 0)];
@@ -76,7 +93,7 @@ pub(super) fn remove_leftovers(root: &Path, now: SystemTime) -> usize {
             let age = meta.modified().ok().and_then(|modified| now.duration_since(modified).ok());
             let is_leftover = meta.is_file()
                 && entry.file_name().to_str().is_some_and(is_temporary_name)
-                && age.is_some_and(|age| age > LEFTOVER_AGE);
+                && age.is_some_and(|age| age > YOUNG && (age > NEVER_WRITTEN_FOR || is_unlocked(&entry.path())));
             if is_leftover && fs::remove_file(entry.path()).is_ok() {
                 removed += 1;
             }
@@ -85,14 +102,20 @@ pub(super) fn remove_leftovers(root: &Path, now: SystemTime) -> usize {
     removed
 }
 
+fn is_unlocked(path: &Path) -> bool {
+    fs::File::options().write(true).open(path).is_ok_and(|file| file.try_lock().is_ok())
+}
+
 fn is_temporary_name(name: &str) -> bool {
     let random = |rest: &str| rest.len() == 6 && rest.bytes().all(|byte| byte.is_ascii_alphanumeric());
     name.strip_prefix(TEMPORARY).is_some_and(random)
 }
 
 const TEMPORARY: &str = ".writing-";
-/// Nobody takes so long to write a file.
-const LEFTOVER_AGE: Duration = Duration::from_secs(60 * 60);
+/// From making a file to locking it, and from unlocking it to renaming it, a process takes far less.
+const YOUNG: Duration = Duration::from_secs(60);
+/// No process takes so long to write a file.
+const NEVER_WRITTEN_FOR: Duration = Duration::from_secs(60 * 60);
 /// `<workspace>/<serial>/Cert/<kind>`.
 const MAX_DEPTH: usize = 3;
 const MAX_ENTRIES: usize = 20_000;
@@ -119,18 +142,6 @@ mod tests {
     }
 
     #[test]
-    fn a_pair_is_written_whole_or_not_at_all() {
-        let folder = tempfile::tempdir().unwrap();
-        let (key, certificate) = (folder.path().join("1_key.pfx"), folder.path().join("1_cert.der"));
-        write_pair_atomic((&key, b"k1"), (&certificate, b"c1")).unwrap();
-        // The second cannot even be staged: the first stays what it was.
-        let nowhere = key.join("below a file/1_cert.der");
-        write_pair_atomic((&key, b"k2"), (&nowhere, b"c2")).unwrap_err();
-        assert_eq!((fs::read(&key).unwrap(), fs::read(&certificate).unwrap()), (b"k1".to_vec(), b"c1".to_vec()));
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2, "no temporary file is left");
-    }
-
-    #[test]
     fn only_old_files_of_our_own_are_leftovers() {
         let root = tempfile::tempdir().unwrap();
         let deep = root.path().join("SN1/Cert/SelfSigned");
@@ -146,9 +157,13 @@ mod tests {
             std::os::unix::fs::symlink(outside.path(), root.path().join("link")).unwrap();
             std::os::unix::fs::symlink(outside.path(), root.path().join(".writing-linked")).unwrap();
         }
-        assert_eq!(remove_leftovers(root.path(), SystemTime::now()), 0, "somebody may still be writing them");
-        let later = SystemTime::now() + LEFTOVER_AGE + Duration::from_secs(60);
-        assert_eq!(remove_leftovers(root.path(), later), 2);
+        assert_eq!(remove_leftovers(root.path(), SystemTime::now()), 0, "too young");
+        let later = SystemTime::now() + YOUNG + Duration::from_secs(1);
+        let writing = fs::File::options().write(true).open(root.path().join(".writing-Zz09aA")).unwrap();
+        writing.lock().unwrap();
+        assert_eq!(remove_leftovers(root.path(), later), 1, "the other one is being written");
+        drop(writing);
+        assert_eq!(remove_leftovers(root.path(), later), 1);
         assert!(!deep.join(".writing-abc123").exists() && outside.path().join(".writing-abc123").exists());
         assert_eq!(fs::read_dir(&deep).unwrap().count(), 5);
     }

@@ -45,16 +45,22 @@ pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, Problem> {
 /// The contents of the other certificate files in the folder of one, of at most 50. One that cannot be read
 /// is passed over: nobody asked for it. Blocks.
 pub fn certificate_files_beside(path: &Path) -> Vec<Vec<u8>> {
-    let Some(files) = path.parent().and_then(|folder| fs::read_dir(folder).ok()) else { return Vec::new() };
+    let Some(folder) = path.parent() else { return Vec::new() };
+    let files = certificate_files_in(folder).into_iter().filter(|file| file != path);
+    files.take(MAX_BESIDE).filter_map(|file| read_import_file(&file, MAX_CERTIFICATE_FILE_BYTES).ok()).collect()
+}
+
+/// The files of a folder that are certificates by their extension, sorted. Blocks.
+pub(super) fn certificate_files_in(folder: &Path) -> Vec<PathBuf> {
+    let Ok(files) = fs::read_dir(folder) else { return Vec::new() };
     let is_certificate = |file: &PathBuf| {
         let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-        file != path && CERTIFICATE_EXTENSIONS.iter().any(|known| extension.eq_ignore_ascii_case(known))
+        CERTIFICATE_EXTENSIONS.iter().any(|known| extension.eq_ignore_ascii_case(known))
     };
     let mut files: Vec<PathBuf> =
         files.take(MAX_LISTED).filter_map(|entry| Some(entry.ok()?.path())).filter(is_certificate).collect();
     files.sort();
-    let read = |file: &PathBuf| read_import_file(file, MAX_CERTIFICATE_FILE_BYTES).ok();
-    files.iter().take(MAX_BESIDE).filter_map(read).collect()
+    files
 }
 
 const CERTIFICATE_EXTENSIONS: [&str; 4] = ["der", "cer", "crt", "pem"];

@@ -10,8 +10,9 @@
 //!   <serial>/option.json             settings export of one controller (manual 2.6.4)
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
 //!   <serial>/Cert/CSR/…              the signing request made last
-//!   <serial>/Cert/CASigned/…         where what the CA issued for it is put
+//!   <serial>/Cert/CASigned/…         where what the CA issued for it is put; the key of the request with backup on
 //!   <serial>/Cert/UserSpecified/…    where what other tools made is put
+//!   <serial>/Cert/<kind>/<date>/…    what was there before and belongs together, see `file_sets`
 //! ```
 //!
 //! Every file is written under a temporary name, flushed and renamed, readable by its owner only: a reader sees the
@@ -22,7 +23,9 @@ pub mod authority;
 mod certificate_files;
 mod configuration;
 mod connection_list;
+mod file_sets;
 mod import_files;
+mod key_backups;
 mod own_identity;
 mod passwords;
 mod recognise;
@@ -35,8 +38,8 @@ use std::path::{Path, PathBuf};
 use chrono::Utc;
 use thiserror::Error;
 
-pub use atomic::{write_atomic, write_pair_atomic};
-pub use certificate_files::{CertificateFiles, SavedCertificate, SavedCsr};
+pub use atomic::write_atomic;
+pub use certificate_files::{CertificateFiles, SavedCertificate, SavedCsr, SavedFile};
 pub use configuration::{
     Configuration, ControllerEntry, MAX_PARALLELISM, Options, Retrieved, ThemeChoice, WindowState,
 };
@@ -45,8 +48,11 @@ pub use connection_list::{
     NewConnection, PlannedConnection, Skipped,
 };
 pub use import_files::{certificate_files_beside, read_import_file};
+pub use key_backups::{BackupKind, KeyBackup, KeyBackupSource};
 pub use own_identity::{OwnIdentity, OwnIdentityFiles};
-pub use passwords::{KeyringPasswords, MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase};
+pub use passwords::{
+    KeyringPasswords, MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase, check_protects_files,
+};
 pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
 pub use settings_files::SettingsFiles;
 
@@ -124,14 +130,8 @@ fn read_bounded(path: &Path, max: u64) -> io::Result<Vec<u8>> {
 
 /// Makes the folder, if need be, and takes it for whoever keeps the lock.
 fn lock_folder(folder: &Path) -> Result<WorkspaceLock, WorkspaceError> {
-    atomic::create_folder(folder)?;
     let path = folder.join(LOCK);
-    let file = File::options()
-        .create(true)
-        .write(true)
-        .truncate(false)
-        .open(&path)
-        .map_err(|e| WorkspaceError::writing(&path, e))?;
+    let file = atomic::open_lock_file(&path)?;
     match file.try_lock() {
         Ok(()) => Ok(WorkspaceLock { _file: file }),
         Err(TryLockError::WouldBlock) => Err(WorkspaceError::Busy(folder.to_owned())),
@@ -325,6 +325,12 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let workspace = Workspace::new(folder.path());
         let held = workspace.lock().unwrap();
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            let mode = fs::metadata(folder.path().join(LOCK)).unwrap().permissions().mode();
+            assert_eq!(mode & 0o777, 0o600, "private like the rest");
+        }
         assert!(matches!(workspace.lock(), Err(WorkspaceError::Busy(_))));
         drop(held);
         assert!(workspace.lock().is_ok());

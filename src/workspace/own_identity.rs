@@ -70,11 +70,9 @@ impl OwnIdentityFiles {
     }
 
     fn lock(&self) -> Result<File, WorkspaceError> {
-        atomic::create_folder(&self.folder)?;
         let path = self.folder.join(LOCK);
-        let failed = |e| WorkspaceError::writing(&path, e);
-        let file = File::options().create(true).write(true).truncate(false).open(&path).map_err(failed)?;
-        file.lock().map_err(failed)?;
+        let file = atomic::open_lock_file(&path)?;
+        file.lock().map_err(|e| WorkspaceError::writing(&path, e))?;
         Ok(file)
     }
 }
@@ -142,6 +140,7 @@ mod tests {
             use std::os::unix::fs::PermissionsExt as _;
             let mode = |p: &Path| std::fs::metadata(p).unwrap().permissions().mode() & 0o777;
             assert_eq!(mode(&made[0].key_path), 0o600);
+            assert_eq!(mode(&files.folder.join(LOCK)), 0o600);
             assert_eq!(mode(made[0].key_path.parent().unwrap()), 0o700);
         }
     }

@@ -30,6 +30,14 @@ pub fn check_passphrase(passphrase: &SecretString) -> Result<(), Problem> {
     Ok(())
 }
 
+/// Refuses to protect a file by a connection password that is empty ([`ErrorCode::UnprotectedFile`]).
+pub fn check_protects_files(connection_password: &SecretString) -> Result<(), Problem> {
+    if connection_password.expose_secret().is_empty() {
+        return Err(ErrorCode::UnprotectedFile.into());
+    }
+    Ok(())
+}
+
 /// For the time the program runs only.
 #[derive(Default)]
 pub struct MemoryPasswords(Mutex<HashMap<Fingerprint, SecretString>>);

@@ -42,15 +42,15 @@ impl SettingsFiles {
         Ok(path)
     }
 
-    /// The controller's export, whole, but of whom and whether it opens is still to be seen. An export under another
-    /// name is not looked for, but said to be there (manual 2.6.5).
-    pub fn load(&self, serial: &SerialNumber) -> Result<SettingsExport, Problem> {
+    /// The controller's export and its file, whole, but of whom and whether it opens is still to be seen. An export
+    /// under another name is not looked for, but said to be there (manual 2.6.5).
+    pub fn load(&self, serial: &SerialNumber) -> Result<(SettingsExport, PathBuf), Problem> {
         if let Some(file) = &self.chosen {
-            return Ok(SettingsExport::from_json(&read_import_file(file, MAX_EXPORT_BYTES)?)?);
+            return Ok((SettingsExport::from_json(&read_import_file(file, MAX_EXPORT_BYTES)?)?, file.clone()));
         }
         let path = self.path(serial);
         match read(&path) {
-            Ok(bytes) => Ok(SettingsExport::from_json(&bytes)?),
+            Ok(bytes) => Ok((SettingsExport::from_json(&bytes)?, path)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => match renamed(&path) {
                 Some(found) => Err(Problem::with_detail(ErrorCode::ExportRenamed, found.display())),
                 None => Err(Problem::with_detail(ErrorCode::ExportMissing, path.display())),

@@ -8,7 +8,10 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use opcua::client::{ClientBuilder, IdentityToken, Session};
-use opcua::types::{MessageSecurityMode, StatusCode, UserTokenPolicy, UserTokenType};
+use opcua::types::{
+    MessageSecurityMode, NodeId, ReadValueId, StatusCode, TimestampsToReturn, UserTokenPolicy, UserTokenType,
+    VariableId,
+};
 use opcua_configurator::pki::{Bundle, Certificate, Crl};
 use rcgen::{
     BasicConstraints, CertificateParams, CertificateRevocationListParams, CertifiedIssuer, DnType,
@@ -202,6 +205,13 @@ impl Client {
             status = &mut events => Err(status.unwrap()),
             () = tokio::time::sleep(PATIENCE) => panic!("neither connected nor refused"),
         }
+    }
+
+    /// Whether the server answers a request over this connection.
+    pub async fn is_answered(&self) -> bool {
+        let state = ReadValueId::from(NodeId::from(VariableId::Server_ServerStatus_State));
+        let read = self.session.read(std::slice::from_ref(&state), TimestampsToReturn::Neither, 0.0);
+        timeout(PATIENCE, read).await.is_ok_and(|answer| answer.is_ok())
     }
 
     /// The server ends the connection.

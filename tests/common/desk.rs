@@ -35,8 +35,12 @@ impl Desk {
 
     /// `more`: further arguments of `virtual`.
     pub fn with(count: usize, more: &[&str]) -> Self {
+        Self::with_password("plant-password", count, more)
+    }
+
+    pub fn with_password(password: &str, count: usize, more: &[&str]) -> Self {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("password"), "plant-password\r\n").unwrap();
+        fs::write(folder.path().join("password"), format!("{password}\r\n")).unwrap();
         fs::write(folder.path().join("user-password"), "Passw0rd1\n").unwrap();
         let mut controllers = Running::start(
             program()

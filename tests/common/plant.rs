@@ -25,16 +25,22 @@ pub struct Plant {
 
 impl Plant {
     pub async fn start(count: usize, firmware: FleetFirmware) -> Self {
-        Self::made(count, firmware, true).await
+        Self::made(count, firmware, true, PASSWORD).await
+    }
+
+    /// Controllers whose connection password is empty.
+    #[allow(dead_code, reason = "not every story needs them")]
+    pub async fn without_password(count: usize, firmware: FleetFirmware) -> Self {
+        Self::made(count, firmware, true, "").await
     }
 
     /// Legacy controllers whose OPC UA function nobody has paid for yet.
     #[allow(dead_code, reason = "not every story needs them")]
     pub async fn not_activated(count: usize) -> Self {
-        Self::made(count, FleetFirmware::Legacy, false).await
+        Self::made(count, FleetFirmware::Legacy, false, PASSWORD).await
     }
 
-    async fn made(count: usize, firmware: FleetFirmware, activated: bool) -> Self {
+    async fn made(count: usize, firmware: FleetFirmware, activated: bool, password: &str) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let fleet = Fleet::start(FleetConfig {
             count,
@@ -43,7 +49,7 @@ impl Plant {
             opcua_port: 0,
             firmware,
             activated,
-            password: SecretString::from(PASSWORD),
+            password: SecretString::from(password),
             data: folder.path().to_owned(),
             admission: AdmissionOptions::default(),
             seed: 7,
@@ -52,7 +58,7 @@ impl Plant {
         .unwrap();
         let passwords = Arc::new(MemoryPasswords::default());
         for controller in fleet.controllers() {
-            passwords.set(controller.fingerprint(), SecretString::from(PASSWORD)).unwrap();
+            passwords.set(controller.fingerprint(), SecretString::from(password)).unwrap();
         }
         let timeouts = Timeouts {
             connect: Duration::from_secs(5),

@@ -1,13 +1,14 @@
 //! An engineer's desk: a plant of virtual controllers, and the real window over it. Each story adds what it needs.
 #![allow(dead_code, reason = "a story uses a part of it")]
 
-use std::path::Path;
-use std::sync::Arc;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::Operation;
+use opcua_configurator::model::Problem;
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
-use opcua_configurator::ui::picker::{FilePicker, FixedPicker};
+use opcua_configurator::ui::picker::{FileKind, FilePicker, FixedPicker, Picked};
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
 
@@ -26,7 +27,38 @@ pub struct Desk {
     pub folder: tempfile::TempDir,
 }
 
+/// A desktop whose file manager shows every folder, and which offers no files.
+#[derive(Debug, Clone, Default)]
+pub struct FileManager(Arc<Mutex<Vec<PathBuf>>>);
+
+impl FilePicker for FileManager {
+    fn pick(&self, _kind: FileKind, _title: String, done: Picked) {
+        done(Ok(None));
+    }
+
+    fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
+        self.0.lock().unwrap().push(folder.to_owned());
+        Ok(())
+    }
+}
+
 impl Desk {
+    /// As [`Desk::with_controllers`], with a file manager.
+    pub fn with_file_manager(count: usize, firmware: FleetFirmware) -> (Self, FileManager) {
+        let manager = FileManager::default();
+        let desk = Self::start(|| Plant::start(count, firmware), listed, None, |_| manager.clone());
+        (desk, manager)
+    }
+
+    /// Presses "Open folder", and waits until the file manager has shown this one.
+    pub fn open_folder(&mut self, manager: &FileManager, folder: &Path) {
+        self.click("Open folder");
+        wait_until(&mut self.window, PATIENCE, |_| {
+            manager.0.lock().unwrap().last().is_some_and(|opened| opened == folder)
+        });
+        assert!(folder.is_dir());
+    }
+
     /// A plant, and a window whose list is empty.
     pub fn empty(count: usize, firmware: FleetFirmware) -> Self {
         Self::start(|| Plant::start(count, firmware), |_| Configuration::default(), None, |_| FixedPicker(Ok(None)))

@@ -282,7 +282,7 @@ impl Seeds<'_> {
             "import-certificate": ImportCertificate { revision, kind, pkcs12: pkcs12(), password: secret() },
             "select-certificate": SelectCertificate { revision, kind },
             "make-csr": MakeCsr { revision, request: CsrRequest { subject: subject.clone(), key_length } },
-            "import-csr": ImportCsr { revision, csr: der(), pkcs12: pkcs12(), password: secret() },
+            "import-csr": ImportCsr { revision, csr: der(), pkcs12: pkcs12(), password: secret(), certificate: None },
             "import-ca-signed": ImportCaSigned { revision, certificate: der() },
             "edit-trust": EditTrust {
                 revision,

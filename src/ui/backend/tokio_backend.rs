@@ -169,7 +169,7 @@ async fn remember(
 
 /// What can be said of an export without its passphrase; whatever would keep it from being imported is a problem now.
 fn look_at_export(files: &SettingsFiles, of: &ControllerInfo) -> Result<ExportFound, Problem> {
-    let export = files.load(&of.serial)?;
+    let (export, _) = files.load(&of.serial)?;
     export.check_for(&of.serial, of.series, of.firmware)?;
     Ok(ExportFound { exported: export.exported, firmware: export.firmware })
 }

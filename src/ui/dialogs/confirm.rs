@@ -12,30 +12,10 @@ pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, 
     let buttons = Buttons { submit: Some((text(T::Ok), None)), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, task.title(), names);
     dialog(ui, "confirm", &title, theme::DIALOG, buttons, |ui| {
-        let Confirmation {
-            stops_server,
-            replaces_certificate,
-            overwrites_backup,
-            deletes_log,
-            invalidates_ca_signed,
-            overwrites_files,
-            replaces_settings,
-            disconnects_clients,
-        } = confirmation;
-        let stops = if matches!(task, Task::Stop) { T::ConfirmStop } else { T::ConfirmStops };
-        let remarks = [
-            (matches!(task, Task::TrustConfigurator), T::ConfirmTrustConfigurator),
-            (stops_server, stops),
-            (replaces_certificate, T::ConfirmReplaces),
-            (overwrites_backup, T::ConfirmBackup),
-            (deletes_log, T::ConfirmDeletesLog),
-            (invalidates_ca_signed, T::ConfirmInvalidatesCaSigned),
-            (overwrites_files, T::ConfirmOverwrites),
-            (replaces_settings, T::ConfirmReplacesSettings),
-            (disconnects_clients, T::ConfirmDisconnectsClients),
-        ];
-        let mut remarks: Vec<T> =
-            remarks.into_iter().filter_map(|(applies, remark)| applies.then_some(remark)).collect();
+        let mut remarks = texts::confirmation(confirmation);
+        if matches!(task, Task::TrustConfigurator) {
+            remarks.insert(0, T::ConfirmTrustConfigurator);
+        }
         let color = if remarks.is_empty() { palette(ui).accent } else { palette(ui).warning };
         if remarks.is_empty() {
             remarks.push(T::ConfirmDisturbsNobody);

@@ -18,8 +18,10 @@ pub fn show(ui: &Ui, review: &ImportReview, model: &Model) -> Answer {
     dialog(ui, "import review", &title, theme::DIALOG_WIDE, buttons, |ui| {
         if importable > 0 {
             note(ui, palette(ui).warning, |ui| {
-                ui.add(Label::new(text(T::ConfirmStops)).wrap());
-                ui.add(Label::new(text(T::ConfirmReplacesImport)).wrap());
+                let import = review.source.import(review.warns(), &model.workspace);
+                for remark in import.confirmation().map(texts::confirmation).unwrap_or_default() {
+                    ui.add(Label::new(text(remark)).wrap());
+                }
             });
             ui.add_space(theme::SPACE);
         }
@@ -54,11 +56,14 @@ fn one(ui: &mut Ui, name: &str, found: &Result<Checked, Problem>, model: &Model)
                 }
             }
             Ok(checked) => {
-                fine_print(ui, &texts::stored_certificate(language, &checked.summary, model.zone));
+                match &checked.summary {
+                    Some(summary) => fine_print(ui, &texts::stored_certificate(language, summary, model.zone)),
+                    None => fine_print(ui, T::RestoreRequestOnly.text(language)),
+                }
                 if let Some(issuers) = &checked.issuers {
                     chain(ui, issuers, model);
                 }
-                if checked.findings.is_empty() {
+                if checked.findings.is_empty() && checked.summary.is_some() {
                     word(ui, T::FindingNone.text(language), palette.ok);
                 }
                 for finding in &checked.findings {

@@ -16,6 +16,7 @@ mod import_review;
 mod options;
 mod password;
 mod processing;
+mod restore;
 mod self_signed;
 mod server_log;
 mod settings;
@@ -82,10 +83,11 @@ fn one(ui: &Ui, dialog: &mut Dialog, on_top: bool, focus: bool, model: &Model, m
         Dialog::ExportSelfSigned(form) => export_self_signed::show(ui, form, model, messages),
         Dialog::CaSigned(form) => ca_signed::show(ui, form, model, messages),
         Dialog::UserSpecified(form) => user_specified::show(ui, form, focus, model, messages),
+        Dialog::Restore(form) => restore::show(ui, form, focus, model, messages),
         Dialog::ImportReview(review) => import_review::show(ui, review, model),
         Dialog::ServerLog(log) => server_log::show(ui, log, model, messages),
         Dialog::Verify(view) => verify::show(ui, view, model, messages),
-        Dialog::Transfer(form) => transfer::show(ui, form, focus, model),
+        Dialog::Transfer(form) => transfer::show(ui, form, focus, model, messages),
         Dialog::Trust(form) => trust::show(ui, form, on_top, model, messages),
         Dialog::AddTrust(form) => trust::add(ui, form, focus, model, messages),
         Dialog::DeleteTrust(asked) => trust::delete(ui, asked, model),

@@ -65,5 +65,6 @@ pub fn backup(ui: &Ui, on: &mut bool, model: &Model) -> Answer {
         ui.add(Label::new(RichText::new(folder).monospace().color(palette(ui).weak)).wrap().selectable(true));
         ui.add_space(theme::SPACE);
         fine_print(ui, text(T::BackupKeys));
+        fine_print(ui, text(T::BackupRestore));
     })
 }

@@ -1,9 +1,11 @@
+use std::path::{Path, PathBuf};
+
 use egui::{Align, Frame, Label, Layout, ProgressBar, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
 use super::{error, trust};
 use crate::protocol::CutClient;
 use crate::ui::model::trust::TrustAction;
-use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState};
+use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState, Task};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, chip, dialog, note, path_line};
@@ -72,16 +74,22 @@ fn bar(ui: &mut Ui, job: &Job, model: &Model) {
     ui.add_space(theme::SPACE);
 }
 
-/// The folder of what was saved: the controller's own, or for several the one that holds theirs.
+/// The folders of what was saved, and of what had to make room for it.
 fn saved(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {
-    let mut files = job.rows.iter().filter_map(|row| row.saved.as_deref());
-    let Some(first) = files.next() else { return };
-    let folder = match (files.next(), first.parent()) {
-        (None, Some(folder)) => folder,
-        _ => model.workspace.root(),
-    };
+    let files: Vec<&Path> = job.rows.iter().filter_map(|row| row.saved.as_deref()).collect();
+    let said = if matches!(job.task, Task::ImportSettings { .. }) { T::ImportedFrom } else { T::SavedIn };
+    folder_of(ui, said, &files, model, messages);
+    let moved: Vec<&Path> = job.rows.iter().flat_map(|row| &row.moved_aside).map(PathBuf::as_path).collect();
+    folder_of(ui, T::MovedAside, &moved, model, messages);
+}
+
+/// The folder that holds all these files: their own, or the nearest above.
+fn folder_of(ui: &mut Ui, said: T, files: &[&Path], model: &Model, messages: &mut Vec<Message>) {
+    let Some(first) = files.first().and_then(|file| file.parent()) else { return };
+    let holds_all = |folder: &&Path| files.iter().all(|file| file.starts_with(folder));
+    let folder = first.ancestors().find(holds_all).unwrap_or(model.workspace.root());
     ui.add_space(theme::SPACE);
-    ui.label(RichText::new(T::SavedIn.text(model.language)).size(theme::SMALL_TEXT).color(palette(ui).weak));
+    ui.label(RichText::new(said.text(model.language)).size(theme::SMALL_TEXT).color(palette(ui).weak));
     path_line(ui, folder, true, model.language, messages);
 }
 

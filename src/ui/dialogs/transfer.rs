@@ -1,13 +1,13 @@
 use egui::{Label, RichText, Ui};
 
 use super::error;
-use crate::ui::model::{Model, Preview, Transfer, TransferForm};
+use crate::ui::model::{Message, Model, Preview, Transfer, TransferForm};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, secret_field};
+use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, path_line, secret_field};
 
 /// Export or import of settings, for one controller or many (manual 2.6.4, 2.6.5).
-pub fn show(ui: &Ui, transfer: &mut TransferForm, focus: bool, model: &Model) -> Answer {
+pub fn show(ui: &Ui, transfer: &mut TransferForm, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
     let text = |key: T| key.text(model.language);
     let (title, submit, what) = match transfer.transfer {
         Transfer::Export => (T::ExportTitle, T::ExportButton, T::ExportText),
@@ -19,7 +19,7 @@ pub fn show(ui: &Ui, transfer: &mut TransferForm, focus: bool, model: &Model) ->
     dialog(ui, "transfer", &title, theme::DIALOG, buttons, |ui| {
         ui.add(Label::new(text(what)).wrap());
         ui.add_space(theme::SPACE_LARGE);
-        form(ui, "transfer", |ui| fields(ui, transfer, focus, model));
+        form(ui, "transfer", |ui| fields(ui, transfer, focus, model, messages));
         if let Preview::Unfit(problem) = &transfer.preview {
             ui.add_space(theme::SPACE);
             note(ui, palette(ui).error, |ui| {
@@ -31,7 +31,7 @@ pub fn show(ui: &Ui, transfer: &mut TransferForm, focus: bool, model: &Model) ->
     })
 }
 
-fn fields(ui: &mut Ui, transfer: &mut TransferForm, focus: bool, model: &Model) {
+fn fields(ui: &mut Ui, transfer: &mut TransferForm, focus: bool, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
     let export = transfer.transfer == Transfer::Export;
     labelled(ui, text(T::File), |ui| {
@@ -41,6 +41,10 @@ fn fields(ui: &mut Ui, transfer: &mut TransferForm, focus: bool, model: &Model) 
         if !transfer.path_of_one {
             fine_print(ui, text(T::FilePerSerial));
         }
+        None
+    });
+    labelled(ui, text(T::Folder), |ui| {
+        path_line(ui, transfer.folder(model), true, model.language, messages);
         None
     });
     match &transfer.preview {

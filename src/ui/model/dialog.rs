@@ -3,8 +3,8 @@ use std::collections::BTreeSet;
 use super::trust::{AddTrustForm, DeleteTrust, DetailsView, TrustForm};
 use super::{
     ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, DropForm,
-    ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose, RowId, Task, TransferForm, TypeSelectForm,
-    UserSpecifiedForm, VerifyView,
+    ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose, RestoreForm, RowId, Task, TransferForm,
+    TypeSelectForm, UserSpecifiedForm, VerifyView,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -31,6 +31,7 @@ pub enum Dialog {
     ExportSelfSigned(ExportForm),
     CaSigned(CaSignedForm),
     UserSpecified(UserSpecifiedForm),
+    Restore(RestoreForm),
     ImportReview(ImportReview),
     Transfer(TransferForm),
     ServerLog(LogView),
@@ -66,7 +67,7 @@ impl Dialog {
 
     /// A dialog whose job ends with it.
     pub(super) fn has_a_job(&self) -> bool {
-        self.is_form() || matches!(self, Self::CaSigned(_) | Self::UserSpecified(_))
+        self.is_form() || matches!(self, Self::CaSigned(_) | Self::UserSpecified(_) | Self::Restore(_))
     }
 
     /// A form that may wait for what is in a controller. At most one is open.

@@ -15,13 +15,14 @@ pub enum PathField {
     UserPfx,
     UserCertificate,
     UserKey,
+    KeyBackup,
 }
 
 impl PathField {
     const fn kind(self) -> FileKind {
         match self {
             Self::CaCertificate | Self::UserCertificate => FileKind::Certificate,
-            Self::UserPfx => FileKind::Pkcs12,
+            Self::UserPfx | Self::KeyBackup => FileKind::Pkcs12,
             Self::UserKey => FileKind::Key,
         }
     }
@@ -32,6 +33,7 @@ impl PathField {
             (Self::UserPfx, Dialog::UserSpecified(form)) => Some(&mut form.pfx),
             (Self::UserCertificate, Dialog::UserSpecified(form)) => Some(&mut form.certificate),
             (Self::UserKey, Dialog::UserSpecified(form)) => Some(&mut form.key),
+            (Self::KeyBackup, Dialog::Restore(form)) => Some(&mut form.file),
             _ => None,
         }
     }

@@ -9,14 +9,14 @@ use secrecy::SecretString;
 use super::files::first_path;
 use super::{Dialog, Model, Purpose, RowId, Task, Typed};
 use crate::jobs::{
-    CaCertificateSource, CheckCaCertificate, CheckUserCertificate, ImportCaCertificate, ImportUserCertificate,
-    Operation, Outcome, UserCertificateFiles,
+    CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, ImportCaCertificate,
+    ImportUserCertificate, Operation, Outcome, RestoreCertificate, UserCertificateFiles,
 };
 use crate::model::{CertificateSummary, Problem};
 use crate::pki::{Finding, Issuers, Severity};
 use crate::ui::backend::Command;
 use crate::ui::texts::TextKey;
-use crate::workspace::Workspace;
+use crate::workspace::{BackupKind, KeyBackupSource, Workspace};
 
 /// What is imported.
 #[derive(Debug, Clone)]
@@ -25,6 +25,14 @@ pub enum ImportSource {
     Ca(Option<PathBuf>),
     User {
         files: UserCertificateFiles,
+        password: Option<SecretString>,
+    },
+    /// A backup of a key that was made here.
+    Backup {
+        kind: BackupKind,
+        /// Instead of the one in each controller's folder.
+        file: Option<PathBuf>,
+        /// `None`: the connection password.
         password: Option<SecretString>,
     },
 }
@@ -37,6 +45,10 @@ impl ImportSource {
             Self::User { files, password } => {
                 Arc::new(CheckUserCertificate { files: files.clone(), password: password.clone() })
             }
+            Self::Backup { kind, file, password } => {
+                let source = backup_source(*kind, file.as_ref(), workspace);
+                Arc::new(CheckCertificateBackup { source, password: password.clone() })
+            }
         }
     }
 
@@ -48,6 +60,10 @@ impl ImportSource {
             Self::User { files, password } => {
                 Arc::new(ImportUserCertificate { files: files.clone(), password: password.clone(), accept_warnings })
             }
+            Self::Backup { kind, file, password } => {
+                let source = backup_source(*kind, file.as_ref(), workspace);
+                Arc::new(RestoreCertificate { source, password: password.clone(), accept_warnings })
+            }
         }
     }
 
@@ -55,6 +71,7 @@ impl ImportSource {
         match self {
             Self::Ca(_) => TextKey::CaSignedTitle,
             Self::User { .. } => TextKey::UserSpecifiedTitle,
+            Self::Backup { .. } => TextKey::RestoreTitle,
         }
     }
 }
@@ -66,10 +83,15 @@ fn ca_source(file: Option<&PathBuf>, workspace: &Workspace) -> CaCertificateSour
     }
 }
 
+fn backup_source(kind: BackupKind, file: Option<&PathBuf>, workspace: &Workspace) -> KeyBackupSource {
+    KeyBackupSource { files: workspace.certificate_files(), kind, chosen: file.cloned() }
+}
+
 /// What was found of one certificate.
 #[derive(Debug, Clone)]
 pub struct Checked {
-    pub summary: CertificateSummary,
+    /// `None`: a signing request and its key, without a certificate.
+    pub summary: Option<CertificateSummary>,
     pub findings: Vec<Finding>,
     /// Of a certificate from a CA.
     pub issuers: Option<Issuers>,
@@ -146,6 +168,28 @@ impl UserSpecifiedForm {
     }
 }
 
+/// Putting back a backup of a key (manual 2.8.1).
+#[derive(Debug)]
+pub struct RestoreForm {
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    pub kind: BackupKind,
+    /// For one controller: a path, or empty for the one in its folder.
+    pub file: String,
+    /// Empty: the connection password.
+    pub password: Typed,
+    pub show_password: bool,
+    pub checks: Checks,
+}
+
+impl RestoreForm {
+    fn source(&self) -> ImportSource {
+        let password = (!self.password.0.is_empty()).then(|| SecretString::from(self.password.0.clone()));
+        let file = typed_path(&self.file).filter(|_| self.rows.len() == 1);
+        ImportSource::Backup { kind: self.kind, file, password }
+    }
+}
+
 /// A path as people paste it: with blanks and quotes around it.
 fn typed_path(text: &str) -> Option<PathBuf> {
     let path = text.trim().trim_matches('"');
@@ -194,6 +238,25 @@ impl Model {
             show_password: false,
             checks: Checks::default(),
         }));
+    }
+
+    pub(super) fn open_restore(&mut self, rows: Vec<RowId>) {
+        self.dialogs.push(Dialog::Restore(RestoreForm {
+            names: self.rows.names(&rows),
+            rows,
+            kind: BackupKind::SelfSigned,
+            file: String::new(),
+            password: Typed::default(),
+            show_password: false,
+            checks: Checks::default(),
+        }));
+    }
+
+    pub(super) fn check_backup(&mut self, mut form: RestoreForm) -> Vec<Command> {
+        let wanted = (!form.checks.running).then(|| (form.source(), form.rows.clone()));
+        form.checks.running = true;
+        self.dialogs.push(Dialog::Restore(form));
+        self.check(wanted)
     }
 
     pub(super) fn open_ca_signed_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
@@ -259,6 +322,7 @@ impl Model {
         self.dialogs.iter_mut().rev().find_map(|dialog| match dialog {
             Dialog::CaSigned(form) => Some((&mut form.checks, form.rows.clone())),
             Dialog::UserSpecified(form) => Some((&mut form.checks, vec![form.row])),
+            Dialog::Restore(form) => Some((&mut form.checks, form.rows.clone())),
             _ => None,
         })
     }
@@ -307,7 +371,9 @@ impl Model {
             self.dialogs.push(Dialog::ImportReview(review));
             return vec![];
         }
-        self.dialogs.retain(|dialog| !matches!(dialog, Dialog::CaSigned(_) | Dialog::UserSpecified(_)));
+        let asked =
+            |dialog: &Dialog| matches!(dialog, Dialog::CaSigned(_) | Dialog::UserSpecified(_) | Dialog::Restore(_));
+        self.dialogs.retain(|dialog| !asked(dialog));
         self.start(Task::Import { source: review.source, accept_warnings }, rows, Purpose::Show, None)
     }
 }

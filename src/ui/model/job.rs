@@ -274,8 +274,10 @@ pub struct JobRow {
     pub row: RowId,
     pub name: String,
     pub state: RowState,
-    /// What was asked for and is on this computer now.
+    /// The file on this computer that was asked for, or that was used.
     pub saved: Option<PathBuf>,
+    /// Where files on this computer are now that had to make room.
+    pub moved_aside: Vec<PathBuf>,
     /// Whose connections the change ended.
     pub cut: Vec<CutClient>,
     /// What takes a change of whom it trusts back.
@@ -298,7 +300,7 @@ pub struct Job {
 
 impl JobRow {
     pub fn new(row: RowId, name: String) -> Self {
-        Self { row, name, state: RowState::Waiting, saved: None, cut: Vec::new(), undo: None }
+        Self { row, name, state: RowState::Waiting, saved: None, moved_aside: Vec::new(), cut: Vec::new(), undo: None }
     }
 }
 

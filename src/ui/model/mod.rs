@@ -39,7 +39,9 @@ pub use dialog::{
 };
 pub use dropped::{Choice, DropForm, DroppedFile, Hover, MAX_DROPPED};
 pub use files::{FileForm, PathField};
-pub use import::{CaSignedForm, Checked, Checks, ImportReview, ImportSource, UserFiles, UserSpecifiedForm};
+pub use import::{
+    CaSignedForm, Checked, Checks, ImportReview, ImportSource, RestoreForm, UserFiles, UserSpecifiedForm,
+};
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, SigningWish, Task};
 pub use reduce::reduce;
 pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};

@@ -1,5 +1,7 @@
 //! The one place where the model changes.
 
+use std::path::Path;
+
 use super::trust::Shows;
 use super::{
     ActivationForm, AddController, CancelState, Column, Dialog, ExportForm, Job, JobId, JobRow, Message, Model,
@@ -109,6 +111,10 @@ impl Model {
             }
             UiCommand::UserSpecified => {
                 self.open_user_specified(&ticked);
+                return vec![];
+            }
+            UiCommand::RestoreBackup => {
+                self.open_restore(ticked);
                 return vec![];
             }
             UiCommand::TypeSelect => return self.open_type_select(ticked),
@@ -264,12 +270,8 @@ impl Model {
                     Err(problem) if problem.code == ErrorCode::Cancelled => (RowState::NotStarted, None),
                     Err(problem) => (RowState::Failed(problem), None),
                 };
-                row.saved = match &outcome {
-                    Some(Outcome::Exported { file, .. }) => Some(file.clone()),
-                    Some(Outcome::Csr { saved, .. }) => Some(saved.csr.clone()),
-                    Some(Outcome::Certificate { saved: Some(saved), .. }) => Some(saved.certificate.clone()),
-                    _ => None,
-                };
+                row.saved = outcome.as_ref().and_then(Outcome::file).map(Path::to_owned);
+                row.moved_aside = outcome.as_ref().map(|outcome| outcome.moved_aside().to_vec()).unwrap_or_default();
                 if let (Some(Outcome::TrustChanged(change)), Purpose::Show) = (&outcome, purpose) {
                     row.cut.clone_from(&change.cut);
                     row.undo.clone_from(&change.undo);

@@ -150,6 +150,7 @@ impl Model {
             }
             Dialog::CaSigned(form) => self.check_ca_signed(form),
             Dialog::UserSpecified(form) => self.check_user_specified(form),
+            Dialog::Restore(form) => self.check_backup(form),
             Dialog::ImportReview(review) => self.import(review),
             Dialog::Verify(view) => self.verify_again(view),
             Dialog::Transfer(form) => {

@@ -1,6 +1,6 @@
 //! Export and import of settings (manual 2.6.4, 2.6.5).
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use chrono::{DateTime, Utc};
 use secrecy::SecretString;
@@ -67,6 +67,14 @@ impl TransferForm {
             passphrase: Typed::default(),
             show_passphrase: false,
             preview: Preview::None,
+        }
+    }
+
+    /// The folder of the file; of several files, the one that holds theirs.
+    pub fn folder<'a>(&'a self, model: &'a Model) -> &'a Path {
+        match self.path.parent() {
+            Some(folder) if self.path_of_one => folder,
+            _ => model.workspace.root(),
         }
     }
 

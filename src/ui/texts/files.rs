@@ -1,10 +1,20 @@
 //! What files are, and what is wrong with their lines.
 
+use std::path::Path;
+
 use super::TextKey as T;
 use crate::model::Language;
 use crate::model::activation::{KeyError, LineMistake, Mistake};
 use crate::pki::PkiKind;
 use crate::workspace::{Recognised, Skipped};
+
+/// A file of a controller that had to make room for a new one.
+pub fn moved_aside(language: Language, name: &str, file: &Path) -> String {
+    match language {
+        Language::En => format!("{name}: a former file was moved to {}", file.display()),
+        Language::Zh => format!("{name}：原有文件已移动到 {}", file.display()),
+    }
+}
 
 pub fn line(language: Language, line: impl std::fmt::Display) -> String {
     match language {

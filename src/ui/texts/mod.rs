@@ -86,6 +86,8 @@ texts! {
     ExportSelfSignedTip: "Save the self-signed server certificate to a file", "将自签名服务器证书保存到文件";
     TypeSelect: "Type select…", "类型选择…";
     TypeSelectTip: "Choose which of the installed server certificates is used", "选择要使用的服务器证书";
+    RestoreBackup: "Restore backup…", "恢复备份…";
+    RestoreBackupTip: "Put a key and its certificate back into the controllers from a backup", "从备份将密钥及其证书恢复到控制器";
     ClientLists: "Trusted, rejected, issuers…", "信任、拒绝、发行人…";
     ClientListsTip: "Choose which clients are let in", "选择允许连接的客户端";
     Crl: "CRL…", "CRL…";
@@ -201,13 +203,16 @@ texts! {
     // confirmation
     ConfirmStops: "The OPC UA server is stopped for the change, and started again if it was running. Connected clients are cut off.", "更改期间将停止 OPC UA 服务器，若之前正在运行，完成后会重新启动。已连接的客户端将断开。";
     ConfirmStop: "The OPC UA server is stopped. Connected clients are cut off.", "将停止 OPC UA 服务器。已连接的客户端将断开。";
-    ConfirmReplaces: "The self-signed certificate in the controller is replaced. Clients have to trust the new one.", "将覆盖控制器中的自签名证书。客户端需要重新信任新证书。";
-    ConfirmBackup: "Backup files of the same name in the workspace are overwritten.", "工作区中的同名备份文件将被覆盖。";
-    ConfirmInvalidatesCaSigned: "The present CA-signed certificate becomes invalid. Firmware 8.0.0 and later goes on using it until the new one is imported.", "当前的 CA 签名证书将失效。固件 8.0.0 及以上版本在导入新证书之前仍使用原证书。";
+    ConfirmReplaces: "The certificate of this type in the controller is replaced, and the server uses the new one. Clients have to trust it.", "将覆盖控制器中该类型的证书，服务器将使用新证书。客户端需要信任新证书。";
+    ConfirmChangesCertificate: "The server shows another certificate to its clients. Clients have to trust it.", "服务器将向客户端出示另一个证书。客户端需要信任该证书。";
+    ConfirmInvalidatesCaSigned: "On firmware before 8.0.0 the present CA-signed certificate becomes invalid at once: a server that uses it stops, connected clients are cut off, and it stays stopped until another certificate is imported or selected. Firmware 8.0.0 and later goes on using it until the new one is imported.", "固件 8.0.0 之前的控制器：当前的 CA 签名证书立即失效，正在使用该证书的服务器将停止，已连接的客户端将断开，在导入或选择其他证书之前服务器保持停止。固件 8.0.0 及以上版本在导入新证书之前仍使用原证书。";
+    ConfirmReplacesRequest: "The CSR in the controller and its key are replaced by those of the backup. If the backup holds no certificate for them, the present CA-signed certificate becomes invalid at once, and a server that uses it stops.", "控制器中的 CSR 及其密钥将被备份替换。若备份中没有对应的证书，当前的 CA 签名证书立即失效，正在使用该证书的服务器将停止。";
+    ConfirmChangesEndpoints: "Clients reach the server only by the port, security policies and user tokens that are set here.", "客户端只能使用此处设置的端口、安全策略和用户令牌策略连接服务器。";
+    ConfirmOverwritesExport: "A settings export of the same name in the workspace is overwritten.", "工作区中的同名设置导出文件将被覆盖。";
     ConfirmReplacesSettings: "Settings and users in the controller are replaced by those of the file, and so are the activation keys if it holds any.", "控制器中的设置和用户将被文件中的内容替换；若文件含激活密钥，也将一并替换。";
     ConfirmDisturbsNobody: "The OPC UA server goes on running. Nobody is disconnected.", "OPC UA 服务器继续运行，不会断开任何客户端。";
     ConfirmDisconnectsClients: "Clients that are not trusted any more are disconnected at once. The OPC UA server goes on running.", "不再受信任的客户端将立即断开连接。OPC UA 服务器继续运行。";
-    ConfirmOverwrites: "Files of the same name on this computer are overwritten.", "本机上的同名文件将被覆盖。";
+    ConfirmMovesFiles: "Files of a former certificate or CSR on this computer, and their keys, are kept: they are moved into a folder named after their date.", "本机上原有证书或 CSR 的文件及其密钥将保留，并移动到以其日期命名的文件夹。";
     ConfirmDeletesLog: "The server log in the controller is deleted.", "将删除控制器中的服务器日志。";
 
     // processing
@@ -350,6 +355,8 @@ texts! {
     FileFormat: "File format", "文件格式";
     GoesTo: "Goes to", "保存位置";
     SavedIn: "Saved in", "已保存到";
+    ImportedFrom: "Imported from", "导入自";
+    MovedAside: "Former files were moved to", "原有文件已移动到";
     CaSignedTitle: "CA-signed certificate", "CA 签名证书";
     CsrTitle: "Certificate signing request", "证书签名请求 (CSR)";
     CsrCard: "1. Create CSR", "1. 创建 CSR";
@@ -375,7 +382,6 @@ texts! {
     UserKeyPasswordHint: "Empty if it is not encrypted", "未加密时留空";
     UserFilesRule: "Give both files, or neither to use those in the folder", "请同时指定两个文件，或都留空以使用文件夹中的文件";
     UserPathRule: "Give the file, or get new information first", "请指定文件，或先获取新信息";
-    ConfirmReplacesImport: "The certificate of this type in the controller is replaced, and the server uses the new one.", "将覆盖控制器中该类型的证书，服务器将使用新证书。";
     ImportAnyway: "Import anyway", "仍然导入";
     NoneToImport: "None of these can be imported", "没有可以导入的证书";
     ImportRefused: "Not imported", "不导入";
@@ -383,6 +389,19 @@ texts! {
     Warning: "Warning", "警告";
     IssuerNotHere: "The next issuer is neither in the file nor in files beside it; clients need it to trust the controller", "文件及其所在文件夹中均没有上一级颁发者的证书；客户端需要该证书才能信任控制器";
     SerialFolder: "serial number", "控制器序列号";
+
+    // backups of keys
+    RestoreTitle: "Restore backup", "恢复备份";
+    RestoreText: "Puts a key back into the controller that was kept on this computer, under the type it had.", "将保存在本机的密钥以原有类型恢复到控制器。";
+    RestoreKind: "Backup of", "备份内容";
+    RestoreSelfSigned: "Self-signed certificate and its key (1_key.pfx)", "自签名证书及其密钥 (1_key.pfx)";
+    RestoreCaSigned: "CSR, its key and the certificate from the CA (3_key.pfx)", "CSR、其密钥以及 CA 证书 (3_key.pfx)";
+    RestoreFile: "Key file", "密钥文件";
+    RestoreFileHint: "Empty: the one in the folder", "留空则使用文件夹中的文件";
+    RestoreFormer: "Former backups are in folders named after their date.", "以前的备份位于以日期命名的文件夹中。";
+    RestorePasswordHint: "Empty: the connection password", "留空则使用连接密码";
+    RestoreButton: "Restore…", "恢复…";
+    RestoreRequestOnly: "CSR and key, without a certificate from the CA: import the certificate afterwards", "CSR 和密钥，不含 CA 证书，请随后导入证书";
 
     // type select
     TypeSelectTitle: "Type select", "类型选择";
@@ -404,7 +423,7 @@ texts! {
     ExportedAt: "Exported at", "导出日期";
     Passphrase: "Passphrase", "口令";
     PassphraseRule: "At least 8 characters, or none", "至少 8 个字符，或留空";
-    ExportPassphraseTip: "If empty, each file is protected by the connection password of its controller. If there is none either, anybody who can read the file can open it.", "留空时以各控制器的连接密码保护文件。若连接密码也未设置，任何能读取该文件的人都能打开。";
+    ExportPassphraseTip: "If empty, each file is protected by the connection password of its controller. A controller without a connection password needs a passphrase.", "留空时以各控制器的连接密码保护文件。未设置连接密码的控制器必须输入口令。";
     ImportPassphraseTip: "The one the file was exported with. If empty, the connection password of the controller opens it.", "导出时使用的口令。留空时使用控制器的连接密码。";
     ImportNothing: "There is no file that can be imported", "没有可导入的文件";
 
@@ -570,7 +589,8 @@ texts! {
     BackupTitle: "Backup", "备份";
     BackupOn: "Keep copies of certificates made here", "保留在此创建的证书副本";
     BackupWhere: "Copies go to a folder per controller, named after its serial number", "副本按控制器序列号分文件夹保存";
-    BackupKeys: "Keys are kept only for firmware before 8.0.0, protected by the connection password. Later firmware makes its keys itself and never gives them away.", "仅保留固件 8.0.0 之前的密钥，并以连接密码保护。新版固件自行生成密钥，且密钥不会离开控制器。";
+    BackupKeys: "Keys are kept only for firmware before 8.0.0, protected by the connection password, which must not be empty. Later firmware makes its keys itself and never gives them away.", "仅保留固件 8.0.0 之前的密钥，并以连接密码保护，连接密码不能为空。新版固件自行生成密钥，且密钥不会离开控制器。";
+    BackupRestore: "A backup is put back with Certificate › Restore backup.", "使用[证书]-[恢复备份]恢复备份。";
 
     // options
     OptionsTitle: "Options", "选项";

@@ -3,7 +3,7 @@
 use chrono::{DateTime, FixedOffset, Local, Utc};
 
 use super::TextKey as T;
-use crate::jobs::{Step, Summary};
+use crate::jobs::{Confirmation, ServerEffect, Step, Summary};
 use crate::model::{CertificateSummary, CertificateType, FirmwareVersion, Language, ServerStatus};
 use crate::workspace::ThemeChoice;
 
@@ -287,6 +287,40 @@ pub fn finding(language: Language, severity: T, explained: &str) -> String {
         Language::En => format!("{}: {explained}", severity.text(language)),
         Language::Zh => format!("{}：{explained}", severity.text(language)),
     }
+}
+
+/// What a person agrees to, one sentence each. Empty: nothing that disturbs anybody.
+pub fn confirmation(confirmation: Confirmation) -> Vec<T> {
+    let Confirmation {
+        server,
+        replaces_certificate,
+        changes_certificate,
+        invalidates_ca_signed,
+        replaces_request,
+        changes_endpoints,
+        starts_log,
+        deletes_log,
+        replaces_settings,
+        moves_files_aside,
+        overwrites_export,
+        disconnects_clients,
+    } = confirmation;
+    let sentences = [
+        (server == ServerEffect::Restarts, T::ConfirmStops),
+        (server == ServerEffect::Stops, T::ConfirmStop),
+        (replaces_certificate, T::ConfirmReplaces),
+        (changes_certificate, T::ConfirmChangesCertificate),
+        (invalidates_ca_signed, T::ConfirmInvalidatesCaSigned),
+        (replaces_request, T::ConfirmReplacesRequest),
+        (changes_endpoints, T::ConfirmChangesEndpoints),
+        (starts_log, T::LogWarning),
+        (deletes_log, T::ConfirmDeletesLog),
+        (replaces_settings, T::ConfirmReplacesSettings),
+        (moves_files_aside, T::ConfirmMovesFiles),
+        (overwrites_export, T::ConfirmOverwritesExport),
+        (disconnects_clients, T::ConfirmDisconnectsClients),
+    ];
+    sentences.into_iter().filter_map(|(applies, sentence)| applies.then_some(sentence)).collect()
 }
 
 pub const fn status(status: ServerStatus) -> T {

@@ -1,6 +1,7 @@
 //! The window of the server log.
 
 use super::*;
+use crate::jobs::ServerEffect;
 use crate::protocol::LogChunk;
 
 const TEXT: &str = "10:00 INFO server started\r\n10:01 WARN 客户端 refused\n10:02 INFO server stopped";
@@ -66,7 +67,7 @@ fn it_is_deleted_after_a_question_and_read_again() {
     let mut model = opened();
     assert!(reduce(&mut model, Message::DeleteLog).is_empty());
     let [Dialog::ServerLog(_), Dialog::Confirm { confirmation, .. }] = &model.dialogs[..] else { panic!("not asked") };
-    assert!(confirmation.deletes_log && confirmation.stops_server);
+    assert!(confirmation.deletes_log && confirmation.server == ServerEffect::Restarts);
     let commands = reduce(&mut model, Message::Submit);
     let [Command::Run { job: id, task: Task::DeleteLog, .. }] = commands[..] else { panic!("{commands:?}") };
     event(&mut model, id, finished(0, Ok(Outcome::Done)));

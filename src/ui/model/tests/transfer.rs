@@ -3,6 +3,7 @@
 use secrecy::ExposeSecret as _;
 
 use super::*;
+use crate::jobs::ServerEffect;
 use crate::model::FirmwareVersion;
 
 fn know(model: &mut Model, name: &str, firmware: FirmwareVersion) {
@@ -48,7 +49,7 @@ fn an_export_goes_out_after_it_was_confirmed_with_the_passphrase_or_none() {
     form(&mut model).passphrase.0 = "correct horse".into();
     assert!(reduce(&mut model, Message::Submit).is_empty());
     assert!(
-        matches!(&model.dialogs[..], [Dialog::Transfer(_), Dialog::Confirm { confirmation, .. }] if confirmation.overwrites_backup)
+        matches!(&model.dialogs[..], [Dialog::Transfer(_), Dialog::Confirm { confirmation, .. }] if confirmation.overwrites_export)
     );
     let commands = reduce(&mut model, Message::Submit);
     assert!(!format!("{commands:?} {:?}", model.dialogs).contains("correct"), "no secret in a log");
@@ -89,7 +90,7 @@ fn the_file_is_looked_at_before_an_import() {
     form(&mut model).passphrase.0 = "short".into();
     reduce(&mut model, Message::Submit);
     let [Dialog::Transfer(_), Dialog::Confirm { confirmation, .. }] = &model.dialogs[..] else { panic!("not asked") };
-    assert!(confirmation.stops_server && confirmation.replaces_settings);
+    assert!(confirmation.server == ServerEffect::Restarts && confirmation.replaces_settings);
     let commands = reduce(&mut model, Message::Submit);
     assert!(matches!(
         &commands[..],

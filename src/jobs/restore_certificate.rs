@@ -1,0 +1,134 @@
+use async_trait::async_trait;
+use secrecy::{ExposeSecret as _, SecretString};
+
+use super::self_signed::transfer_password;
+use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
+use crate::model::{CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, Problem};
+use crate::pki::{PkiError, pkcs12_write, pkcs12_write_key};
+use crate::protocol::{Base64Bytes, ImportCertificate, ImportCsr, WireSecret};
+use crate::workspace::{BackupKind, KeyBackup, KeyBackupSource};
+
+/// Puts a backup of a key back into the controller, under the type it was made as: a self-signed certificate with its
+/// key, or a signing request with its key and with what a CA issued for it (manual 2.8.1, appendix B-1).
+///
+/// Legacy firmware only: keys of current firmware never leave the controller, so there is no backup of them. One change,
+/// whole or not at all. Refused before anything is sent: a wrong password, files that do not belong together, and a
+/// certificate that clients would refuse ([`ErrorCode::Preflight`]).
+#[derive(Debug, Clone)]
+pub struct RestoreCertificate {
+    pub source: KeyBackupSource,
+    /// What protects the backup; `None`: the connection password.
+    pub password: Option<SecretString>,
+    /// Put back although some clients may complain. Otherwise that is [`ErrorCode::PreflightWarnings`].
+    pub accept_warnings: bool,
+}
+
+#[async_trait]
+impl Operation for RestoreCertificate {
+    fn confirmation(&self) -> Option<Confirmation> {
+        Some(Confirmation {
+            server: ServerEffect::Restarts,
+            replaces_certificate: true,
+            replaces_request: self.source.kind == BackupKind::CaSigned,
+            ..Confirmation::default()
+        })
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        controller.known.as_ref().map_or(Ok(()), legacy)
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        let (info, backup) = read(&self.source, self.password.as_ref(), run).await?;
+        let findings = match backup.certificate() {
+            Some(certificate) => preflight::admit(run, &info, certificate, self.accept_warnings).await?,
+            None => Vec::new(),
+        };
+        let (alias, password) = (info.serial.to_string(), transfer_password()?);
+        let (backup, pkcs12, password) = run
+            .on_a_core(move || -> Result<_, PkiError> {
+                let pkcs12 = match &backup {
+                    KeyBackup::SelfSigned { key, certificate } => {
+                        pkcs12_write(&alias, key, &[certificate], password.expose_secret())?
+                    }
+                    KeyBackup::CaSigned { key, .. } => pkcs12_write_key(&alias, key, password.expose_secret())?,
+                };
+                Ok((backup, pkcs12, password))
+            })
+            .await??;
+        run.begin(Step::Apply)?;
+        let (revision, pkcs12, password) = (info.revision, Base64Bytes(pkcs12), WireSecret(password));
+        match &backup {
+            KeyBackup::SelfSigned { .. } => {
+                let kind = CertificateType::SelfSigned;
+                run.session.import_certificate(ImportCertificate { revision, kind, pkcs12, password }).await?;
+            }
+            KeyBackup::CaSigned { csr, certificate, .. } => {
+                let csr = Base64Bytes(csr.der().to_vec());
+                let certificate = certificate.as_ref().map(|certificate| Base64Bytes(certificate.der().to_vec()));
+                run.session.import_csr(ImportCsr { revision, csr, pkcs12, password, certificate }).await?;
+            }
+        }
+        Ok(Outcome::Restored { summary: backup.certificate().map(|certificate| certificate.summary()), findings })
+    }
+}
+
+/// Looks at a backup as [`RestoreCertificate`] would, and changes nothing.
+#[derive(Debug, Clone)]
+pub struct CheckCertificateBackup {
+    pub source: KeyBackupSource,
+    /// What protects the backup; `None`: the connection password.
+    pub password: Option<SecretString>,
+}
+
+#[async_trait]
+impl Operation for CheckCertificateBackup {
+    fn confirmation(&self) -> Option<Confirmation> {
+        None
+    }
+
+    fn check(&self, controller: &JobController) -> Result<(), Problem> {
+        controller.known.as_ref().map_or(Ok(()), legacy)
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        let (info, backup) = read(&self.source, self.password.as_ref(), run).await?;
+        let Some(certificate) = backup.certificate() else {
+            return Ok(Outcome::Checked { summary: None, findings: Vec::new(), issuers: None });
+        };
+        let findings = preflight::examine(run, &info, certificate).await?;
+        Ok(Outcome::Checked { summary: Some(certificate.summary()), findings, issuers: None })
+    }
+}
+
+async fn read(
+    source: &KeyBackupSource,
+    password: Option<&SecretString>,
+    run: &mut Run<'_>,
+) -> Result<(ControllerInfo, KeyBackup), Problem> {
+    run.begin(Step::Read)?;
+    let info = run.session.info().await?;
+    legacy(&info)?;
+    let (source, serial) = (source.clone(), info.serial.clone());
+    let (given, connection) = (password.cloned(), run.password.clone());
+    let read = move || {
+        let read = |password: &SecretString| source.read(&serial, password);
+        match &given {
+            Some(password) => read(password),
+            None => read(&connection).or_else(|problem| match problem.code {
+                // Made while the controller had no connection password, by a version that allowed it.
+                ErrorCode::WrongKeyPassword => read(&SecretString::default()).map_err(|_| problem),
+                _ => Err(problem),
+            }),
+        }
+    };
+    let backup = run.on_a_core(read).await??;
+    Ok((info, backup))
+}
+
+fn legacy(info: &ControllerInfo) -> Result<(), Problem> {
+    match info.generation() {
+        FirmwareGeneration::Legacy => Ok(()),
+        FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
+    }
+}
