@@ -58,7 +58,7 @@ fn warnings_about_a_certificate_are_asked_in_the_persons_language_and_not_demand
     let file = desk.file("from the CA.der");
     fs::write(&file, Ca::new().sign_changed(&csr, nowhere)).unwrap();
     let import = ["--lang", "zh", "cert", "import-ca", "--file", &file, "weld"];
-    let kind = |desk: &Desk| desk.json(&["info", "weld"]).1[0]["result"]["certificate"]["kind"].clone();
+    let kind = |desk: &Desk| desk.json(&["info", "weld"]).1[0]["result"]["certificate"]["type"].clone();
 
     let refused = desk.typing("n\n", &import);
     assert_eq!(refused.code, Some(2));
@@ -89,4 +89,22 @@ fn an_import_of_settings_says_that_it_may_replace_the_keys() {
     let asked = desk.typing("n\n", &["import-settings", "weld"]);
     assert_eq!(asked.code, Some(2));
     assert!(asked.stderr.contains("activation keys if it holds any"), "{}", asked.stderr);
+}
+
+#[test]
+fn a_stop_and_a_request_say_that_the_server_stays_stopped() {
+    let desk = Desk::with(1, &["--firmware", "legacy"]);
+    assert_eq!(desk.add(0, "weld").0, Some(0));
+    let stop = desk.typing("n\n", &["stop", "weld"]);
+    assert_eq!(stop.code, Some(2));
+    assert!(
+        stop.stderr.contains("The OPC UA server is stopped.") && !stop.stderr.contains("started again"),
+        "{}",
+        stop.stderr
+    );
+    let subject = ["--country", "jp", "--state", "Nagano", "--locality", "Suwa", "--organisation", "Example"];
+    let request = desk.typing("n\n", &[&["cert", "csr"][..], &subject, &["weld"]].concat());
+    assert!(request.stderr.contains("stays stopped until another certificate"), "{}", request.stderr);
+    let chinese = desk.typing("n\n", &["--lang", "zh", "stop", "weld"]);
+    assert!(chinese.stderr.contains("将停止 OPC UA 服务器"), "{}", chinese.stderr);
 }

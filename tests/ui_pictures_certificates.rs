@@ -173,6 +173,23 @@ fn the_chain_before_an_import() {
 }
 
 /// A certificate of an authority, valid for five years, whose visible parts are the same in every picture.
+#[test]
+fn restore() {
+    let mut window = open(&[LEGACY]);
+    choose(&mut window, &["Certificate", "Restore backup…"]);
+    picture(&mut window, "restore");
+    click(&mut window, "CSR, its key and the certificate from the CA (3_key.pfx)");
+    click(&mut window, "Restore…");
+    end(&mut window, vec![Ok(Outcome::Checked { summary: None, findings: vec![], issuers: None })]);
+    picture(&mut window, "restore_request");
+    click(&mut window, "Cancel");
+    click(&mut window, "Cancel");
+    click(&mut window, "Tick Palletiser south");
+    choose(&mut window, &["Certificate", "Restore backup…"]);
+    chinese(&mut window);
+    picture(&mut window, "restore_many_chinese");
+}
+
 fn ca(name: &str, by: Option<&str>, from: i32) -> Certificate {
     let params = |name: &str| {
         let mut params = rcgen::CertificateParams::default();

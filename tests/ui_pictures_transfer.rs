@@ -37,6 +37,13 @@ fn export() {
     click(&mut window, "Export");
     chinese(&mut window);
     picture(&mut window, "export_settings_confirm_chinese");
+    click(&mut window, "确定");
+    let job = job(&window);
+    let path = window.state().model.workspace.root().join("SN0001460/option.json");
+    let report = Box::new(Report { result: Ok(Outcome::SettingsExported { path }), info: None });
+    tell(&mut window, Event::Job { job, event: JobEvent::Finished { index: 0, report } });
+    tell(&mut window, Event::JobEnded { job, summary: Summary { done: 1, ..Summary::default() } });
+    picture(&mut window, "export_settings_completed_chinese");
 }
 
 #[test]
