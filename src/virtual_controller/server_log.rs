@@ -183,7 +183,7 @@ mod tests {
             let address = (0x0a00_0000 + number).to_be_bytes();
             connected(&log, address);
             log.write(Event::Refused { client: (address, 50_000).into(), reason: "not an OPC UA message" });
-            log.write(Event::LoginRefused { user: None, reason: "no such user" });
+            log.write(Event::LoginRefused { client: None, user: None, reason: "no such user" });
             log.write(Event::LoggedIn { user: None, policy: "None", mode: "None" });
         }
         let size = log.read(None).unwrap().size;

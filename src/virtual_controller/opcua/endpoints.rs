@@ -89,7 +89,7 @@ impl UserTokens {
 /// What one client may ask of a controller. The longest answer is a read of 200 motion log blocks, about 0.5 MB.
 pub(super) fn limits() -> Limits {
     Limits {
-        max_sessions: 20,
+        max_sessions: super::admission::SESSIONS_BEHIND_THE_GATE,
         max_message_size: 2 << 20,
         max_chunk_count: 32,
         send_buffer_size: 65_535,

@@ -61,6 +61,7 @@ pub enum Event<'a> {
         mode: &'a str,
     },
     LoginRefused {
+        client: Option<SocketAddr>,
         user: Option<&'a str>,
         reason: &'a str,
     },
@@ -134,8 +135,9 @@ impl fmt::Display for Event<'_> {
             Self::LoggedIn { user, policy, mode } => {
                 write!(f, "session of {} activated: {policy}, {mode}", user.unwrap_or("an anonymous user"))
             }
-            Self::LoginRefused { user, reason } => {
-                write!(f, "session of {} refused: {reason}", user.unwrap_or("an anonymous or unknown user"))
+            Self::LoginRefused { client, user, reason } => {
+                write!(f, "session of {} refused: {reason}", user.unwrap_or("an anonymous or unknown user"))?;
+                client.map_or(Ok(()), |client| write!(f, ", from {client}"))
             }
         }
     }

@@ -10,7 +10,8 @@
 //! | `admission` | the connections of the clients, and who is let in |
 //! | `events` | what happens in a running server, for its log |
 //! | `endpoints` | security policies and user tokens as OPC UA endpoints, and what a client may ask for |
-//! | `users` | password hashes, logging in, lock-out |
+//! | `users` | password hashes, logging in |
+//! | `login_delays` | who guesses passwords waits |
 //! | `certificate_store` | the private folder the crate reads certificates from |
 //! | `address_space` | the nodes of the controller |
 //! | `nodesets` | the bundled information models |
@@ -21,6 +22,7 @@ mod certificate_store;
 mod config;
 mod endpoints;
 mod events;
+mod login_delays;
 mod nodesets;
 mod server;
 #[cfg(test)]

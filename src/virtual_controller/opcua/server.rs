@@ -1,6 +1,6 @@
 use std::fmt;
 use std::io;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr};
+use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
@@ -16,7 +16,9 @@ use tokio::net::TcpListener;
 use tokio::task::JoinHandle;
 
 use super::address_space::Controller;
-use super::admission::{CutConnection, Gate, Guarded, Judge, Own, Reporter, Settings};
+use super::admission::{
+    Attached, CutConnection, Gate, Guarded, InnerServer, Judge, Own, Reporter, Settings, deaf_listener,
+};
 use super::certificate_store::{OWN_CERTIFICATE, OWN_KEY, PkiFolder};
 use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
@@ -40,7 +42,7 @@ pub enum StartError {
 pub struct OpcUaServer {
     address: SocketAddr,
     handle: ServerHandle,
-    gate: Arc<Gate>,
+    gate: Attached,
     events: Events,
     server: JoinHandle<Result<(), String>>,
     clients: JoinHandle<()>,
@@ -52,22 +54,26 @@ impl OpcUaServer {
         // The port comes first: it is what fails most, and a port of 0 must be known before the endpoints' URLs are.
         let clients = listen(config.bind, config.port).await?;
         let address = clients.local_addr().map_err(failed)?;
-        let inner = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await.map_err(failed)?;
-        let inner_address = inner.local_addr().map_err(failed)?;
+        let (inner, other_end) = deaf_listener().map_err(failed)?;
+        let inner_port = inner.local_addr().map_err(failed)?.port();
         let events = config.events.clone();
         let policies = config.policies.iter().map(|p| p.as_str()).collect::<Vec<_>>().join(", ");
         // Reads and writes files, checks the key, and builds some ten thousand nodes.
         let (server, handle, gate) =
-            tokio::task::spawn_blocking(move || build(&config, address, inner_address)).await.map_err(failed)??;
+            tokio::task::spawn_blocking(move || build(&config, address)).await.map_err(failed)??;
         let stop_unless_ready = handle.token().clone().drop_guard();
-        let mut server = tokio::spawn(server.run_with(inner));
-        tokio::time::timeout(START_TIMEOUT, ready(&mut server, &handle, inner_address.port()))
+        let mut server = tokio::spawn(async move {
+            let ended = server.run_with(inner).await;
+            drop(other_end);
+            ended
+        });
+        tokio::time::timeout(START_TIMEOUT, ready(&mut server, &handle, inner_port))
             .await
             .map_err(|_| StartError::Failed("it is not ready in time".to_owned()))??;
         stop_unless_ready.disarm();
         // Endpoint URLs are made with this port: it must be the one clients know before the first of them asks.
         handle.info().port.store(address.port(), Ordering::Relaxed);
-        let clients = tokio::spawn(gate.clone().run(clients));
+        let clients = tokio::spawn(gate.0.clone().run(clients));
         let running = Self { address, handle, gate, events, server, clients };
         tracing::info!(endpoint = running.endpoint(), "OPC UA server started");
         running.events.tell(Event::Started { endpoint: &running.endpoint(), policies: &policies });
@@ -89,12 +95,7 @@ impl OpcUaServer {
     ///
     /// Checks the certificate of every connection, so not for an async task.
     pub fn set_trust(&self, lists: TrustLists) -> Vec<CutConnection> {
-        self.gate.set_trust(lists)
-    }
-
-    #[cfg(test)]
-    pub(super) fn address_behind_the_gate(&self) -> SocketAddr {
-        self.gate.server()
+        self.gate.0.set_trust(lists)
     }
 
     /// False once the server has ended by itself.
@@ -168,11 +169,7 @@ async fn listen(address: IpAddr, port: u16) -> Result<TcpListener, StartError> {
     })
 }
 
-fn build(
-    config: &OpcUaConfig,
-    address: SocketAddr,
-    inner: SocketAddr,
-) -> Result<(Server, ServerHandle, Arc<Gate>), StartError> {
+fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHandle, Attached), StartError> {
     let key = config.check()?;
     let devices = NodeSet::devices().map_err(StartError::Failed)?;
     let pki = PkiFolder::create(config.pki_folder.clone()).map_err(failed)?;
@@ -181,7 +178,7 @@ fn build(
     let own = Own::new(&config.certificate_der, &pem).map_err(StartError::InvalidParameter)?;
     let gate = Arc::new(Gate::new(
         Settings::new(config.policies.clone(), config.detailed_status),
-        inner,
+        InnerServer::default(),
         own,
         Judge::new(config.trust.clone(), config.trust_policy, config.clock.clone()),
         pki,
@@ -189,11 +186,12 @@ fn build(
     ));
     let (server, handle) =
         builder(config, address, key.size() * 8, devices, &gate).build().map_err(StartError::Failed)?;
+    let attached = gate.attach(handle.clone());
     gate.pki().close_rejected().map_err(failed)?;
     if handle.info().server_pkey.is_none() || handle.info().server_certificate.is_none() {
         return Err(StartError::InvalidParameter("the server certificate or its key cannot be used".to_owned()));
     }
-    Ok((server, handle, gate))
+    Ok((server, handle, attached))
 }
 
 fn builder(
@@ -214,7 +212,7 @@ fn builder(
         .without_node_managers()
         .with_node_manager(Guarded::builder(controller, gate.clone()))
         .with_node_manager(Guarded::builder(InMemoryNodeManagerBuilder::new(CoreNodeManagerBuilder), gate.clone()))
-        .with_authenticator(Arc::new(Users::new(tokens, &config.users, config.events.clone())))
+        .with_authenticator(Arc::new(Users::new(tokens, &config.users, gate.clone(), config.events.clone())))
         .application_name(&config.application_name)
         .application_uri(&config.application_uri)
         .product_uri(PRODUCT_URI)

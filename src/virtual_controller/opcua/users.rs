@@ -1,5 +1,6 @@
 use std::collections::HashMap;
-use std::time::{Duration, Instant};
+use std::sync::Arc;
+use std::time::Instant;
 
 use argon2::password_hash::{PasswordHash, PasswordHasher, PasswordVerifier, SaltString};
 use argon2::{Algorithm, Argon2, Params, Version};
@@ -11,9 +12,11 @@ use parking_lot::Mutex;
 use tokio::sync::Semaphore;
 use zeroize::Zeroizing;
 
+use super::admission::{Gate, Login};
 use super::config::OpcUaUser;
 use super::endpoints::UserTokens;
 use super::events::{Event, Events};
+use super::login_delays::LoginDelays;
 
 /// Why a password could not be hashed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -39,53 +42,49 @@ pub fn hash_password(password: &str) -> Result<String, HashError> {
         .map_err(HashError::Hash)
 }
 
-/// Decides who may log in (OPC 10000-4, 5.6.3 ActivateSession).
+/// Decides who may log in (OPC 10000-4 §5.7.3 ActivateSession).
 ///
-/// A wrong password, a locked and an unknown user cannot be told apart: all are refused with the same status after
-/// the same work.
+/// A wrong password and an unknown user cannot be told apart: both are refused with the same status after the same work.
 pub(super) struct Users {
     tokens: UserTokens,
     hashes: HashMap<String, String>,
-    lockouts: Mutex<HashMap<String, Lockout>>,
+    delays: Mutex<LoginDelays>,
+    gate: Arc<Gate>,
     events: Events,
 }
 
 impl Users {
-    pub(super) fn new(tokens: UserTokens, users: &[OpcUaUser], events: Events) -> Self {
+    /// `gate`: where the names of users come from, marked with their connections.
+    pub(super) fn new(tokens: UserTokens, users: &[OpcUaUser], gate: Arc<Gate>, events: Events) -> Self {
         Self {
             tokens,
             hashes: users.iter().map(|user| (user.name.clone(), user.password_hash.clone())).collect(),
-            lockouts: Mutex::default(),
+            delays: Mutex::default(),
+            gate,
             events,
         }
     }
 
-    async fn log_in(&self, name: &str, password: Zeroizing<String>) -> bool {
-        let known = self.hashes.get(name);
-        let hash = known.map_or(NOBODYS_HASH, String::as_str).to_owned();
-        let right = verify(hash, password).await;
-        if known.is_none() {
-            tracing::warn!("login of an unknown user refused");
-            self.refused(None, "no such user");
+    async fn log_in(&self, login: &Login, password: Zeroizing<String>) -> bool {
+        let known = self.hashes.get(&login.name);
+        // The name of an unknown user may be a password in the wrong field.
+        let user = known.is_some().then_some(login.name.as_str());
+        let delay = self.delays.lock().delay(login, Instant::now());
+        let Some(delay) = delay else {
+            self.gate.login_refused(login.client, user, "too soon after too many wrong passwords");
             return false;
+        };
+        tokio::time::sleep(delay).await;
+        let hash = known.map_or(NOBODYS_HASH, String::as_str).to_owned();
+        let is_right = verify(hash, password).await && known.is_some();
+        if is_right {
+            self.delays.lock().right(login);
+        } else {
+            self.delays.lock().wrong(login, Instant::now());
+            let reason = if known.is_some() { "wrong password" } else { "no such user" };
+            self.gate.login_refused(login.client, user, reason);
         }
-        let verdict = self.lockouts.lock().entry(name.to_owned()).or_default().judge(right, Instant::now());
-        match verdict {
-            Verdict::Welcome => {}
-            Verdict::Wrong => {
-                tracing::warn!(user = name, "login refused: wrong password");
-                self.refused(Some(name), "wrong password");
-            }
-            Verdict::Locked => {
-                tracing::warn!(user = name, "login refused: locked out after wrong passwords");
-                self.refused(Some(name), "locked out after wrong passwords");
-            }
-        }
-        verdict == Verdict::Welcome
-    }
-
-    fn refused(&self, user: Option<&str>, reason: &str) {
-        self.events.tell(Event::LoginRefused { user, reason });
+        is_right
     }
 
     fn welcome(&self, user: Option<&str>, endpoint: &ServerEndpoint) {
@@ -101,8 +100,9 @@ impl AuthManager for Users {
             self.welcome(None, endpoint);
             Ok(())
         } else {
-            self.refused(None, "anonymous users are not let in");
-            Err(Error::new(StatusCode::BadIdentityTokenRejected, "anonymous users are not let in"))
+            let reason = "anonymous users are not let in";
+            self.events.tell(Event::LoginRefused { client: None, user: None, reason });
+            Err(Error::new(StatusCode::BadIdentityTokenRejected, reason))
         }
     }
 
@@ -112,9 +112,13 @@ impl AuthManager for Users {
         name: &str,
         password: &Password,
     ) -> Result<UserToken, Error> {
-        if self.tokens.user_name() && self.log_in(name, Zeroizing::new(password.get().to_owned())).await {
-            self.welcome(Some(name), endpoint);
-            Ok(UserToken(name.to_owned()))
+        let password = Zeroizing::new(password.get().to_owned());
+        if self.tokens.user_name()
+            && let Some(login) = self.gate.login(name)
+            && self.log_in(&login, password).await
+        {
+            self.welcome(Some(&login.name), endpoint);
+            Ok(UserToken(login.name))
         } else {
             Err(Error::new(StatusCode::BadUserAccessDenied, "user name or password wrong"))
         }
@@ -134,44 +138,6 @@ async fn verify(hash: String, password: Zeroizing<String>) -> bool {
     .await
     .unwrap_or(false)
 }
-
-/// How many wrong passwords in a row a user has given, and until when nobody is let in under that name.
-#[derive(Debug, Default)]
-struct Lockout {
-    wrong: u32,
-    until: Option<Instant>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Verdict {
-    Welcome,
-    Wrong,
-    Locked,
-}
-
-impl Lockout {
-    /// Called once the password was verified, so that attempts made side by side count like those made in turn.
-    fn judge(&mut self, right: bool, now: Instant) -> Verdict {
-        if let Some(until) = self.until {
-            if now < until {
-                return Verdict::Locked;
-            }
-            *self = Self::default();
-        }
-        if right {
-            self.wrong = 0;
-            return Verdict::Welcome;
-        }
-        self.wrong += 1;
-        if self.wrong >= WRONG_PASSWORDS_ALLOWED {
-            self.until = Some(now + LOCKED_FOR);
-        }
-        Verdict::Wrong
-    }
-}
-
-const WRONG_PASSWORDS_ALLOWED: u32 = 5;
-const LOCKED_FOR: Duration = Duration::from_secs(60);
 
 const MEMORY_KIB: u32 = 19_456;
 const PASSES: u32 = 2;
@@ -206,20 +172,5 @@ mod tests {
             Argon2::default().verify_password(b"Passw0rd", &nobody),
             Err(argon2::password_hash::Error::Password)
         );
-    }
-
-    #[test]
-    fn five_wrong_passwords_lock_a_user_out_for_a_minute() {
-        let start = Instant::now();
-        let mut lockout = Lockout::default();
-        for _ in 0..4 {
-            assert_eq!(lockout.judge(false, start), Verdict::Wrong);
-        }
-        assert_eq!(lockout.judge(true, start), Verdict::Welcome);
-        for _ in 0..5 {
-            assert_eq!(lockout.judge(false, start), Verdict::Wrong);
-        }
-        assert_eq!(lockout.judge(true, start + Duration::from_secs(59)), Verdict::Locked);
-        assert_eq!(lockout.judge(true, start + Duration::from_secs(60)), Verdict::Welcome);
     }
 }

@@ -4,10 +4,11 @@ use std::sync::Arc;
 
 use opcua::crypto::SecurityPolicy;
 use parking_lot::Mutex;
-use tokio::sync::watch;
+use tokio::sync::{Notify, watch};
 
+use super::channel::Channel;
 use super::fault::Fault;
-use super::rewrap::ChainedClient;
+use super::rewrap::SecuredClient;
 use crate::pki::Certificate;
 use crate::virtual_controller::connection_limits::{Activity, Occupant, Place, PlaceLimits, Places, Source, Standing};
 
@@ -25,6 +26,8 @@ pub(super) struct Connection {
     pub(super) activity: Activity,
     stop: watch::Sender<Option<Stop>>,
     pub(super) state: Mutex<ConnectionState>,
+    pub(super) channel: Mutex<Channel>,
+    answered: Notify,
 }
 
 /// How far a connection has come.
@@ -36,8 +39,10 @@ pub(super) struct ConnectionState {
     pub(super) channel: Option<u32>,
     /// Sessions on it that were looked at and found to belong there.
     pub(super) sessions: HashSet<u32>,
-    /// Set where a chain was sent, which the server cannot read.
-    pub(super) chained: Option<Arc<ChainedClient>>,
+    /// Set where the channel has security.
+    pub(super) secured: Option<Arc<SecuredClient>>,
+    /// What stands for the connection in the names of users who log in.
+    pub(super) login_mark: Option<String>,
 }
 
 /// Who asks for a secure channel, as its OpenSecureChannel says in clear.
@@ -99,7 +104,7 @@ impl Connections {
 
     /// Takes in one more, as [`Places::enter`] does.
     pub(super) fn enter(&self, peer: SocketAddr, stop: watch::Sender<Option<Stop>>) -> Option<Entered<'_>> {
-        let place = self.places.enter(Connection { peer, activity: Activity::new(), stop, state: Mutex::default() })?;
+        let place = self.places.enter(Connection::new(peer, stop))?;
         Some(Entered { connections: self, place })
     }
 
@@ -157,6 +162,32 @@ impl Drop for Entered<'_> {
 }
 
 impl Connection {
+    pub(super) fn new(peer: SocketAddr, stop: watch::Sender<Option<Stop>>) -> Self {
+        Self {
+            peer,
+            activity: Activity::new(),
+            stop,
+            state: Mutex::default(),
+            channel: Mutex::default(),
+            answered: Notify::new(),
+        }
+    }
+
+    pub(super) fn notify_answered(&self) {
+        self.answered.notify_waiters();
+    }
+
+    /// Waits until the server has answered every request for a session.
+    pub(super) async fn all_answered(&self) {
+        loop {
+            let answered = self.answered.notified();
+            if !self.channel.lock().awaits_answers() {
+                return;
+            }
+            answered.await;
+        }
+    }
+
     /// Ends it, unless that has begun already.
     pub(super) fn stop(&self, stop: Stop) {
         self.stop.send_if_modified(|slot| {

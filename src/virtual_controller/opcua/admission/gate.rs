@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use opcua::crypto::SecurityPolicy as WirePolicy;
+use opcua::server::ServerHandle;
 use opcua::types::StatusCode;
 use tokio::io::AsyncReadExt as _;
 use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
@@ -15,31 +16,34 @@ use tokio::time::{Instant, sleep, sleep_until, timeout};
 
 use super::super::certificate_store::PkiFolder;
 use super::super::endpoints::wire;
+use super::client_to_server::{ClientToServer, read_hello};
 use super::connections::{Connection, Connections, Identity, Stop, stop_asked};
-use super::downward::{Downward, say};
 use super::fault::Fault;
 use super::frame::Open;
+use super::inner_server::InnerServer;
 use super::judge::{self, Judge, invalid, read_chain};
 use super::limits::Limits;
 use super::report::Reporter;
-use super::rewrap::{ChainedClient, Own};
-use super::upward::{Upward, read_hello};
+use super::rewrap::{Own, SecuredClient};
+use super::server_to_client::{ServerToClient, say};
+use super::sessions::{SessionNumber, Sessions};
 use crate::model::{CertificateStatus, SecurityPolicy};
 use crate::pki::{Certificate, Rejection, TrustLists};
 use crate::virtual_controller::connection_limits::Standing;
 
-/// Stands in front of the OPC UA crate's server, which listens on a loopback port, and lets in whom it may.
+/// Stands in front of the OPC UA crate's server, which has no port of its own, and lets in whom it may.
 ///
 /// The crate never lets go of a client that has stopped reading: stopping would take forever and keep a core busy. The
 /// clients' connections are therefore ours; dropping [`Gate::run`] closes them all, and the port.
 #[derive(Debug)]
 pub(in super::super) struct Gate {
     settings: Settings,
-    server: SocketAddr,
+    server: InnerServer,
     own: Arc<Own>,
     judge: Judge,
     pki: PkiFolder,
     connections: Connections,
+    sessions: Sessions,
     reporter: Reporter,
 }
 
@@ -70,14 +74,20 @@ pub struct CutConnection {
 impl Gate {
     pub(in super::super) fn new(
         settings: Settings,
-        server: SocketAddr,
+        server: InnerServer,
         own: Own,
         judge: Judge,
         pki: PkiFolder,
         reporter: Reporter,
     ) -> Self {
         let connections = Connections::new(settings.limits.places);
-        Self { settings, server, own: Arc::new(own), judge, pki, connections, reporter }
+        Self { settings, server, own: Arc::new(own), judge, pki, connections, sessions: Sessions::default(), reporter }
+    }
+
+    /// Makes the crate's server the one that clients are led to, until the answer is dropped.
+    pub(in super::super) fn attach(self: &Arc<Self>, server: ServerHandle) -> Attached {
+        self.server.attach(Some(server));
+        Attached(self.clone())
     }
 
     /// Serves clients until it is dropped.
@@ -162,9 +172,41 @@ impl Gate {
             Err(fault) => return say(to, &self.refuse(connection, fault)).await,
         };
         let _ = server.set_nodelay(true);
-        let (from_server, to_server) = server.into_split();
+        let (mut from_server, mut to_server) = server.into_split();
+        let mut up = ClientToServer::new(self, connection, hello);
+        let mut down = ServerToClient::new(self, connection);
+        let told = self
+            .pass_on(connection, (&mut up, from, &mut to_server), (&mut down, &mut from_server, to), stopped, start)
+            .await;
+        // The server may have to close sessions, or to answer first.
+        let left = async {
+            if up.leave(&mut to_server).await {
+                std::future::pending::<()>().await;
+            }
+        };
+        let _ = timeout(LEAVE, async {
+            tokio::select! {
+                () = left => {}
+                () = down.hear_out(&mut from_server) => {}
+            }
+        })
+        .await;
+        told
+    }
+
+    /// Passes on what client and server say until the connection has to end. Whether the client should be given time to
+    /// read its last words.
+    async fn pass_on(
+        self: &Arc<Self>,
+        connection: &Arc<Connection>,
+        (up, from, to_server): (&mut ClientToServer<'_>, &mut OwnedReadHalf, &mut OwnedWriteHalf),
+        (down, from_server, to): (&mut ServerToClient<'_>, &mut OwnedReadHalf, &mut OwnedWriteHalf),
+        stopped: watch::Receiver<Option<Stop>>,
+        start: Instant,
+    ) -> bool {
+        let limits = &self.settings.limits;
         let up = async {
-            if let Err(stop) = Upward::new(self, connection, hello).run(from, to_server, start + limits.open).await {
+            if let Err(stop) = up.run(from, to_server, start + limits.open).await {
                 connection.stop(stop);
                 std::future::pending::<()>().await;
             }
@@ -179,7 +221,7 @@ impl Gate {
             std::future::pending::<()>().await;
         };
         tokio::select! {
-            told = Downward::new(self, connection).run(from_server, to, stopped) => told,
+            told = down.run(from_server, to, stopped) => told,
             () = up => false,
             () = in_vain => false,
         }
@@ -188,14 +230,9 @@ impl Gate {
     /// Reads the client's Hello and finds the server. `None` if the client has gone.
     async fn greet(&self, from: &mut OwnedReadHalf, by: Instant) -> Result<Option<(Vec<u8>, TcpStream)>, Fault> {
         let Some(hello) = read_hello(from, by).await? else { return Ok(None) };
-        let server = TcpStream::connect(self.server).await;
+        let server = self.server.connect().await;
         let server = server.map_err(|_| Fault::new(StatusCode::BadServerHalted, "the server has stopped"))?;
         Ok(Some((hello, server)))
-    }
-
-    #[cfg(test)]
-    pub(in super::super) fn server(&self) -> SocketAddr {
-        self.server
     }
 
     pub(in super::super) fn pki(&self) -> &PkiFolder {
@@ -208,6 +245,34 @@ impl Gate {
 
     pub(super) fn own(&self) -> &Arc<Own> {
         &self.own
+    }
+
+    pub(super) fn sessions(&self) -> &Sessions {
+        &self.sessions
+    }
+
+    /// A client asks for one more session. `None` if it cannot have one.
+    pub(super) fn enter_session(&self, connection: &Arc<Connection>) -> Option<SessionNumber> {
+        self.sessions.enter(connection, &|token| self.server.find_session(token))
+    }
+
+    /// What the server is told when a client has left: which of its sessions end.
+    pub(super) fn farewell(&self, connection: &Arc<Connection>) -> Vec<u8> {
+        let Some(channel) = connection.state.lock().channel else { return Vec::new() };
+        let ended = self.sessions.leave(connection, channel, &|token| self.server.find_session(token));
+        connection.channel.lock().close_sessions(&ended)
+    }
+
+    pub(super) fn connection_of_mark(&self, mark: &str) -> Option<Arc<Connection>> {
+        self.connections
+            .all()
+            .into_iter()
+            .find(|connection| connection.state.lock().login_mark.as_deref() == Some(mark))
+    }
+
+    /// Tells that a user was not let in. Nobody is told if the source of it is kept quiet.
+    pub(in super::super) fn login_refused(&self, client: SocketAddr, user: Option<&str>, reason: &str) {
+        self.reporter.login_refused(client, user, reason);
     }
 
     /// Whether sessions without security are offered.
@@ -275,9 +340,9 @@ impl Gate {
             let Some(leaf) = identity.leaf() else { return Ok::<_, io::Error>(()) };
             {
                 let mut state = connection.state.lock();
-                if identity.chain.len() > 1 && state.chained.is_none() {
-                    let client = ChainedClient::new(policy, leaf.der()).map_err(|_| ErrorKind::InvalidInput)?;
-                    state.chained = Some(Arc::new(client));
+                if state.secured.is_none() {
+                    let client = SecuredClient::new(policy, leaf.der()).map_err(|_| ErrorKind::InvalidInput)?;
+                    state.secured = Some(Arc::new(client));
                 }
                 // Before the folder, so that nobody finds the certificate there without a connection that needs it.
                 state.identity = Some(identity.clone());
@@ -328,7 +393,7 @@ impl Gate {
         let unopened = state.identity.clone().filter(|_| state.channel.is_none());
         drop(state);
         if let Some(leaf) = unopened.as_ref().and_then(|identity| identity.leaf()) {
-            self.reporter.refused(connection.peer, &unproven(leaf));
+            self.reporter.refused(connection.peer, &format!("the secure channel was not opened ({})", leaf.subject()));
         }
     }
 
@@ -398,6 +463,16 @@ impl Gate {
     }
 }
 
+/// The server of a gate.
+#[derive(Debug)]
+pub(in super::super) struct Attached(pub(in super::super) Arc<Gate>);
+
+impl Drop for Attached {
+    fn drop(&mut self) {
+        self.0.server.attach(None);
+    }
+}
+
 /// Reads on until the client has hung up.
 async fn unheard(from: &mut OwnedReadHalf) {
     let mut bytes = [0; 4096];
@@ -409,6 +484,8 @@ fn unproven(leaf: &Certificate) -> String {
 }
 
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
+/// What the server gets for the sessions of a client that has left.
+const LEAVE: Duration = Duration::from_secs(2);
 
 #[cfg(test)]
 #[path = "tests.rs"]

@@ -2,19 +2,22 @@
 //!
 //! The crate asks one question about a client's certificate: does this very file lie in its folder? It looks at no
 //! issuer, no revocation list and no ApplicationUri, bounds nothing, and offers no place to do so. So its server, as it
-//! is, listens on a loopback port, and the gate on the public one.
+//! is, has no port at all: it calls the gate, which listens on the public one.
 //!
 //! | file | idea |
 //! |---|---|
 //! | `gate` | every connection from its first byte to its last, and who is let in |
 //! | `judge` | the trust lists in force, and what a peer is told of its rejection |
-//! | `upward` | from the client to the server: no byte passes before its chunk was looked at |
-//! | `downward` | from the server to the client, and last words |
+//! | `inner_server` | how the gate, and nothing else, reaches the crate's server |
+//! | `client_to_server` | whole chunks only, and requests for sessions and logins looked at |
+//! | `server_to_client` | the answers to them, and last words |
 //! | `passage` | bytes of one direction, chunk by chunk |
 //! | `frame` | the parts of OPC UA's chunks that are not encrypted |
-//! | `plain` | what is objected to where nothing is encrypted: passwords in clear, and sessions not offered |
-//! | `rewrap` | clients that send their issuers along, which the crate cannot read |
-//! | `channel_keys` | the same in CreateSession |
+//! | `rewrap` | OpenSecureChannel opened and sealed again, so that the gate has the keys of the channel |
+//! | `channel_keys` | messages opened and closed with them |
+//! | `channel` | what is known of one channel: its keys, its last message, what it has asked for |
+//! | `sessions` | how many sessions there may be, and which one makes room |
+//! | `logins` | which connection a user logs in by |
 //! | `guard` | sessions that do not belong to their secure channel |
 //! | `connections` | the connections there are, in the places of `connection_limits` |
 //! | `limits` | how many, how long, how large |
@@ -23,8 +26,10 @@
 //!
 //! # The walk of a connection
 //! Hello; then OpenSecureChannel, whose policy and certificates travel in clear: they are judged, and the request passes
-//! or the peer gets an error. Only the server can tell whether the client has the certificate's key; a thief gets no
-//! further than its check. From then on bytes pass, while renewals are compared with the first request and judged again.
+//! or the peer gets an error; so does one that has not the key of its certificate. From then on chunks pass, while
+//! renewals are compared with the first request and judged again. CreateSession takes a place among the sessions, and a
+//! user's name in ActivateSession is marked with its connection. When the connection ends, the gate closes the sessions
+//! that nobody could use any more.
 //! At the activation of a session the guard compares it with its channel. A change of the trust lists judges everybody
 //! again, and ends in milliseconds the connections that would not be let in now.
 //!
@@ -33,41 +38,48 @@
 //! clients. A controller can be told to give the true one.
 //!
 //! # Limits of the OPC UA crate that remain
-//! Issuers sent in CreateSession are left out only before the first session of a channel, and only of a client that
-//! sent them in OpenSecureChannel too. TransferSubscriptions and Publish reach no node, so that only the activation
-//! guards them. A password in clear is taken out where nothing is signed; a client that signs but neither encrypts its
-//! channel nor its password, although told to, shows it to whoever listens.
+//! TransferSubscriptions and Publish reach no node, so that only the activation guards them. A password in clear is taken
+//! out where nothing is signed; a client that signs but neither encrypts its channel nor its password, although told to,
+//! shows it to who listens.
 
+mod channel;
 mod channel_keys;
+mod client_to_server;
 mod connections;
-mod downward;
 mod fault;
 mod frame;
 mod gate;
 mod guard;
+mod inner_server;
 mod judge;
 mod limits;
+mod logins;
 mod passage;
-mod plain;
 #[cfg(test)]
 mod properties;
 mod report;
 mod rewrap;
-mod upward;
+mod server_to_client;
+mod sessions;
 
 pub use gate::CutConnection;
-pub(super) use gate::{Gate, Settings};
+pub(super) use gate::{Attached, Gate, Settings};
 pub(super) use guard::Guarded;
+pub(super) use inner_server::{InnerServer, deaf_listener};
 pub use judge::Clock;
 pub(super) use judge::Judge;
+pub(super) use logins::Login;
 pub use report::Refusals;
 pub(super) use report::Reporter;
 pub(super) use rewrap::Own;
 
+/// Sessions the crate's server takes: those of all clients, and those that are being closed.
+pub(super) const SESSIONS_BEHIND_THE_GATE: usize = 10 * sessions::MAX_SESSIONS;
+
 /// For the tests of the server, which have to forge what a client would not send.
 #[cfg(test)]
 pub(super) mod wire {
-    pub(in super::super) use super::channel_keys::ChannelKeys;
+    pub(in super::super) use super::channel_keys::{ChannelKeys, Sender};
     pub(in super::super) use super::frame::tests;
     pub(in super::super) use super::frame::{Kind, Open};
     pub(in super::super) use super::passage::Passage;

@@ -10,7 +10,10 @@ use super::frame::{
     HEADER, Header, Kind, MAX_HELLO, MAX_OPEN, Open, SYMMETRIC_HEADER, split_certificates, tests::open,
 };
 use super::passage::Passage;
-use super::plain;
+use super::{
+    channel_keys::{ChannelKeys, Sender, decode},
+    logins,
+};
 
 const CHUNK: usize = 65_535;
 
@@ -182,13 +185,21 @@ proptest! {
             let size = chunk.len() as u32;
             chunk[4..8].copy_from_slice(&size.to_le_bytes());
         }
-        let header = Header::parse(&chunk, CHUNK).unwrap().expect("a header");
-        let _ = plain::service(header, &chunk);
-        if let Ok(Some(harmless)) = (plain::CLEAR_PASSWORD.spoil)(header, &chunk) {
-            prop_assert!(!harmless.windows(password.len()).any(|window| window == password));
-            let header = Header::parse(&harmless, CHUNK).unwrap().expect("a header");
-            prop_assert_eq!(header.size, harmless.len());
-            prop_assert_eq!((plain::CLEAR_PASSWORD.spoil)(header, &harmless).map(|again| again.is_some()), Ok(true));
+        let keys = ChannelKeys::none();
+        let _ = keys.begin(Sender::Client, &chunk);
+        let service = ObjectId::ActivateSessionRequest_Encoding_DefaultBinary;
+        let body = keys.open(Sender::Client, &chunk).unwrap_or_default();
+        let Some(mut request) = decode::<ActivateSessionRequest>(&body, service) else { return Ok(()) };
+        let Some(token) = request.user_identity_token.inner_as::<UserNameIdentityToken>() else { return Ok(()) };
+        match logins::passed_on(token, false, "mark") {
+            Some(token) => prop_assert!(!token.encryption_algorithm.is_empty()),
+            None => {
+                request.user_identity_token = ExtensionObject::from_message(UserNameIdentityToken::default());
+                let harmless = keys.replace(Sender::Client, &chunk, &body, service, &request).unwrap();
+                prop_assert!(!harmless.windows(password.len()).any(|window| window == password));
+                let header = Header::parse(&harmless, CHUNK).unwrap().expect("a header");
+                prop_assert_eq!(header.size, harmless.len());
+            }
         }
     }
 }

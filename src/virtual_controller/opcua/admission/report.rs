@@ -45,18 +45,27 @@ impl Reporter {
 
     /// Something else than a certificate was refused. False if nobody was told, because its source is kept quiet.
     pub(super) fn refused(&self, client: SocketAddr, reason: &str) -> bool {
+        self.refusal(client, Event::Refused { client, reason })
+    }
+
+    /// A user was not let in.
+    pub(super) fn login_refused(&self, client: SocketAddr, user: Option<&str>, reason: &str) {
+        self.refusal(client, Event::LoginRefused { client: Some(client), user, reason });
+    }
+
+    fn refusal(&self, client: SocketAddr, event: Event<'_>) -> bool {
         let source = Source::new(client.ip());
         let refusal = self.lines.lock().refused(source, Instant::now());
         match refusal {
             Refusal::Tell { left_out } => {
                 self.left_out(source, left_out);
-                self.events.tell(Event::Refused { client, reason });
-                tracing::info!(%client, reason, "OPC UA client refused");
+                self.events.tell(event);
+                tracing::info!("OPC UA: {event}");
             }
             Refusal::TellLast => {
-                self.events.tell(Event::Refused { client, reason });
+                self.events.tell(event);
                 self.events.tell(Event::RefusalsQuiet { source });
-                tracing::warn!(%client, reason, "OPC UA client refused, as too many before; no more is said of this address");
+                tracing::warn!("OPC UA: {event}, as too many before; no more is said of this address for a while");
             }
             Refusal::Quiet => return false,
         }

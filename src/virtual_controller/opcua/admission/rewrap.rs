@@ -1,11 +1,11 @@
 use std::fmt;
-use std::sync::Arc;
 
 use opcua::crypto::{KeySize as _, PrivateKey, PublicKey, SecurityPolicy, X509};
 use opcua::types::StatusCode;
 use parking_lot::Mutex;
 
 use super::channel_keys::ChannelKeys;
+use super::client_to_server::sequence_at;
 use super::fault::Fault;
 use super::frame::Open;
 
@@ -17,19 +17,17 @@ pub(in super::super) struct Own {
     thumbprint: Vec<u8>,
 }
 
-/// A client that sent its issuers along with its certificate.
+/// A client with a certificate, to whose channel the gate has the keys.
 ///
-/// The server cannot read more than one certificate, so OpenSecureChannel is opened here and sealed again: for the
-/// server under its own certificate, for the client under what it expects. Both nonces pass as they are, so the two
-/// derive the same symmetric keys from them, and what follows passes untouched, but for CreateSession.
-pub(super) struct ChainedClient {
+/// OpenSecureChannel is opened here and sealed again: for the server under its own certificate, for the client under
+/// what it expects. Both nonces pass as they are, so that the two derive the same symmetric keys from them, and the gate
+/// does too. The server, which cannot read more than one certificate, never sees the issuers a client sends along.
+pub(super) struct SecuredClient {
     policy: SecurityPolicy,
     public: PublicKey,
     thumbprint: Vec<u8>,
-    leaf: Vec<u8>,
     /// The request under way, from its sequence header on.
     asked: Mutex<Vec<u8>>,
-    keys: Mutex<Option<Arc<ChannelKeys>>>,
 }
 
 impl Own {
@@ -45,46 +43,28 @@ impl Own {
     }
 }
 
-impl ChainedClient {
+impl SecuredClient {
     /// `leaf`: the client's own certificate, DER.
     pub(super) fn new(policy: SecurityPolicy, leaf: &[u8]) -> Result<Self, Fault> {
         let certificate = X509::from_der(leaf).map_err(|_| refused())?;
         let public = certificate.public_key().map_err(|_| refused())?;
-        Ok(Self {
-            policy,
-            public,
-            thumbprint: certificate.thumbprint().value().to_vec(),
-            leaf: leaf.to_vec(),
-            asked: Mutex::default(),
-            keys: Mutex::default(),
-        })
+        Ok(Self { policy, public, thumbprint: certificate.thumbprint().value().to_vec(), asked: Mutex::default() })
     }
 
-    /// The client's request as the server can read it, if the client signed it.
-    pub(super) fn request(&self, own: &Own, chunk: &[u8]) -> Result<Vec<u8>, Fault> {
+    /// The client's request as the server can read it, if the client signed it; and its sequence number.
+    pub(super) fn request(&self, own: &Own, chunk: &[u8]) -> Result<(u32, Vec<u8>), Fault> {
         let body = unseal(self.policy, chunk, &own.key, &self.public)?;
-        let sealed = self.seal(own, chunk, &body, &own.thumbprint, &own.public);
+        let sequence = sequence_at(&body, 0).ok_or_else(refused)?;
+        let sealed = self.seal(own, chunk, &body, &own.thumbprint, &own.public)?;
         *self.asked.lock() = body;
-        sealed
+        Ok((sequence, sealed))
     }
 
-    /// The server's answer as the client expects it.
-    pub(super) fn answer(&self, own: &Own, chunk: &[u8]) -> Result<Vec<u8>, Fault> {
+    /// The server's answer as the client expects it, and the keys agreed on with it.
+    pub(super) fn answer(&self, own: &Own, chunk: &[u8]) -> Result<(Option<ChannelKeys>, Vec<u8>), Fault> {
         let body = unseal(self.policy, chunk, &own.key, &own.public)?;
         let keys = ChannelKeys::new(self.policy, &std::mem::take(&mut *self.asked.lock()), &body);
-        *self.keys.lock() = keys.map(Arc::new);
-        self.seal(own, chunk, &body, &self.thumbprint, &self.public)
-    }
-
-    /// A message under the keys agreed on last, with the client's certificate alone if it is CreateSession.
-    pub(super) fn session_request(&self, chunk: &[u8]) -> Option<Vec<u8>> {
-        let keys = self.keys.lock().clone()?;
-        keys.edit_session_request(chunk, |request| {
-            // Anything else than what the channel was opened with stays, and is refused.
-            if request.client_certificate.as_ref().starts_with(&self.leaf) {
-                request.client_certificate = self.leaf.as_slice().into();
-            }
-        })
+        Ok((keys, self.seal(own, chunk, &body, &self.thumbprint, &self.public)?))
     }
 
     fn seal(
@@ -203,9 +183,9 @@ impl fmt::Debug for Own {
     }
 }
 
-impl fmt::Debug for ChainedClient {
+impl fmt::Debug for SecuredClient {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("ChainedClient").field("policy", &self.policy).finish_non_exhaustive()
+        f.debug_struct("SecuredClient").field("policy", &self.policy).finish_non_exhaustive()
     }
 }
 

@@ -33,7 +33,7 @@ impl Stand {
         let address = clients.local_addr().unwrap();
         let gate = Gate::new(
             Settings { limits, ..Settings::new(SecurityPolicy::ALL.into(), false) },
-            server.local_addr().unwrap(),
+            InnerServer::standing_in(server.local_addr().unwrap()),
             Own::new(&SERVER.der, &SERVER.key.serialize_pem()).unwrap(),
             Judge::new(TrustLists::default(), TrustPolicy::default(), judge::Clock::default()),
             PkiFolder::create(folder.path().join("pki")).unwrap(),

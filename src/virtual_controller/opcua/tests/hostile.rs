@@ -16,7 +16,7 @@ const NONE: &str = "http://opcfoundation.org/UA/SecurityPolicy#None";
 const BASIC128RSA15: &str = "http://opcfoundation.org/UA/SecurityPolicy#Basic128Rsa15";
 const BASIC256SHA256: &str = "http://opcfoundation.org/UA/SecurityPolicy#Basic256Sha256";
 
-fn hello() -> Vec<u8> {
+pub(super) fn hello() -> Vec<u8> {
     let url = b"opc.tcp://127.0.0.1";
     let mut hello = b"HELF".to_vec();
     hello.extend((32 + url.len() as u32).to_le_bytes());
@@ -28,7 +28,7 @@ fn hello() -> Vec<u8> {
 }
 
 /// The first OpenSecureChannel request of a connection, without security.
-fn open_plain(channel: u32) -> Vec<u8> {
+pub(super) fn open_plain(channel: u32) -> Vec<u8> {
     open_again(channel, 1, 0)
 }
 
@@ -136,7 +136,7 @@ async fn garbage_and_lies_are_answered_with_an_error_and_hurt_nobody() {
 async fn a_stolen_certificate_is_worth_nothing_without_its_key() {
     let folder = tempfile::tempdir().unwrap();
     let (server, address, told) = target(&folder).await;
-    // One that the server looks at itself, and one with an issuer, which the gate opens.
+    // Alone, and with an issuer.
     for stolen in [CLIENT.der.clone(), [&CLIENT.der[..], &SERVER.der].concat()] {
         let before = told.lines().matches("no proof").count();
         assert!(last_word(address, &[hello(), open_as(&stolen)].concat()).await.is_some());
@@ -184,7 +184,7 @@ async fn opened(address: SocketAddr) -> (TcpStream, u32) {
 }
 
 /// Reads the answer to an OpenSecureChannel request.
-async fn channel_answered(peer: &mut TcpStream) -> u32 {
+pub(super) async fn channel_answered(peer: &mut TcpStream) -> u32 {
     let mut head = [0; 12];
     timeout(PATIENCE, peer.read_exact(&mut head)).await.unwrap().unwrap();
     assert_eq!(&head[..4], b"OPNF");

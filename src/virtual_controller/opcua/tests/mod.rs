@@ -4,6 +4,7 @@ mod admission;
 mod chains;
 mod client;
 mod disguise;
+mod hogs;
 mod hostile;
 pub(super) mod identity;
 mod server;

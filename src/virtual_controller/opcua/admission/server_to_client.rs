@@ -1,12 +1,15 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use opcua::types::{BinaryDecodable as _, NodeId, ObjectId, ResponseHeader, ServiceFault};
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
 use tokio::sync::watch;
 use tokio::task::spawn_blocking;
 use tokio::time::{Instant, sleep_until, timeout};
 
+use super::channel::Asked;
+use super::channel_keys::{BEGINNING, ChannelKeys, SEQUENCE_HEADER, Sender, contexts, decode, token_of};
 use super::connections::{Connection, Stop, stop_asked};
 use super::fault::Fault;
 use super::frame::{Header, Kind, channel_of};
@@ -14,13 +17,13 @@ use super::gate::Gate;
 use super::passage::Passage;
 
 /// From the server to one client. Says to the client why its connection ends, between two chunks.
-pub(super) struct Downward<'a> {
+pub(super) struct ServerToClient<'a> {
     gate: &'a Gate,
     connection: &'a Arc<Connection>,
     passage: Passage,
 }
 
-impl<'a> Downward<'a> {
+impl<'a> ServerToClient<'a> {
     pub(super) fn new(gate: &'a Gate, connection: &'a Arc<Connection>) -> Self {
         Self { gate, connection, passage: Passage::default() }
     }
@@ -28,8 +31,8 @@ impl<'a> Downward<'a> {
     /// Ends when the server has hung up, when the client takes nothing any more, or as `stopped` says. Whether the
     /// client should be given time to read its last words.
     pub(super) async fn run(
-        mut self,
-        mut from: OwnedReadHalf,
+        &mut self,
+        from: &mut OwnedReadHalf,
         to: &mut OwnedWriteHalf,
         mut stopped: watch::Receiver<Option<Stop>>,
     ) -> bool {
@@ -57,7 +60,7 @@ impl<'a> Downward<'a> {
             }
             if !self.passage.good().is_empty() {
                 let written = timeout(self.gate.limits().stall, to.write_all(self.passage.good()));
-                // Whoever reads nothing must not put off its end.
+                // A client that reads nothing must not put off its end.
                 let overdue = async {
                     if stop.is_none() {
                         stop_asked(&mut stopped).await;
@@ -75,11 +78,26 @@ impl<'a> Downward<'a> {
         }
     }
 
+    /// Reads what the server still says to a client that has left, until it hangs up.
+    pub(super) async fn hear_out(&mut self, from: &mut OwnedReadHalf) {
+        loop {
+            self.passage.sent();
+            if self.look().await.is_err() || !matches!(from.read_buf(self.passage.room()).await, Ok(1..)) {
+                return;
+            }
+        }
+    }
+
     async fn look(&mut self) -> Result<(), Fault> {
         while let Some(header) = self.passage.next(self.gate.limits().chunk)? {
             match header.kind {
                 Kind::Open => {
                     if !self.opened(header).await? {
+                        return Ok(());
+                    }
+                }
+                Kind::Message if self.connection.channel.lock().awaits_answers() => {
+                    if !self.answered(header) {
                         return Ok(());
                     }
                 }
@@ -99,17 +117,84 @@ impl<'a> Downward<'a> {
         if let Some(channel) = channel_of(chunk) {
             self.gate.opened(self.connection, channel);
         }
-        let chained = self.connection.state.lock().chained.clone();
-        match chained {
+        let secured = self.connection.state.lock().secured.clone();
+        match secured {
             Some(client) => {
                 let (own, chunk) = (self.gate.own().clone(), chunk.to_vec());
                 let sealed = spawn_blocking(move || client.answer(&own, &chunk)).await;
-                self.passage.replace(header, sealed.unwrap_or_else(|_| Err(Fault::internal()))?);
+                let (keys, sealed) = sealed.unwrap_or_else(|_| Err(Fault::internal()))?;
+                if let Some(keys) = keys {
+                    self.connection.channel.lock().opened(keys);
+                }
+                self.passage.replace(header, sealed);
             }
             None => self.passage.pass(header),
         }
         Ok(true)
     }
+
+    /// A message, perhaps the answer to a request for a session. False while too little of it is here.
+    fn answered(&mut self, header: Header) -> bool {
+        let bytes = self.passage.rest();
+        if bytes.len() < BEGINNING.min(header.size) {
+            return false;
+        }
+        let keys = token_of(bytes).and_then(|token| self.connection.channel.lock().keys(token));
+        let Some(keys) = keys else {
+            self.passage.pass(header);
+            return true;
+        };
+        let request = keys.begin(Sender::Server, bytes).map(|beginning| beginning.request).unwrap_or_default();
+        if !self.connection.channel.lock().is_asked(request) {
+            self.passage.pass(header);
+            return true;
+        }
+        let Some(chunk) = self.passage.chunk(header) else { return false };
+        let asked = self.connection.channel.lock().answered(request);
+        let edited = asked.and_then(|asked| self.session_answer(&keys, chunk, asked));
+        match edited {
+            Some(edited) => self.passage.replace(header, edited),
+            None => self.passage.pass(header),
+        }
+        self.connection.notify_answered();
+        true
+    }
+
+    /// What takes the place of the first chunk of the answer, if something has to.
+    fn session_answer(&self, keys: &ChannelKeys, chunk: &[u8], asked: Asked) -> Option<Vec<u8>> {
+        let body = keys.open(Sender::Server, chunk);
+        match asked {
+            Asked::Session(number) => {
+                match body.as_deref().and_then(created_token) {
+                    Some(token) => self.gate.sessions().created(number, token),
+                    None => self.gate.sessions().refused(number),
+                }
+                None
+            }
+            Asked::Refused(status) => {
+                let body = body?;
+                let service = ObjectId::ServiceFault_Encoding_DefaultBinary;
+                let mut fault: ServiceFault = decode(&body, service)?;
+                fault.response_header.service_result = status;
+                keys.replace(Sender::Server, chunk, &body, service, &fault)
+            }
+        }
+    }
+}
+
+/// The authentication token in the first chunk of a CreateSession answer (OPC 10000-4 §5.7.2.2); the rest of the answer
+/// may be in other chunks.
+fn created_token(body: &[u8]) -> Option<NodeId> {
+    let contexts = contexts();
+    let context = contexts.context();
+    let mut rest = body.get(SEQUENCE_HEADER..)?;
+    let service = NodeId::decode(&mut rest, &context).ok()?.as_object_id().ok()?;
+    if service != ObjectId::CreateSessionResponse_Encoding_DefaultBinary {
+        return None;
+    }
+    ResponseHeader::decode(&mut rest, &context).ok()?;
+    let _session_id = NodeId::decode(&mut rest, &context).ok()?;
+    NodeId::decode(&mut rest, &context).ok()
 }
 
 /// Last words. Whether the client should be given time to read them.
