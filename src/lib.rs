@@ -4,6 +4,7 @@
 //!
 //! | room | what lives there |
 //! |---|---|
+//! | [`platform`] | what differs between operating systems: private files, replacing files, console, display |
 //! | [`model`] | what a controller is and may have: plain types, rules, limits, errors |
 //! | [`pki`] | keys, certificates, PKCS#12, PEM: bytes in, bytes out |
 //! | [`protocol`] | the controller-management protocol's messages and error codes |
@@ -30,6 +31,7 @@ pub mod cli;
 pub mod jobs;
 pub mod model;
 pub mod pki;
+pub mod platform;
 pub mod protocol;
 pub mod session;
 pub mod ui;

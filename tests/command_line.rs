@@ -306,5 +306,23 @@ fn a_window_without_a_display_says_so() {
     command.arg("--json").env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
     let finished = Running::start(&mut command).unwrap().finish(DONE);
     assert_eq!(finished.code, Some(2), "{}", finished.stderr);
-    assert_error(&[serde_json::from_str(&finished.stdout).unwrap()], "no-display");
+    let line: Value = serde_json::from_str(&finished.stdout).unwrap();
+    let detail = line["error"]["detail"].as_str().unwrap();
+    assert!(detail.contains("DISPLAY") && !detail.contains(".rs"), "{detail}");
+    assert!(line["error"]["remedy"].as_str().unwrap().contains("remote desktop"));
+    assert_error(&[line], "no-display");
+}
+
+/// Ctrl-C, a service manager, and the terminal that is closed.
+#[test]
+#[cfg(unix)]
+fn virtual_controllers_end_properly_when_they_are_asked_to() {
+    for signal in [libc::SIGINT, libc::SIGTERM, libc::SIGHUP] {
+        let mut controllers = Running::start(program().args(["virtual", "--count", "1"])).unwrap();
+        let ready: Value = serde_json::from_str(&controllers.next_line(DONE)).unwrap();
+        controllers.signal(signal);
+        let finished = controllers.finish(DONE);
+        assert_eq!(finished.code, Some(0), "signal {signal}: {}", finished.stderr);
+        assert!(std::net::TcpStream::connect(ready["management"].as_str().unwrap()).is_err());
+    }
 }

@@ -21,6 +21,7 @@ mod select;
 mod server;
 mod settings;
 mod settings_transfer;
+mod start_failure;
 mod table;
 mod trust_files;
 mod users;
@@ -35,6 +36,7 @@ use std::process::ExitCode;
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::model::{Language, Problem};
+use crate::platform::console;
 use crate::workspace::Workspace;
 use output::Output;
 
@@ -157,7 +159,12 @@ enum Ending {
 
 /// Runs the program: the window without a subcommand, else the subcommand.
 pub fn main() -> ExitCode {
-    let cli = Cli::parse();
+    console::attach();
+    start_failure::show_panics();
+    let cli = Cli::try_parse().unwrap_or_else(|error| {
+        start_failure::show_usage(&error);
+        error.exit()
+    });
     init_log(cli.verbose);
     let language = cli.lang.unwrap_or_else(system_language);
     let output = Output::new(cli.json, language);
@@ -168,6 +175,7 @@ pub fn main() -> ExitCode {
         yes: cli.yes,
         connection_password_file: cli.connection_password_file,
     };
+    let is_window = !cli.json && matches!(cli.command, None | Some(Command::Demo(_)));
     let ending = match cli.command {
         None => window::run(&settled, cli.lang),
         Some(Command::Demo(args)) => demo::run(&settled, &args, cli.lang),
@@ -199,6 +207,7 @@ pub fn main() -> ExitCode {
         Ok(Ending::SomeFailed) => ExitCode::from(1),
         Err(problem) => {
             settled.output.request_wrong(&problem);
+            start_failure::show(&problem, language, is_window);
             ExitCode::from(2)
         }
     }

@@ -8,6 +8,7 @@ use super::secret_file::read_secret;
 use super::{Ending, runtime};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};
+use crate::platform::stop_signal::stop_signal;
 use crate::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, demo_keys};
 
 #[derive(Debug, Args)]
@@ -140,22 +141,4 @@ fn fleet(args: &FleetArgs) -> Result<Ending, Problem> {
         fleet.shutdown().await;
         Ok(Ending::AllDone)
     })
-}
-
-/// Ctrl-C, or what a service manager sends.
-async fn stop_signal() {
-    #[cfg(unix)]
-    {
-        use tokio::signal::unix::{SignalKind, signal};
-        if let Ok(mut terminate) = signal(SignalKind::terminate()) {
-            tokio::select! {
-                _ = terminate.recv() => {}
-                _ = tokio::signal::ctrl_c() => {}
-            }
-            return;
-        }
-    }
-    if tokio::signal::ctrl_c().await.is_err() {
-        std::future::pending::<()>().await;
-    }
 }

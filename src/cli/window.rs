@@ -1,15 +1,28 @@
 use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use serde_json::json;
 
 use super::virtual_plant::VirtualPlant;
 use super::{Ending, Settled, system_language};
-use crate::model::{ErrorCode, Language, Problem};
+use crate::model::{Language, Problem};
+use crate::platform::console;
 use crate::session::ManagementConnector;
 use crate::ui::{self, WindowOptions};
-use crate::workspace::{Configuration, KeyringPasswords, Passwords, WorkspaceLock};
+use crate::workspace::{
+    Configuration, KeyringPasswords, Passwords, Shown, Workspace, WorkspaceError, WorkspaceLock, show_running_window,
+};
 
 /// The window on the workspace.
 pub fn run(settled: &Settled, language: Option<Language>) -> Result<Ending, Problem> {
-    let lock = settled.workspace.lock()?;
+    let Some(lock) = lock_or_show(&settled.workspace)? else {
+        let text = match settled.output.language() {
+            Language::En => "The workspace is open already; its window was brought to the front.",
+            Language::Zh => "该工作区已打开，已将其窗口置于最前。",
+        };
+        settled.output.finished(&json!({ "window": "shown" }), text);
+        return Ok(Ending::AllDone);
+    };
     let loaded = settled.workspace.load()?;
     let mut notice = loaded.notice();
     let mut configuration = loaded.configuration;
@@ -22,6 +35,27 @@ pub fn run(settled: &Settled, language: Option<Language>) -> Result<Ending, Prob
     }
     open(settled, language, configuration, lock, passwords, notice, plant)
 }
+
+/// The lock of the workspace; `None` if another window has it and was brought to the front.
+///
+/// A command of the command line has the workspace for a moment only, and is waited for.
+fn lock_or_show(workspace: &Workspace) -> Result<Option<WorkspaceLock>, Problem> {
+    let until = Instant::now() + A_COMMAND;
+    loop {
+        let busy = match workspace.lock() {
+            Err(busy @ WorkspaceError::Busy(_)) => busy,
+            result => return Ok(Some(result?)),
+        };
+        match show_running_window(workspace.root()) {
+            Ok(Shown::InFront) => return Ok(None),
+            Err(_) if Instant::now() < until => std::thread::sleep(PAUSE),
+            Ok(Shown::Marked) | Err(_) => return Err(busy.into()),
+        }
+    }
+}
+
+const A_COMMAND: Duration = Duration::from_secs(2);
+const PAUSE: Duration = Duration::from_millis(100);
 
 /// Opens the window and waits until it is closed.
 pub fn open(
@@ -46,7 +80,30 @@ pub fn open(
         language: system_language(),
         notice,
     };
-    let closed = ui::run(options).map_err(|e| Problem::with_detail(ErrorCode::NoDisplay, e));
+    console::detach();
+    let closed = ui::run(options);
     plant.shutdown();
     closed.map(|()| Ending::AllDone)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::ErrorCode;
+
+    #[test]
+    fn a_window_waits_for_a_command_and_not_for_another_computer() {
+        let folder = tempfile::tempdir().unwrap();
+        let workspace = Workspace::new(folder.path());
+        let command = workspace.lock().unwrap();
+        std::thread::scope(|scope| {
+            scope.spawn(move || {
+                std::thread::sleep(Duration::from_millis(300));
+                drop(command);
+            });
+            assert!(lock_or_show(&workspace).unwrap().is_some());
+        });
+        let _held = workspace.lock().unwrap();
+        assert_eq!(lock_or_show(&workspace).unwrap_err().code, ErrorCode::WorkspaceBusy);
+    }
 }

@@ -116,8 +116,10 @@ impl FromStr for FirmwareVersion {
     type Err = VersionError;
 
     fn from_str(text: &str) -> Result<Self, VersionError> {
-        let parts: Vec<u16> =
-            text.split('.').map(|p| p.parse().map_err(|_| VersionError(text.to_owned()))).collect::<Result<_, _>>()?;
+        let parts: Vec<u16> = text
+            .split('.')
+            .map(|p| p.parse::<u16>().map_err(|_| VersionError(text.to_owned())))
+            .collect::<Result<_, _>>()?;
         match parts[..] {
             [major, minor, patch] => Ok(Self { major, minor, patch }),
             _ => Err(VersionError(text.to_owned())),

@@ -1095,6 +1095,19 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("工作区已在其他窗口中打开", "同一工作区同时只能由一个程序使用。", "请使用已打开的窗口，或先将其关闭。"),
     ),
     (
+        ErrorCode::FileInUse,
+        text(
+            "A file is in use by another program",
+            "Another program has the file open, such as a virus scanner, a backup, a spreadsheet or an editor.",
+            "Close the file in the other program, then try again; until then the file keeps its old content.",
+        ),
+        text(
+            "文件正被其他程序使用",
+            "另一个程序打开了该文件，例如杀毒软件、备份程序、电子表格或编辑器。",
+            "请在该程序中关闭文件后重试；在此之前文件保持原有内容。",
+        ),
+    ),
+    (
         ErrorCode::ConfigurationDamaged,
         text(
             "The configuration file was damaged",
@@ -1120,13 +1133,15 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ErrorCode::NoDisplay,
         text(
             "The window cannot be opened",
-            "There is no display, or its graphics driver does not offer OpenGL.",
-            "Use the command line (--help), or start the program on a computer with a display.",
+            "There is no display here, as in a session by SSH, or its graphics driver offers neither OpenGL 2.1 nor \
+             Direct3D 12, as in some remote desktop sessions and virtual machines.",
+            "Start the program at the computer itself or over a remote desktop connection, install the graphics driver \
+             (on Linux, Mesa's software rendering is enough), or use the command line (--help).",
         ),
         text(
             "无法打开窗口",
-            "没有显示器，或图形驱动不支持 OpenGL。",
-            "请使用命令行（--help），或在有显示器的电脑上启动程序。",
+            "此处没有显示器（例如 SSH 会话），或图形驱动既不支持 OpenGL 2.1 也不支持 Direct3D 12（例如某些远程桌面会话和虚拟机）。",
+            "请在电脑本机或通过远程桌面启动程序，安装图形驱动程序（Linux 上使用 Mesa 软件绘图即可），或使用命令行（--help）。",
         ),
     ),
     (

@@ -131,6 +131,7 @@ pub enum ErrorCode {
     WorkspaceReadOnly,
     WorkspaceFull,
     WorkspaceBusy,
+    FileInUse,
     ConfigurationDamaged,
     KeyringUnavailable,
     NoDisplay,
@@ -189,6 +190,7 @@ impl ErrorCode {
                 | WorkspaceReadOnly
                 | WorkspaceFull
                 | WorkspaceBusy
+                | FileInUse
                 | ConfigurationDamaged
                 | KeyringUnavailable
                 | NoFilePicker
@@ -331,17 +333,16 @@ mod tests {
             BadConnectionList => 1,
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
             | BadPassphrase | UnprotectedFile => 8,
-            WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | ConfigurationDamaged | KeyringUnavailable
-            | NoDisplay | NoFilePicker | FolderNotOpened | FileTooLarge | FileNotRecognised | Cancelled | Internal => {
-                12
-            }
+            WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | FileInUse | ConfigurationDamaged
+            | KeyringUnavailable | NoDisplay | NoFilePicker | FolderNotOpened | FileTooLarge | FileNotRecognised
+            | Cancelled | Internal => 13,
         }
     }
 
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 12 + 20 + 14 + 14 + 14 + 1 + 4 + 1 + 8 + 12;
+        let all = 7 + 12 + 20 + 14 + 14 + 14 + 1 + 4 + 1 + 8 + 13;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

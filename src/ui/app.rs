@@ -24,6 +24,8 @@ pub struct App<B: Backend> {
     theme: Option<ThemeChoice>,
     size: Option<(f32, f32)>,
     dialogs_shown: usize,
+    /// The frame in which the window asks for the focus.
+    focus_at: Option<u64>,
 }
 
 impl<B: Backend> std::fmt::Debug for App<B> {
@@ -36,7 +38,16 @@ impl<B: Backend> App<B> {
     pub fn new(ctx: &egui::Context, model: Model, backend: B) -> Self {
         theme::install(ctx);
         fonts::install(ctx);
-        Self { model, backend, clock: Arc::new(Utc::now), save_at: None, theme: None, size: None, dialogs_shown: 0 }
+        Self {
+            model,
+            backend,
+            clock: Arc::new(Utc::now),
+            save_at: None,
+            theme: None,
+            size: None,
+            dialogs_shown: 0,
+            focus_at: None,
+        }
     }
 
     /// Another clock than the computer's, for pictures that must not change.
@@ -72,6 +83,7 @@ impl<B: Backend> App<B> {
             ui.ctx().request_repaint();
         }
         self.save_when_due(ui.ctx());
+        self.focus_when_due(ui.ctx());
         // The bench of the window counts these.
         tracing::trace!(frame = ui.ctx().cumulative_frame_nr(), "drawn");
     }
@@ -81,6 +93,11 @@ impl<B: Backend> App<B> {
             for command in reduce(&mut self.model, message) {
                 match command {
                     Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+                    Command::ShowWindow => {
+                        ctx.send_viewport_cmd(egui::ViewportCommand::Minimized(false));
+                        self.focus_at = Some(ctx.cumulative_frame_nr() + 1);
+                        ctx.request_repaint();
+                    }
                     command => self.backend.send(command),
                 }
             }
@@ -104,6 +121,19 @@ impl<B: Backend> App<B> {
         // What the window opens with is not a choice to remember.
         if self.size.replace(size).is_some_and(|before| before != size) {
             messages.push(Message::Resized(size));
+        }
+    }
+
+    /// A frame later than the window was restored: a minimised window takes no focus.
+    fn focus_when_due(&mut self, ctx: &egui::Context) {
+        if self.focus_at.is_some_and(|at| ctx.cumulative_frame_nr() >= at) {
+            self.focus_at = None;
+            ctx.send_viewport_cmd(egui::ViewportCommand::Focus);
+            // Where programs may not take the focus, the desktop marks the window.
+            if !ctx.input(|input| input.focused) {
+                let attention = egui::UserAttentionType::Informational;
+                ctx.send_viewport_cmd(egui::ViewportCommand::RequestUserAttention(attention));
+            }
         }
     }
 

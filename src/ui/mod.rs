@@ -26,12 +26,15 @@ mod file_manager;
 mod fonts;
 mod keys;
 pub mod model;
+mod notice;
 pub mod picker;
 pub mod texts;
 mod theme;
 mod views;
 mod widgets;
 
+use std::cell::Cell;
+use std::rc::Rc;
 use std::sync::Arc;
 
 use chrono::Utc;
@@ -39,9 +42,10 @@ use chrono::Utc;
 pub use app::App;
 use backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
 use model::Model;
+pub use notice::show_notice;
 use texts::TextKey;
 
-use crate::model::{Language, Problem};
+use crate::model::{ErrorCode, Language, Problem};
 use crate::session::Connector;
 use crate::workspace::{Configuration, Passwords, Workspace, WorkspaceLock};
 
@@ -68,40 +72,101 @@ impl std::fmt::Debug for WindowOptions {
 }
 
 /// Opens the window; returns when it is closed and everything is saved.
-pub fn run(options: WindowOptions) -> Result<(), eframe::Error> {
+///
+/// Draws with OpenGL 2.1. On Windows, where remote desktops and virtual machines often have none, Direct3D 12 is tried
+/// next; it draws in software if there is no graphics card.
+pub fn run(options: WindowOptions) -> Result<(), Problem> {
     let title = TextKey::AppName.text(options.configuration.options.language.unwrap_or(options.language));
     let size = options.configuration.options.window.size.map_or(theme::DEFAULT_WINDOW, |(w, h)| [w, h]);
-    let mut viewport = egui::ViewportBuilder::default()
-        .with_title(title)
-        .with_app_id("opcua-configurator")
-        .with_inner_size(size)
-        .with_min_inner_size(theme::MIN_WINDOW);
-    match eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon-256.png")) {
-        Ok(icon) => viewport = viewport.with_icon(icon),
-        Err(error) => tracing::warn!(%error, "no window icon"),
-    }
-    let native = eframe::NativeOptions { viewport, ..Default::default() };
-    eframe::run_native(
-        "opcua-configurator",
-        native,
-        Box::new(move |creation| {
-            let ctx = creation.egui_ctx.clone();
-            let backend = BackendOptions {
-                workspace: options.workspace.clone(),
-                lock: options.lock,
-                passwords: options.passwords,
-                connector: options.connector,
-                starter: options.starter,
-                picker: Arc::new(picker::SystemPicker),
-            };
-            let virtual_available = backend.starter.is_some();
-            let backend = TokioBackend::new(backend, move || ctx.request_repaint())?;
-            let mut model = Model::new(options.configuration, options.workspace, options.language, Utc::now());
-            model.virtual_available = virtual_available;
-            if let Some(notice) = options.notice {
-                model.show_problem(notice);
-            }
-            Ok(Box::new(App::new(&creation.egui_ctx, model, backend)))
-        }),
-    )
+    let viewport = viewport(title).with_inner_size(size).with_min_inner_size(theme::MIN_WINDOW);
+    // A renderer that fails does so before it takes them.
+    let options = Rc::new(Cell::new(Some(options)));
+    let open = |native: eframe::NativeOptions| {
+        let options = options.clone();
+        let create = move |creation: &eframe::CreationContext<'_>| match options.take() {
+            Some(options) => Ok(Box::new(create(creation, options)?) as Box<dyn eframe::App>),
+            None => Err("the window was open before".into()),
+        };
+        eframe::run_native(APP_ID, native, Box::new(create))
+    };
+    let result = open(native_options(viewport.clone()));
+    #[cfg(windows)]
+    let result = result.or_else(|opengl| {
+        if !has_options(&options) {
+            return Err(opengl);
+        }
+        tracing::warn!(%opengl, "no OpenGL; trying Direct3D 12");
+        open(direct3d(native_options(viewport)))
+    });
+    result.map_err(no_display)
 }
+
+#[cfg(windows)]
+fn has_options(options: &Cell<Option<WindowOptions>>) -> bool {
+    let taken = options.take();
+    let there = taken.is_some();
+    options.set(taken);
+    there
+}
+
+fn create(creation: &eframe::CreationContext<'_>, options: WindowOptions) -> std::io::Result<App<TokioBackend>> {
+    let ctx = creation.egui_ctx.clone();
+    let backend = BackendOptions {
+        workspace: options.workspace.clone(),
+        lock: options.lock,
+        passwords: options.passwords,
+        connector: options.connector,
+        starter: options.starter,
+        picker: Arc::new(picker::SystemPicker),
+    };
+    let virtual_available = backend.starter.is_some();
+    let backend = TokioBackend::new(backend, move || ctx.request_repaint())?;
+    let mut model = Model::new(options.configuration, options.workspace, options.language, Utc::now());
+    model.virtual_available = virtual_available;
+    if let Some(notice) = options.notice {
+        model.show_problem(notice);
+    }
+    Ok(App::new(&creation.egui_ctx, model, backend))
+}
+
+/// Title, icon and the name by which the desktop knows the program.
+fn viewport(title: &str) -> egui::ViewportBuilder {
+    let viewport = egui::ViewportBuilder::default().with_title(title).with_app_id(APP_ID);
+    match eframe::icon_data::from_png_bytes(include_bytes!("../../assets/icon-256.png")) {
+        Ok(icon) => viewport.with_icon(icon),
+        Err(error) => {
+            tracing::warn!(%error, "no window icon");
+            viewport
+        }
+    }
+}
+
+fn native_options(viewport: egui::ViewportBuilder) -> eframe::NativeOptions {
+    let native = eframe::NativeOptions { viewport, renderer: eframe::Renderer::Glow, ..Default::default() };
+    #[cfg(all(unix, not(target_os = "macos")))]
+    if crate::platform::display::prefers_x11() {
+        use winit::platform::x11::EventLoopBuilderExtX11 as _;
+        tracing::info!("WAYLAND_DISPLAY is set, but nobody answers there; using X11");
+        let with_x11: eframe::EventLoopBuilderHook = Box::new(|builder| {
+            builder.with_x11();
+        });
+        return eframe::NativeOptions { event_loop_builder: Some(with_x11), ..native };
+    }
+    native
+}
+
+#[cfg(windows)]
+fn direct3d(native: eframe::NativeOptions) -> eframe::NativeOptions {
+    let mut setup = eframe::egui_wgpu::WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = wgpu::Backends::DX12;
+    let wgpu_options =
+        eframe::WgpuConfiguration { wgpu_setup: eframe::egui_wgpu::WgpuSetup::CreateNew(setup), ..Default::default() };
+    eframe::NativeOptions { renderer: eframe::Renderer::Wgpu, wgpu_options, ..native }
+}
+
+fn no_display(error: eframe::Error) -> Problem {
+    let detail = crate::platform::display::without_source_locations(&error.to_string());
+    Problem::with_detail(ErrorCode::NoDisplay, detail)
+}
+
+const APP_ID: &str = "opcua-configurator";

@@ -68,6 +68,10 @@ pub fn palette(ui: &egui::Ui) -> &'static Palette {
 }
 
 pub const MIN_WINDOW: [f32; 2] = [900.0, 500.0];
+/// The window of [`super::show_notice`].
+pub const NOTICE_WINDOW: [f32; 2] = [460.0, 240.0];
+/// Above and below its button.
+pub const NOTICE_SPACE: f32 = 8.0;
 pub const DEFAULT_WINDOW: [f32; 2] = [1280.0, 800.0];
 
 pub const ROW_HEIGHT: f32 = 32.0;

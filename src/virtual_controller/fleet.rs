@@ -15,10 +15,10 @@ use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::Identity;
-use super::store::{private_file, private_folder};
 use crate::model::{
     ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort,
 };
+use crate::platform::private;
 
 /// Many virtual controllers in one process.
 #[derive(Debug, Clone)]
@@ -231,8 +231,8 @@ impl FolderLock {
     /// Makes the folder if it is missing.
     pub(super) fn take(folder: &Path) -> Result<Self, FleetError> {
         let data = |source| FleetError::Data { path: folder.to_owned(), source };
-        private_folder(folder).map_err(data)?;
-        let file = private_file(File::options().create(true), &folder.join(".lock")).map_err(data)?;
+        private::create_folder(folder).map_err(data)?;
+        let file = private::open_file(&folder.join(".lock")).map_err(data)?;
         match file.try_lock() {
             Ok(()) => Ok(Self { _file: file }),
             Err(TryLockError::WouldBlock) => Err(FleetError::Busy { path: folder.to_owned() }),

@@ -1,4 +1,4 @@
-use std::fs::{self, DirBuilder, File, OpenOptions};
+use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -10,6 +10,7 @@ use zeroize::Zeroizing;
 use super::faults::Faults;
 use super::state::State;
 use crate::model::{ErrorCode, Problem};
+use crate::platform::{private, replace};
 
 /// Where a controller keeps its [`State`]: one file in a folder of its own.
 ///
@@ -52,10 +53,11 @@ const MAX_FILE_BYTES: u64 = 16 * 1024 * 1024;
 impl Store {
     /// Makes the folder if it is missing. One process at a time works on a folder.
     pub fn open(folder: &Path, faults: Faults) -> Result<Self, StoreError> {
-        private_folder(folder).map_err(|source| StoreError::Io { path: folder.to_owned(), source })?;
+        let failed = |path: &Path, source| StoreError::Io { path: path.to_owned(), source };
+        private::create_folder(folder).map_err(|source| failed(folder, source))?;
         // Left behind by a process that was killed.
         let temporary = folder.join(TEMPORARY);
-        remove_if_there(&temporary).map_err(|source| StoreError::Io { path: temporary, source })?;
+        replace::remove_if_there(&temporary).map_err(|source| failed(&temporary, source))?;
         Ok(Self { folder: folder.to_owned(), faults })
     }
 
@@ -76,7 +78,7 @@ impl Store {
             Err(Unreadable::Damaged(reason)) => {
                 let stamp = Utc::now().format("%Y%m%dT%H%M%S%.6f");
                 let kept = self.folder.join(format!("{FILE}.damaged-{stamp}"));
-                fs::rename(&path, &kept).map_err(io_error)?;
+                replace::rename(&path, &kept).map_err(io_error)?;
                 Err(StoreError::Damaged { reason, kept })
             }
         }
@@ -101,9 +103,9 @@ impl Store {
 /// Writes a file beside the controller's state, for this account only, whole or not at all.
 pub(super) fn replace_private_file(path: &Path, bytes: &[u8], faults: &Faults) -> io::Result<()> {
     let temporary = path.with_extension("new");
-    let written = write_private_file(&temporary, bytes, faults).and_then(|()| fs::rename(&temporary, path));
+    let written = write_private_file(&temporary, bytes, faults).and_then(|()| replace::rename(&temporary, path));
     if written.is_err() {
-        let _ = fs::remove_file(&temporary);
+        let _ = replace::remove(&temporary);
     }
     written?;
     path.parent().map_or(Ok(()), sync_folder)
@@ -111,8 +113,8 @@ pub(super) fn replace_private_file(path: &Path, bytes: &[u8], faults: &Faults) -
 
 fn write_private_file(path: &Path, bytes: &[u8], faults: &Faults) -> io::Result<()> {
     // One that a killed process left behind.
-    remove_if_there(path)?;
-    let mut file = private_file(File::options().create_new(true), path)?;
+    replace::remove_if_there(path)?;
+    let mut file = private::create_file(path)?;
     if faults.get().disk_full {
         let (half, _) = bytes.split_at(bytes.len() / 2);
         file.write_all(half)?;
@@ -124,7 +126,7 @@ fn write_private_file(path: &Path, bytes: &[u8], faults: &Faults) -> io::Result<
 
 impl Staged {
     pub fn commit(mut self) -> Result<(), StoreError> {
-        fs::rename(&self.temporary, &self.target)
+        replace::rename(&self.temporary, &self.target)
             .map_err(|source| StoreError::Io { path: self.target.clone(), source })?;
         self.committed = true;
         // The new state is in force; that its name might not outlive a power cut is no reason to deny it.
@@ -140,8 +142,7 @@ impl Staged {
 impl Drop for Staged {
     fn drop(&mut self) {
         if !self.committed
-            && let Err(error) = fs::remove_file(&self.temporary)
-            && error.kind() != io::ErrorKind::NotFound
+            && let Err(error) = replace::remove_if_there(&self.temporary)
         {
             tracing::warn!(path = %self.temporary.display(), %error, "a staged state could not be removed");
         }
@@ -198,36 +199,6 @@ fn decode(bytes: &[u8]) -> Result<State, Unreadable> {
     Ok(state)
 }
 
-fn remove_if_there(path: &Path) -> io::Result<()> {
-    match fs::remove_file(path) {
-        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-        _ => Ok(()),
-    }
-}
-
-/// Makes a folder and its parents, for this account only (0700).
-pub(super) fn private_folder(folder: &Path) -> io::Result<()> {
-    let mut builder = DirBuilder::new();
-    builder.recursive(true);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::DirBuilderExt as _;
-        builder.mode(0o700);
-    }
-    builder.create(folder)
-}
-
-/// Opens a file for writing; one that is made is for this account only (0600).
-pub(super) fn private_file(options: &mut OpenOptions, path: &Path) -> io::Result<File> {
-    options.write(true);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::OpenOptionsExt as _;
-        options.mode(0o600);
-    }
-    options.open(path)
-}
-
 #[cfg(unix)]
 fn sync_folder(folder: &Path) -> io::Result<()> {
     File::open(folder)?.sync_all()
@@ -241,6 +212,8 @@ fn sync_folder(_folder: &Path) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::virtual_controller::{Identity, NewController, Surroundings};
 

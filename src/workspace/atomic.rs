@@ -1,42 +1,36 @@
-use std::fs;
+use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::Path;
 use std::time::{Duration, SystemTime};
 
 use super::WorkspaceError;
+use crate::platform::{private, replace};
 
 /// Makes a folder and its parents, open to their owner only.
 pub(super) fn create_folder(path: &Path) -> Result<(), WorkspaceError> {
-    let mut builder = fs::DirBuilder::new();
-    builder.recursive(true);
-    #[cfg(unix)]
-    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
-    builder.create(path).map_err(|e| WorkspaceError::writing(path, e))
+    private::create_folder(path).map_err(|e| WorkspaceError::writing(path, e))
 }
 
 /// Writes a file whole or not at all: temporary name in the same folder, flush, rename, flush the folder.
 ///
-/// The file is readable by its owner only (0600); missing folders are made.
+/// The file is readable by its owner only (0600); missing folders are made. A file that another program has open is
+/// [`WorkspaceError::Held`] after up to 2 s.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), WorkspaceError> {
     Staged::new(path, bytes)?.persist()
 }
 
 /// Opens a lock file, readable by its owner only; makes it, and its folder, if they are missing.
-pub(super) fn open_lock_file(path: &Path) -> Result<fs::File, WorkspaceError> {
+pub(super) fn open_lock_file(path: &Path) -> Result<File, WorkspaceError> {
     if let Some(folder) = path.parent() {
         create_folder(folder)?;
     }
-    let mut options = fs::File::options();
-    options.create(true).write(true).truncate(false);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    options.open(path).map_err(|e| WorkspaceError::writing(path, e))
+    private::open_file(path).map_err(|e| WorkspaceError::writing(path, e))
 }
 
 /// Makes renames in a folder outlive a power cut. Windows does so by itself.
 pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
     #[cfg(unix)]
-    fs::File::open(folder)?.sync_all()?;
+    File::open(folder)?.sync_all()?;
     #[cfg(not(unix))]
     let _ = folder;
     Ok(())
@@ -46,7 +40,7 @@ pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
 pub(super) struct Staged<'a> {
     path: &'a Path,
     folder: &'a Path,
-    file: tempfile::NamedTempFile,
+    file: tempfile::NamedTempFile<File>,
 }
 
 impl<'a> Staged<'a> {
@@ -55,8 +49,8 @@ impl<'a> Staged<'a> {
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         create_folder(folder)?;
         let failed = |e| WorkspaceError::writing(path, e);
-        // `tempfile` makes it 0600.
-        let mut file = tempfile::Builder::new().prefix(TEMPORARY).tempfile_in(folder).map_err(failed)?;
+        let mut file =
+            tempfile::Builder::new().prefix(TEMPORARY).make_in(folder, private::create_file).map_err(failed)?;
         // Tells other processes that it is being written. Not every file system has locks.
         let locked = file.as_file().try_lock().is_ok();
         file.write_all(bytes).map_err(failed)?;
@@ -69,7 +63,10 @@ impl<'a> Staged<'a> {
 
     pub(super) fn persist(self) -> Result<(), WorkspaceError> {
         let failed = |e| WorkspaceError::writing(self.path, e);
-        self.file.persist(self.path).map_err(|e| failed(e.error))?;
+        // The temporary name is removed if it is still there.
+        let (file, temporary) = self.file.into_parts();
+        drop(file);
+        replace::rename(&temporary, self.path).map_err(failed)?;
         sync_folder(self.folder).map_err(failed)
     }
 }
@@ -103,7 +100,7 @@ pub(super) fn remove_leftovers(root: &Path, now: SystemTime) -> usize {
 }
 
 fn is_unlocked(path: &Path) -> bool {
-    fs::File::options().write(true).open(path).is_ok_and(|file| file.try_lock().is_ok())
+    File::options().write(true).open(path).is_ok_and(|file| file.try_lock().is_ok())
 }
 
 fn is_temporary_name(name: &str) -> bool {
@@ -132,13 +129,7 @@ mod tests {
         write_atomic(&path, b"two").unwrap();
         assert_eq!(fs::read(&path).unwrap(), b"two");
         assert_eq!(fs::read_dir(path.parent().unwrap()).unwrap().count(), 1, "no temporary file is left");
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt as _;
-            let mode = |p: &Path| fs::metadata(p).unwrap().permissions().mode() & 0o777;
-            assert_eq!(mode(&path), 0o600);
-            assert_eq!(mode(path.parent().unwrap()), 0o700);
-        }
+        assert!(private::is_private(&path) && private::is_private(path.parent().unwrap()));
     }
 
     #[test]
@@ -159,7 +150,7 @@ mod tests {
         }
         assert_eq!(remove_leftovers(root.path(), SystemTime::now()), 0, "too young");
         let later = SystemTime::now() + YOUNG + Duration::from_secs(1);
-        let writing = fs::File::options().write(true).open(root.path().join(".writing-Zz09aA")).unwrap();
+        let writing = File::options().write(true).open(root.path().join(".writing-Zz09aA")).unwrap();
         writing.lock().unwrap();
         assert_eq!(remove_leftovers(root.path(), later), 1, "the other one is being written");
         drop(writing);

@@ -12,6 +12,7 @@ use crate::pki::{
     Certificate, Csr, MAX_CERTIFICATE_FILE_BYTES, MAX_PKCS12_BYTES, PkiError, PrivateKey, pkcs12_read_key,
     pkcs12_write, pkcs12_write_key, read_bundle,
 };
+use crate::platform::replace;
 
 /// The certificates kept on the PC, one folder a controller (manual appendix B-1).
 ///
@@ -261,5 +262,5 @@ fn protected(
 fn probe(folder: &Path) -> Result<(), WorkspaceError> {
     let probe = folder.join(".probe");
     write_atomic(&probe, b"")?;
-    std::fs::remove_file(&probe).map_err(|e| WorkspaceError::writing(&probe, e))
+    replace::remove(&probe).map_err(|e| WorkspaceError::writing(&probe, e))
 }

@@ -9,6 +9,7 @@ use chrono::{DateTime, Utc};
 
 use super::WorkspaceError;
 use super::atomic::{Staged, create_folder, sync_folder};
+use crate::platform::replace;
 
 /// Writes files that belong together, after the files of the former set were moved aside. Returns where those are now.
 ///
@@ -54,7 +55,7 @@ impl Moved {
         let folder = parent.join(date);
         create_folder(&folder)?;
         let to = folder.join(name);
-        fs::rename(file, &to).map_err(failed)?;
+        replace::rename(file, &to).map_err(failed)?;
         self.files.push((file.to_owned(), to));
         sync_folder(&folder).and_then(|()| sync_folder(parent)).map_err(failed)
     }
@@ -66,7 +67,7 @@ impl Drop for Moved {
             return;
         }
         for (from, to) in self.files.iter().rev() {
-            if let Err(error) = fs::rename(to, from) {
+            if let Err(error) = replace::rename(to, from) {
                 tracing::warn!(file = %to.display(), %error, "a file that was moved aside could not be put back");
             } else if let Some(folder) = to.parent() {
                 // Only if it is empty.

@@ -6,6 +6,7 @@
 //!   connections.csv                  a connection list to import, if somebody put one there (manual 2.5.3)
 //!   Configurator/…                   the certificate this program shows to OPC UA servers, and its key
 //!   .lock                            held by whoever may write the configuration
+//!   .window                          where a second start asks the window to come to the front (Unix)
 //!   CA/…                             the small CA, see `authority`
 //!   <serial>/option.json             settings export of one controller (manual 2.6.4)
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
@@ -29,6 +30,7 @@ mod key_backups;
 mod own_identity;
 mod passwords;
 mod recognise;
+mod running_window;
 mod settings_files;
 
 use std::fs::{self, File, TryLockError};
@@ -49,14 +51,16 @@ pub use connection_list::{
 };
 pub use import_files::{certificate_files_beside, read_import_file};
 pub use key_backups::{BackupKind, KeyBackup, KeyBackupSource};
-pub use own_identity::{OwnIdentity, OwnIdentityFiles};
+pub use own_identity::{KeyFile, OwnIdentity, OwnIdentityFiles};
 pub use passwords::{
     KeyringPasswords, MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase, check_protects_files,
 };
 pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
+pub use running_window::{Shown, StartRequests, show_running_window};
 pub use settings_files::SettingsFiles;
 
 use crate::model::{ErrorCode, Problem};
+use crate::platform::replace;
 
 const CONFIGURATION: &str = "epson_opcua_config.json";
 const CONNECTION_LIST: &str = "connections.csv";
@@ -75,6 +79,9 @@ pub enum WorkspaceError {
     Full { path: PathBuf, source: io::Error },
     #[error("{} is in use", .0.display())]
     Busy(PathBuf),
+    /// Another program has a file open and does not let go of it; the source says which.
+    #[error("{0}")]
+    Held(io::Error),
     #[error("{}: {source}", path.display())]
     Unreadable { path: PathBuf, source: io::Error },
 }
@@ -86,6 +93,7 @@ impl WorkspaceError {
             io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
                 Self::Full { path, source }
             }
+            io::ErrorKind::ResourceBusy => Self::Held(source),
             _ => Self::NotWritable { path, source },
         }
     }
@@ -97,6 +105,7 @@ impl From<WorkspaceError> for Problem {
             WorkspaceError::NotWritable { .. } => ErrorCode::WorkspaceReadOnly,
             WorkspaceError::Full { .. } => ErrorCode::WorkspaceFull,
             WorkspaceError::Busy(_) => ErrorCode::WorkspaceBusy,
+            WorkspaceError::Held(_) => ErrorCode::FileInUse,
             WorkspaceError::Unreadable { .. } => ErrorCode::FileUnreadable,
         };
         Self::with_detail(code, error)
@@ -234,7 +243,7 @@ impl Workspace {
             Ok(configuration) => Ok(Loaded { configuration, damaged: None }),
             Err(reason) => {
                 let aside = self.unused_name();
-                fs::rename(&path, &aside).map_err(|e| WorkspaceError::writing(&path, e))?;
+                replace::rename(&path, &aside).map_err(|e| WorkspaceError::writing(&path, e))?;
                 Ok(fresh(Some((aside, reason))))
             }
         }
@@ -337,11 +346,12 @@ mod tests {
     }
 
     #[test]
-    fn a_full_disk_is_told_from_a_missing_permission() {
+    fn a_full_disk_is_told_from_a_missing_permission_and_a_file_in_use() {
         let of = |kind: io::ErrorKind| Problem::from(WorkspaceError::writing(Path::new("x"), kind.into())).code;
         assert_eq!(of(io::ErrorKind::StorageFull), ErrorCode::WorkspaceFull);
         assert_eq!(of(io::ErrorKind::PermissionDenied), ErrorCode::WorkspaceReadOnly);
         assert_eq!(of(io::ErrorKind::ReadOnlyFilesystem), ErrorCode::WorkspaceReadOnly);
+        assert_eq!(of(io::ErrorKind::ResourceBusy), ErrorCode::FileInUse);
     }
 
     #[test]

@@ -4,15 +4,19 @@ use std::path::{Path, PathBuf};
 
 use chrono::{DateTime, Utc};
 
+use zeroize::Zeroizing;
+
 use super::{WorkspaceError, atomic, read_bounded, write_atomic};
 use crate::model::{ErrorCode, Problem};
 use crate::pki::{Certificate, MAX_CERTIFICATE_BYTES, MAX_KEY_FILE_BYTES, client_identity, read_pair};
+use crate::platform::replace;
 
 /// The configurator's own OPC UA application instance certificate and its key, made once for a workspace:
-/// `<workspace>/Configurator/configurator.der` and `configurator_key.pem`.
+/// `<workspace>/Configurator/configurator.der` and `configurator_key.pem`, on Windows `configurator_key.dpapi`.
 ///
-/// The certificate is for everybody: it is what is put into a controller's Trusted list. The key is not encrypted, but
-/// readable by its owner only.
+/// The certificate is for everybody: it is what is put into a controller's Trusted list. The key's file is readable by
+/// its owner only. On Windows the key is encrypted for the account as well (Data Protection API): it cannot be used
+/// under another account or on another PC.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OwnIdentityFiles {
     folder: PathBuf,
@@ -24,14 +28,48 @@ pub struct OwnIdentity {
     pub certificate: Certificate,
     /// DER.
     pub certificate_path: PathBuf,
-    /// PKCS#8 in PEM.
+    /// PKCS#8 in PEM, on Windows encrypted; see [`OwnIdentity::open_key`].
     pub key_path: PathBuf,
+}
+
+/// A file with the key in PEM, not encrypted, for as long as this value lives.
+#[derive(Debug)]
+pub struct KeyFile {
+    /// Absolute.
+    pub path: PathBuf,
+    /// On Windows: a private copy that the system removes with this handle.
+    #[cfg(windows)]
+    _copy: File,
 }
 
 impl OwnIdentity {
     /// The ApplicationUri in the certificate.
     pub fn application_uri(&self) -> String {
         self.certificate.application_uri().unwrap_or_default()
+    }
+
+    /// The key as the OPC UA library reads it. `folder` is one that only this account can use; on Windows a decrypted
+    /// copy lies there, which is gone when the result is dropped or the process ends. Blocks.
+    pub fn open_key(&self, folder: &Path) -> Result<KeyFile, Problem> {
+        #[cfg(windows)]
+        {
+            use std::io::Write as _;
+
+            use crate::platform::windows::access::{Open, open_file};
+            let path = folder.join("key.pem");
+            let unreadable =
+                |e: io::Error| Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", path.display()));
+            let pem = read_key(&self.key_path)?.ok_or_else(|| unreadable(io::ErrorKind::NotFound.into()))?;
+            let mut copy = open_file(&path, Open::Temporary).map_err(unreadable)?;
+            copy.write_all(&pem).map_err(unreadable)?;
+            Ok(KeyFile { path: std::path::absolute(&path).map_err(unreadable)?, _copy: copy })
+        }
+        #[cfg(not(windows))]
+        {
+            let _ = folder;
+            let path = std::path::absolute(&self.key_path).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
+            Ok(KeyFile { path })
+        }
     }
 }
 
@@ -63,8 +101,9 @@ impl OwnIdentityFiles {
         let made = client_identity(APPLICATION, &host.to_string_lossy(), now)?;
         let key = made.key_pem()?;
         // The certificate last: without it the key counts for nothing.
-        remove(&paths.certificate)?;
-        write_atomic(&paths.key, key.as_bytes())?;
+        let failed = |e| WorkspaceError::writing(&paths.certificate, e);
+        replace::remove_if_there(&paths.certificate).map_err(failed)?;
+        write_key(&paths.key, key.as_bytes())?;
         write_atomic(&paths.certificate, made.certificate.der())?;
         Ok(paths.identity(made.certificate))
     }
@@ -89,7 +128,7 @@ impl OwnPaths {
 
     fn load(&self, now: DateTime<Utc>) -> Result<Option<OwnIdentity>, Problem> {
         let Some(certificate) = read(&self.certificate, MAX_CERTIFICATE_BYTES)? else { return Ok(None) };
-        let Some(key) = read(&self.key, MAX_KEY_FILE_BYTES)?.map(zeroize::Zeroizing::new) else { return Ok(None) };
+        let Some(key) = read_key(&self.key)? else { return Ok(None) };
         let (_, certificate) = read_pair(&certificate, &key, None)
             .map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", self.certificate.display())))?;
         Ok((certificate.not_after() > now).then(|| self.identity(certificate)))
@@ -104,22 +143,42 @@ fn read(path: &Path, most: usize) -> Result<Option<Vec<u8>>, Problem> {
     }
 }
 
-fn remove(path: &Path) -> Result<(), WorkspaceError> {
-    match std::fs::remove_file(path) {
-        Err(e) if e.kind() != io::ErrorKind::NotFound => Err(WorkspaceError::writing(path, e)),
-        _ => Ok(()),
+/// The key in PEM; `None` if there is none.
+fn read_key(path: &Path) -> Result<Option<Zeroizing<Vec<u8>>>, Problem> {
+    let stored = read(path, MAX_KEY_FILE_BYTES)?.map(Zeroizing::new);
+    #[cfg(not(windows))]
+    return Ok(stored);
+    #[cfg(windows)]
+    {
+        let Some(stored) = stored else { return Ok(None) };
+        let pem = crate::platform::windows::protect::unprotect(&stored);
+        pem.map(Some).map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", path.display())))
+    }
+}
+
+fn write_key(path: &Path, pem: &[u8]) -> Result<(), WorkspaceError> {
+    #[cfg(not(windows))]
+    return write_atomic(path, pem);
+    #[cfg(windows)]
+    {
+        let failed = |e| WorkspaceError::writing(path, e);
+        write_atomic(path, &crate::platform::windows::protect::protect(pem).map_err(failed)?)
     }
 }
 
 const APPLICATION: &str = "OPC UA Configurator";
 const FOLDER: &str = "Configurator";
 const CERTIFICATE: &str = "configurator.der";
+#[cfg(not(windows))]
 const KEY: &str = "configurator_key.pem";
+#[cfg(windows)]
+const KEY: &str = "configurator_key.dpapi";
 const LOCK: &str = ".lock";
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::platform::private;
     use chrono::Duration;
 
     #[test]
@@ -135,14 +194,23 @@ mod tests {
         assert_eq!(files.load_or_make(Utc::now()).unwrap(), made[0]);
         assert!(made[0].application_uri().starts_with("urn:"));
         assert_eq!(std::fs::read(&made[0].certificate_path).unwrap(), made[0].certificate.der());
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt as _;
-            let mode = |p: &Path| std::fs::metadata(p).unwrap().permissions().mode() & 0o777;
-            assert_eq!(mode(&made[0].key_path), 0o600);
-            assert_eq!(mode(&files.folder.join(LOCK)), 0o600);
-            assert_eq!(mode(made[0].key_path.parent().unwrap()), 0o700);
-        }
+        assert!(private::is_private(&made[0].key_path));
+        assert!(private::is_private(&files.folder.join(LOCK)));
+        assert!(private::is_private(made[0].key_path.parent().unwrap()));
+    }
+
+    #[test]
+    fn the_key_can_be_read_while_it_is_open_and_is_stored_as_the_system_protects_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let identity = OwnIdentityFiles::new(folder.path()).load_or_make(Utc::now()).unwrap();
+        let temporary = tempfile::tempdir().unwrap();
+        let key = identity.open_key(temporary.path()).unwrap();
+        let pem = std::fs::read(&key.path).unwrap();
+        read_pair(identity.certificate.der(), &pem, None).unwrap();
+        let stored = std::fs::read(&identity.key_path).unwrap();
+        assert_eq!(stored.starts_with(b"-----BEGIN"), cfg!(not(windows)));
+        drop(key);
+        assert_eq!(std::fs::read_dir(temporary.path()).unwrap().count(), 0, "no copy of the key is left");
     }
 
     #[test]

@@ -69,6 +69,14 @@ impl Running {
         writeln!(stdin, "{line}").unwrap_or_else(|why| panic!("{} does not listen: {why}", self.program));
     }
 
+    /// Sends a signal to the program.
+    #[cfg(unix)]
+    #[allow(dead_code, reason = "not every story sends signals")]
+    pub fn signal(&self, signal: libc::c_int) {
+        // SAFETY: the process was not waited for yet, so the number is still its own.
+        assert_eq!(unsafe { libc::kill(self.child.id().cast_signed(), signal) }, 0);
+    }
+
     /// Waits until the program has ended by itself. Panics if it has not by the deadline.
     pub fn finish(mut self, deadline: Duration) -> Finished {
         let until = Instant::now() + deadline;

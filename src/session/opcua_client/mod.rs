@@ -22,7 +22,6 @@ mod failure;
 mod tests;
 mod watched_stream;
 
-use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -37,7 +36,7 @@ pub use failure::{Cause, Failure, Stage, printable};
 
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Certificate;
-use crate::workspace::OwnIdentity;
+use crate::workspace::{KeyFile, OwnIdentity};
 
 /// How long a client waits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -99,6 +98,8 @@ pub struct OpcUaClient {
     store: Arc<RwLock<CertificateStore>>,
     own: Option<(X509, PrivateKey)>,
     patience: Patience,
+    /// Dropped before its folder.
+    _key_file: KeyFile,
     /// Where the library writes the certificates of servers; removed in the end.
     _folder: tempfile::TempDir,
 }
@@ -113,15 +114,15 @@ impl OpcUaClient {
     /// Blocks while it reads key and certificate.
     pub fn new(identity: &OwnIdentity, patience: Patience) -> Result<Self, Problem> {
         let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
-        // The library reads both again for every connection; the paths are absolute, so that the key is not copied.
-        let absolute =
-            |path: &Path| std::path::absolute(path).map_err(|e| Problem::with_detail(ErrorCode::Internal, e));
-        let (certificate, key) = (absolute(&identity.certificate_path)?, absolute(&identity.key_path)?);
+        // The library reads both again for every connection; absolute paths keep it from copying the key.
+        let certificate = std::path::absolute(&identity.certificate_path)
+            .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
+        let key_file = identity.open_key(folder.path())?;
         let (mut store, certificate, key) = CertificateStore::new_with_x509_data(
             folder.path(),
             false,
             Some(&certificate),
-            Some(&key),
+            Some(&key_file.path),
             None::<X509Data>,
         );
         // It knows exact copies only, and no issuers; the caller judges the certificate before this client sees it.
@@ -136,6 +137,7 @@ impl OpcUaClient {
             store: Arc::new(RwLock::new(store)),
             own,
             patience,
+            _key_file: key_file,
             _folder: folder,
         })
     }

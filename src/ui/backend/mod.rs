@@ -96,6 +96,8 @@ pub enum Command {
     OpenFolder(PathBuf),
     StartVirtualControllers,
     Save(Box<Configuration>),
+    /// Brings the window to the front.
+    ShowWindow,
     Quit,
 }
 
@@ -159,6 +161,8 @@ pub enum Event {
     PasswordNotKept(Problem),
     SaveFailed(Problem),
     FolderNotOpened(Problem),
+    /// The program was started again on the same workspace.
+    StartedAgain,
 }
 
 /// What is in a file. There may be keys in it, so `Debug` tells its length only.

@@ -11,10 +11,11 @@ use tokio_util::sync::CancellationToken;
 use super::{Backend, Command, Event, FileContents, VirtualFleetStarter, trust_files};
 use crate::jobs::{self, JobContext, JobController};
 use crate::model::{ControllerInfo, ErrorCode, Problem};
+use crate::platform::display;
 use crate::session::Connector;
 use crate::ui::model::{DroppedFile, ExportFound, JobId, Task};
 use crate::ui::picker::FilePicker;
-use crate::workspace::{self, Configuration, Passwords, SettingsFiles, Workspace, WorkspaceLock};
+use crate::workspace::{self, Configuration, Passwords, SettingsFiles, Shown, StartRequests, Workspace, WorkspaceLock};
 
 /// How long closing the window waits for tasks to notice.
 const SHUTDOWN: Duration = Duration::from_millis(500);
@@ -47,6 +48,7 @@ pub struct TokioBackend {
     running: HashMap<JobId, CancellationToken>,
     runtime: Option<Runtime>,
     saver: Option<Saver>,
+    requests: Option<StartRequests>,
 }
 
 type Emit = Arc<dyn Fn(Event) + Send + Sync>;
@@ -73,6 +75,7 @@ impl TokioBackend {
                 wake();
             }
         });
+        let requests = listen_for_starts(&options, &runtime, &emit);
         let saver = Saver::start(options.workspace.clone(), options.lock, emit.clone())?;
         Ok(Self {
             workspace: options.workspace,
@@ -84,6 +87,7 @@ impl TokioBackend {
             running: HashMap::new(),
             runtime: Some(runtime),
             saver: Some(saver),
+            requests,
         })
     }
 
@@ -147,6 +151,17 @@ impl TokioBackend {
             emit(Event::VirtualStarted(result.await));
         });
     }
+}
+
+/// Without it, a second start says that the workspace is open, and shows nothing.
+fn listen_for_starts(options: &BackendOptions, runtime: &Runtime, emit: &Emit) -> Option<StartRequests> {
+    let requests = StartRequests::listen(options.workspace.root(), &options.lock);
+    let requests =
+        requests.inspect_err(|error| tracing::info!(%error, "a second start cannot show this window")).ok()?;
+    let shown = if display::is_wayland() { Shown::Marked } else { Shown::InFront };
+    let emit = emit.clone();
+    runtime.spawn(requests.serve(shown, move || emit(Event::StartedAgain)));
+    Some(requests)
 }
 
 /// A keyring may ask the user to unlock it: off the async threads. The last failure is reported.
@@ -285,7 +300,7 @@ impl Backend for TokioBackend {
                 }
             }
             // The window's own business.
-            Command::Quit => {}
+            Command::Quit | Command::ShowWindow => {}
         }
     }
 
@@ -304,6 +319,8 @@ impl Drop for TokioBackend {
         for token in self.running.values() {
             token.cancel();
         }
+        // Before the lock is given up: then the socket may be that of another window.
+        self.requests = None;
         if let Some(Saver { queue, thread }) = self.saver.take() {
             drop(queue);
             if thread.join().is_err() {

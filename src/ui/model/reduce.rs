@@ -236,6 +236,7 @@ impl Model {
             }
             Event::AuthorityDone { job, result } => self.authority_done(job, result),
             Event::VirtualStarted(result) => self.virtual_started(result),
+            Event::StartedAgain => vec![Command::ShowWindow],
             Event::PasswordNotKept(problem) | Event::SaveFailed(problem) | Event::FolderNotOpened(problem) => {
                 // Once is enough for the same trouble.
                 let shown = self.dialogs.iter().any(|d| matches!(d, Dialog::Error(p) if p.code == problem.code));

@@ -5,6 +5,9 @@ use std::path::{Path, PathBuf};
 use opcua::crypto::{CertificateStore, X509};
 use parking_lot::Mutex;
 
+use crate::platform::replace::remove_if_there;
+use crate::platform::{private, replace};
+
 /// The folder the OPC UA crate reads certificates from.
 ///
 /// The crate reads the server's certificate and key from it again for every connection, so the key lies there, for
@@ -28,7 +31,7 @@ impl PkiFolder {
             let path = root.join(name);
             match fs::symlink_metadata(&path) {
                 Ok(there) if there.is_dir() => fs::remove_dir_all(&path)?,
-                Ok(_) => fs::remove_file(&path)?,
+                Ok(_) => replace::remove(&path)?,
                 Err(e) if e.kind() == io::ErrorKind::NotFound => {}
                 Err(e) => return Err(e),
             }
@@ -70,7 +73,7 @@ impl PkiFolder {
         let new = self.root.join(NEW_CERTIFICATE);
         remove_if_there(&new)?;
         write_private_file(&new, der)?;
-        fs::rename(&new, self.root.join(TRUSTED).join(&name))?;
+        replace::rename(&new, &self.root.join(TRUSTED).join(&name))?;
         admitted.push(name);
         if admitted.len() > MAX_ADMITTED {
             let oldest = admitted.remove(0);
@@ -111,32 +114,19 @@ fn file_name(der: &[u8]) -> Option<String> {
     harmless.then_some(name)
 }
 
-fn remove_if_there(path: &Path) -> io::Result<()> {
-    match fs::remove_file(path) {
-        Err(e) if e.kind() != io::ErrorKind::NotFound => Err(e),
-        _ => Ok(()),
-    }
-}
-
+/// A folder that is there already is made private too.
 fn create_private_folder(path: &Path) -> io::Result<()> {
-    let mut builder = fs::DirBuilder::new();
-    builder.recursive(true);
+    private::create_folder(path)?;
     #[cfg(unix)]
     {
-        use std::os::unix::fs::{DirBuilderExt as _, PermissionsExt as _};
-        builder.mode(0o700).create(path)?;
-        fs::set_permissions(path, fs::Permissions::from_mode(0o700))
+        use std::os::unix::fs::PermissionsExt as _;
+        fs::set_permissions(path, fs::Permissions::from_mode(0o700))?;
     }
-    #[cfg(not(unix))]
-    builder.create(path)
+    Ok(())
 }
 
 fn write_private_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let mut options = fs::OpenOptions::new();
-    options.write(true).create_new(true);
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
-    options.open(path)?.write_all(bytes)
+    private::create_file(path)?.write_all(bytes)
 }
 
 pub(super) const OWN_CERTIFICATE: &str = "own.der";

@@ -1,5 +1,5 @@
+use std::io;
 use std::path::{Path, PathBuf};
-use std::{fs, io};
 
 use chrono::{DateTime, Utc};
 use secrecy::SecretString;
@@ -11,6 +11,7 @@ use crate::model::{AuthorityRequest, CertificateSummary};
 use crate::pki::{
     Certificate, CertificateAuthority, Crl, MAX_KEY_FILE_BYTES, PkiError, PrivateKey, encrypt_key, read_key_file,
 };
+use crate::platform::replace;
 use crate::workspace::{WorkspaceError, WorkspaceLock, check_passphrase, lock_folder, read_bounded, write_atomic};
 
 /// Where the small CA of a workspace is kept, whether there is one or not.
@@ -162,7 +163,7 @@ impl AuthorityFiles {
         if path.exists() {
             let stamp = Utc::now().format("%Y%m%dT%H%M%S%3fZ");
             let aside = self.folder.join(format!("{name}.left-{stamp}.key"));
-            fs::rename(&path, &aside).map_err(|e| WorkspaceError::writing(&path, e))?;
+            replace::rename(&path, &aside).map_err(|e| WorkspaceError::writing(&path, e))?;
         }
         write_atomic(&path, pem.as_bytes())
     }
