@@ -363,7 +363,7 @@ async fn the_verifying_client_judges_the_servers_of_asyncua() {
                 security_policy: endpoint.policy.clone().ok(),
             };
             let verdict = lists.validate(&presented, &TrustPolicy::default());
-            assert_eq!(verdict.as_ref().err().map(|rejection| rejection.status), expected, "{name}: {verdict:?}");
+            assert_eq!(verdict.as_ref().err().map(|rejection| rejection.status()), expected, "{name}: {verdict:?}");
             if expected.is_none() {
                 let tried = client.attempt(&target, endpoint, &certificate, &Login::Anonymous).await;
                 assert_eq!(tried.map(|welcome| welcome.state), Ok(0), "{name}");

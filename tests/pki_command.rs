@@ -123,6 +123,77 @@ fn verify_prints_the_opc_ua_status_and_says_why() {
     assert_eq!((said.code, said.stdout.trim_end()), (Some(1), "BadCertificateInvalid"));
 }
 
+/// Files of other tools. Each flaw has its own cause and remedy; several of them share one OPC UA status.
+#[test]
+fn the_reason_decides_what_is_said_and_not_the_status() {
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+    for (case, uri, expected, words) in [
+        (
+            "09-critical-extensions/ca-nameconstraints",
+            None,
+            "BadCertificateInvalid",
+            &["DNS:line1", "name constraints", "4.2.1.10", "names that this authority may certify"][..],
+        ),
+        ("09-critical-extensions/ca-policy-constraints-crit", None, "Good", &[]),
+        ("09-critical-extensions/ca-policymappings-crit", None, "Good", &[]),
+        (
+            "10-application-uri/self-no-san",
+            Some("urn:example:line1:client"),
+            "BadCertificateUriInvalid",
+            &["has no application URI", "urn:example:line1:client", "subject alternative name"],
+        ),
+        ("10-application-uri/self-uri-latin1", None, "BadCertificateInvalid", &["not ASCII", "4.2.1.6", "UaExpert"]),
+        (
+            "10-application-uri/self-uri-utf8",
+            Some("urn:Büro-PC:UaExpert"),
+            "BadCertificateUriInvalid",
+            &["urn:Büro-PC:UaExpert", "not ASCII", "4.2.1.6", "give the application a URI of ASCII characters"],
+        ),
+        ("10-application-uri/self-uri-utf8", Some("urn:Buero"), "BadCertificateUriInvalid", &["not ASCII"]),
+        (
+            "11-aki-ski/aki-ski-differ-same-key",
+            None,
+            "BadCertificateChainIncomplete",
+            &["is there and signed it", "another key identifier", "0B8711F296A2EE4423B81175F2B2AE50A2732A1D"],
+        ),
+    ] {
+        let folder = cases.join(case);
+        let mut arguments = vec!["pki", "verify", "--trusted", "trusted", "--at", "2026-12-01T00:00:00Z"];
+        if folder.join("crls").exists() {
+            arguments.extend(["--crls", "crls"]);
+        }
+        arguments.extend(uri.map(|uri| ["--uri", uri]).into_iter().flatten());
+        arguments.push("cert.der");
+        let said = run(&folder, &arguments);
+        assert_eq!(said.stdout.trim_end(), expected, "{case}: {}", said.stderr);
+        for word in words {
+            assert!(said.stderr.contains(word), "{case}: no {word:?} in {}", said.stderr);
+        }
+        assert!(!said.stderr.contains("damaged"), "{case}: {}", said.stderr);
+    }
+    let shown = show(&cases.join("09-critical-extensions/ca-nameconstraints"), &["trusted/0.der"]);
+    let constraints = serde_json::json!({ "permitted": ["DNS:example.com"], "excluded": [] });
+    assert_eq!((&shown[0]["name_constraints"], &shown[0]["not_understood"]), (&constraints, &Value::Null));
+    let json = run(
+        &cases.join("10-application-uri/self-no-san"),
+        &[
+            "--json",
+            "pki",
+            "verify",
+            "--trusted",
+            "trusted",
+            "--at",
+            "2026-12-01T00:00:00Z",
+            "--uri",
+            "urn:x",
+            "cert.der",
+        ],
+    );
+    let said: Value = serde_json::from_str(&json.stdout).unwrap();
+    assert_eq!(said["cause"], serde_json::json!({ "flaw": "uri-missing", "announced": "urn:x" }));
+    assert_eq!((said["depth"].as_u64(), said["remedy"].is_string()), (Some(0), true));
+}
+
 #[test]
 fn a_wrong_request_is_no_verdict() {
     let folder = tempfile::tempdir().unwrap();

@@ -8,6 +8,7 @@ mod desk;
 mod process;
 
 use std::fs;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use clients::{Authority, Client, Identity};
@@ -199,6 +200,29 @@ fn a_file_that_is_no_good_makes_the_request_wrong() {
     assert!(lines.iter().all(|line| line["result"]["revision"] == 1), "nothing was changed: {lines:?}");
 }
 
+/// RFC 5280 lets everything into a list; that it is of no use is said first, as for an expired certificate.
+#[test]
+fn what_no_client_is_ever_let_in_with_is_said_before_it_is_added() {
+    let desk = mixed();
+    let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/15-never-admitted");
+    for (file, words) in [
+        ("self-ec.der", "its key is not an RSA key"),
+        ("self-k1024.der", "its RSA key has 1024 bits"),
+        ("self-no-ku.der", "it does not say what its key may be used for"),
+        ("self-eku-server-only.der", "its extended key usage is not for clients"),
+    ] {
+        let file = cases.join(file).display().to_string();
+        for list in [&[][..], &["--list", "trusted"]] {
+            let said = desk.run(&[&["clients", "add"], list, &[&file, "weld"]].concat());
+            assert_eq!(said.code, Some(2), "{}", said.stderr);
+            let words = format!("no client is ever let in with it: {words}");
+            assert!(said.stderr.contains(&words), "no {words:?} in {}", said.stderr);
+        }
+    }
+    let elliptic = cases.join("self-ec.der").display().to_string();
+    assert_eq!(desk.json(&["clients", "add", "--yes", &elliptic, "weld"]).0, Some(0), "who agrees may add it");
+}
+
 #[test]
 fn a_refused_client_is_remembered_by_a_killed_controller_and_can_be_trusted() {
     let data = tempfile::tempdir().unwrap();
@@ -229,6 +253,28 @@ fn a_refused_client_is_remembered_by_a_killed_controller_and_can_be_trusted() {
     assert_eq!(desk.add(0, "weld").0, Some(0));
     let table = desk.run(&["clients", "list", "--list", "rejected", "weld"]);
     assert!(table.stdout.contains("stranger from 127.0.0.1: BadCertificateUntrusted"), "{}", table.stdout);
+    // One that is of no use even when it is trusted is trusted only by who agrees.
+    let weak = Identity::sign_only("weak");
+    let endpoint = desk.ready[0]["opcua"].as_str().unwrap().to_owned();
+    let knock_weakly = || runtime.block_on(async { Client::connect(&endpoint, &weak).await }).map(drop);
+    assert!(knock_weakly().is_err());
+    let trust_weak = ["clients", "trust", &weak.thumbprint(), "weld"];
+    let (code, lines) = desk.json(&trust_weak);
+    assert_eq!(code, Some(1), "{lines:?}");
+    assert_error(&lines, "not-confirmed");
+    let said = desk.run(&trust_weak);
+    assert_eq!(said.code, Some(2), "{}", said.stderr);
+    assert!(said.stderr.contains("no client is ever let in with it: its key may not be used for nonRepudiation"));
+    assert_eq!(desk.json(&[&trust_weak[..], &["--yes"]].concat()).0, Some(0));
+    assert!(knock_weakly().is_err(), "as was said");
+    let (_, lines) = desk.json(&["clients", "list", "--list", "rejected", "weld"]);
+    let refused = lines[0]["result"]["rejected"].as_array().unwrap();
+    let refused = refused.iter().find(|one| one["certificate"]["issued_to"] == "weak").unwrap();
+    assert_eq!(
+        (&refused["status"], &refused["cause"]["flaw"]),
+        (&json!("BadCertificateUseNotAllowed"), &json!("key-usage-lacks"))
+    );
+    assert_eq!(desk.json(&["clients", "remove", &weak.thumbprint(), "weld", "--yes"]).0, Some(0));
     let (code, lines) = desk.json(&["clients", "trust", &stranger.thumbprint(), "weld"]);
     assert_eq!((code, &lines[0]["result"]["trusted"]), (Some(0), &json!(1)), "{lines:?}");
     assert_eq!(lines[0]["result"]["rejected"], 0);

@@ -189,7 +189,8 @@ async fn a_stranger_shows_at_once_is_let_in_by_a_move_and_thrown_out_by_the_next
 
     let (from, to) = (ClientList::Rejected, ClientList::Trusted);
     let thumbprints = vec![stranger.thumbprint()];
-    let welcome = MoveClients { from, to, thumbprints: thumbprints.clone(), based_on: Some(seen.revision) };
+    let welcome =
+        MoveClients { from, to, thumbprints: thumbprints.clone(), accept_notes: false, based_on: Some(seen.revision) };
     let moved = plant.run(welcome.clone()).await.remove(0);
     assert_eq!(counts(&changed(&moved).lists), [1, 0, 0, 0]);
     assert_eq!(changed(&moved).lists.trusted[0].file_name, "stranger.der");
@@ -197,7 +198,7 @@ async fn a_stranger_shows_at_once_is_let_in_by_a_move_and_thrown_out_by_the_next
     let inside = Client::connect(&endpoint, &stranger).await.expect("trusted now");
     assert_eq!(plant.controller(0).info().status, ServerStatus::Run);
 
-    let away = MoveClients { from: to, to: from, thumbprints, based_on: None };
+    let away = MoveClients { from: to, to: from, thumbprints, accept_notes: false, based_on: None };
     let report = plant.run(away).await.remove(0);
     let TrustChange { lists, cut, undo: back } = changed(&report);
     assert_eq!(counts(lists), [0, 0, 1, 0]);

@@ -11,7 +11,9 @@ use opcua_configurator::model::{
     CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Problem, SelfSignedRequest,
     ServerSettings, Subject, Validity,
 };
-use opcua_configurator::pki::{Certificate, Finding, Issuers, PrivateKey, ServerNames, self_signed};
+use opcua_configurator::pki::{
+    Certificate, CertificateFlaw, Finding, Issuers, KeyUsage, PrivateKey, ServerNames, Severity, self_signed,
+};
 use opcua_configurator::protocol::{Base64Bytes, HeldCertificate, HeldCertificates, Revisioned};
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
 use opcua_configurator::workspace::SavedFile;
@@ -116,7 +118,8 @@ fn ca_signed() {
         click(&mut window, button);
     }
     click(&mut window, "Import…");
-    let hosts = Finding::HostName { expected: vec!["192.168.10.1".into()], found: vec!["192.168.0.1".into()] };
+    let hosts = CertificateFlaw::HostName { hosts: vec!["192.168.10.1".into()], names: vec!["192.168.0.1".into()] };
+    let hosts = Finding { flaw: hosts, severity: Severity::Warning };
     end(&mut window, vec![checked(vec![hosts])]);
     picture(&mut window, "import_warning");
 }
@@ -133,7 +136,13 @@ fn ca_signed_for_many() {
         &mut window,
         vec![
             checked(vec![]),
-            checked(vec![Finding::Expired { not_after, now: now() }, Finding::NonRepudiationMissing]),
+            checked(vec![
+                Finding { flaw: CertificateFlaw::Expired { until: not_after, now: now() }, severity: Severity::Error },
+                Finding {
+                    flaw: CertificateFlaw::KeyUsageLacks { missing: vec![KeyUsage::NonRepudiation] },
+                    severity: Severity::Warning,
+                },
+            ]),
             Err(Problem::with_detail(ErrorCode::FileNotFound, "Cert/CASigned: no .der")),
             Err(ErrorCode::CsrMismatch.into()),
         ],

@@ -9,13 +9,13 @@ use common::pictures::{W, chinese, job, picture, tell, tick};
 use common::samples::{configuration, info};
 use common::window::{SIZE, choose, click, now, window};
 use opcua_configurator::jobs::{
-    CertificateVerdict, EndpointVerdict, JobEvent, NotTried, Outcome, Refusal, Report, Summary, TokenVerdict, Verdict,
-    VerifyFinding, VerifyReport,
+    CertificateVerdict, EndpointVerdict, JobEvent, NotTried, Outcome, Refusal, Report, Summary, TokenVerdict, Told,
+    Verdict, VerifyFinding, VerifyReport,
 };
 use opcua_configurator::model::{
     CertificateStatus, CertificateSummary, ControllerSeries, ErrorCode, Problem, SecurityPolicy, ServerStatus,
 };
-use opcua_configurator::pki::{Finding, client_identity};
+use opcua_configurator::pki::{CertificateFlaw, Finding, Rejection, Severity, client_identity};
 use opcua_configurator::session::opcua_client::{MessageSecurity, TokenKind};
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
 use opcua_configurator::workspace::OwnIdentity;
@@ -68,8 +68,12 @@ fn endpoint(policy: SecurityPolicy, mode: MessageSecurity, anonymous: Verdict, u
 /// A server that does not know the configurator, with a certificate past its time.
 fn troubled() -> VerifyReport {
     let untrusted = || {
-        let why = (CertificateStatus::Untrusted, "it is not in the trust list, nor is any of its issuers".to_owned());
-        Verdict::Fails(Refusal::OwnCertificate(Some(why)))
+        let reason = "neither it nor any of its issuers is in the trust list".to_owned();
+        Verdict::Fails(Refusal::OwnCertificate(Some(Told {
+            status: CertificateStatus::Untrusted,
+            cause: None,
+            reason,
+        })))
     };
     let mut endpoints = vec![endpoint(
         SecurityPolicy::None,
@@ -90,11 +94,15 @@ fn troubled() -> VerifyReport {
         findings: vec![VerifyFinding::WeakPolicy(SecurityPolicy::None)],
         certificate: Some(CertificateVerdict {
             summary: summary(),
-            refused: Some((CertificateStatus::TimeInvalid, "it was valid until 2026-05-29T08:30:00Z".into())),
-            findings: vec![Finding::Expired { not_after: now() - Duration::days(3), now: now() }],
+            refused: Some(Rejection { flaw: expired(), subject: "CN=EpsonRC.SN1".into(), depth: 0 }),
+            findings: vec![Finding { flaw: expired(), severity: Severity::Error }],
         }),
         endpoints,
     }
+}
+
+fn expired() -> CertificateFlaw {
+    CertificateFlaw::Expired { until: now() - Duration::days(3), now: now() }
 }
 
 fn fine() -> VerifyReport {

@@ -7,7 +7,7 @@ use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::{
-    AddUser, NotTried, Outcome, Refusal, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer,
+    AddUser, NotTried, Outcome, Refusal, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, Told,
     TrustConfigurator, Verdict, Verify, VerifyFinding, VerifyReport,
 };
 use opcua_configurator::model::{
@@ -128,7 +128,7 @@ async fn an_unknown_configurator_is_refused_at_every_secured_endpoint() {
         assert_eq!(report.counts().work, 2, "{report:?}");
         for endpoint in report.endpoints.iter().filter(|endpoint| endpoint.name() != "None") {
             for token in &endpoint.tokens {
-                let Verdict::Fails(Refusal::OwnCertificate(Some((status, reason)))) = &token.verdict else {
+                let Verdict::Fails(Refusal::OwnCertificate(Some(Told { status, reason, .. }))) = &token.verdict else {
                     panic!("{token:?}")
                 };
                 assert_eq!(*status, CertificateStatus::Untrusted, "the server tells its clients less");
@@ -187,7 +187,7 @@ async fn another_name_for_the_same_controller_is_noticed() {
     let Some(VerifyFinding::OtherAddress { url, reachable: true }) = other else { panic!("{report:?}") };
     assert!(url.starts_with("opc.tcp://127.0.0.1:"), "{url}");
     let refused = report.certificate.as_ref().unwrap().refused.clone().unwrap();
-    assert_eq!(refused.0, CertificateStatus::HostNameInvalid, "{refused:?}");
+    assert_eq!(refused.status(), CertificateStatus::HostNameInvalid, "{refused:?}");
     assert!(!report.all_works());
 }
 
@@ -200,7 +200,7 @@ async fn a_clock_that_is_wrong_is_noticed_and_named_as_the_reason() {
     let report = cell.report(None).await;
     assert!(report.findings.iter().any(|finding| matches!(finding, VerifyFinding::Clock(_))), "{report:?}");
     let refused = verdict(&report, "Basic256Sha256 – SignAndEncrypt", TokenKind::Anonymous);
-    let Verdict::Fails(Refusal::OwnCertificate(Some((status, _)))) = refused else { panic!("{refused:?}") };
+    let Verdict::Fails(Refusal::OwnCertificate(Some(Told { status, .. }))) = refused else { panic!("{refused:?}") };
     assert_eq!(*status, CertificateStatus::TimeInvalid);
     assert!(!report.lacks_trust(), "trusting it once more would not help");
 }
@@ -214,7 +214,7 @@ async fn an_expired_server_certificate_is_refused() {
     cell.run(StartServer).await;
     let report = cell.report(None).await;
     let refused = report.certificate.as_ref().unwrap().refused.clone().unwrap();
-    assert_eq!(refused.0, CertificateStatus::TimeInvalid, "{refused:?}");
+    assert_eq!(refused.status(), CertificateStatus::TimeInvalid, "{refused:?}");
     assert!(!report.all_works());
 }
 
@@ -297,7 +297,7 @@ async fn another_server_in_the_place_of_the_controllers_gets_no_password() {
     gateway(at, opcua(&cell.plant, 1)).await;
     let report = through_a_gateway(&cell, Some("Passw0rd1")).await;
     let refused = report.certificate.as_ref().unwrap().refused.clone().unwrap();
-    assert_eq!(refused.0, CertificateStatus::Untrusted, "{refused:?}");
+    assert_eq!(refused.status(), CertificateStatus::Untrusted, "{refused:?}");
     let other = Verdict::NotTried(NotTried::OtherCertificate);
     assert_eq!(*verdict(&report, "None", TokenKind::UserName), other);
     assert_eq!(*verdict(&report, "Basic256Sha256 – Sign", TokenKind::Anonymous), other);

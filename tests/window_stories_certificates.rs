@@ -142,7 +142,7 @@ fn warnings_are_asked_about_and_errors_stop_an_import() {
     let nobody = |p: &mut CertificateParams| p.subject_alt_names.retain(|name| !matches!(name, SanType::URI(_)));
     desk.put(0, &ca.sign_changed(&csr, nobody));
     desk.click("Import…");
-    desk.wait_for("Error: the certificate names no application URI");
+    desk.wait_for("Error: It has no application URI");
     assert!(!is_enabled(&desk.window, "OK"));
     desk.click("Cancel");
 

@@ -173,7 +173,7 @@ fn a_client_that_knocks_appears_is_trusted_in_one_click_and_sent_away_again_by_u
     // Nobody asked for it.
     desk.wait_for("1 new");
     desk.click("Tick HMI line 3");
-    assert!(shows(&desk.window, "Nobody trusts it here yet"), "why, in plain words");
+    assert!(shows(&desk.window, "Neither it nor any of its issuers is in the trust list"), "why, in plain words");
     assert!(shows(&desk.window, "127.0.0.1"));
     desk.click("Rejected: Trust");
     desk.wait_for("1 certificate moved from Rejected to Trusted");
@@ -371,7 +371,7 @@ fn why_a_client_was_refused_is_explained_with_what_is_missing() {
     let client = issuing.application("HMI");
     assert!(desk.connect(0, &client).is_err());
     desk.clients();
-    desk.wait_for("The certificate of an authority that issued it is missing");
+    desk.wait_for("The certificate of its issuer, CN=Plant issuing CA, is missing");
     desk.click("Tick HMI");
     desk.click("Details…");
     assert!(shows(&desk.window, "CN=Plant issuing CA"));

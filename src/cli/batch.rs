@@ -138,7 +138,7 @@ impl Settled {
         for (entry, report) in chosen.iter().zip(&checked) {
             let Ok(Outcome::Checked { findings, .. }) = &report.result else { continue };
             self.output.findings(entry.name.as_str(), findings);
-            if findings.iter().all(|finding| finding.severity() == Severity::Warning) {
+            if findings.iter().all(|finding| finding.severity == Severity::Warning) {
                 good += 1;
                 if !findings.is_empty() {
                     remarks.push("clients may complain about what is listed above");

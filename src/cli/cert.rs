@@ -275,11 +275,12 @@ const RESTORED: Presentation = Presentation {
 
 fn finding(finding: &Finding) -> Value {
     json!({
-        "severity": match finding.severity() {
+        "severity": match finding.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
         },
         "status": finding.status(),
+        "cause": finding.flaw,
         "message": finding.explain(Language::En),
     })
 }

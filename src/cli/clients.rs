@@ -5,10 +5,10 @@ use serde_json::{Value, json};
 
 use super::batch::{Presentation, Shown};
 use super::select::{Select, ThingsThenSelect};
-use super::trust_files::{read_trust_files, show_plan};
+use super::trust_files::{read_trust_files, show_move, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, Outcome, RemoveClients, TrustChange, TrustSnapshot};
-use crate::model::{ClientList, ErrorCode, Problem};
+use crate::model::{ClientList, ErrorCode, Language, Problem};
 use crate::protocol::{ListedCertificate, RejectedClient};
 
 #[derive(Debug, Subcommand)]
@@ -108,6 +108,8 @@ fn refused(rejected: &RejectedClient) -> Value {
         "certificate": rejected.summary,
         "status": rejected.status,
         "reason": rejected.reason,
+        "cause": rejected.cause,
+        "remedy": rejected.cause.as_ref().map(|cause| cause.flaw.remedy(Language::En)),
         "address": rejected.address,
         "count": rejected.count,
         "first_seen": rejected.first_seen,
@@ -187,8 +189,18 @@ pub fn run(settled: &Settled, command: ClientsCommand) -> Result<Ending, Problem
         }
         ClientsCommand::Trust(arguments) => {
             let (thumbprints, chosen) = arguments.resolve(&configuration)?;
-            let (from, to) = (ClientList::Rejected, ClientList::Trusted);
-            let operation = MoveClients { from, to, thumbprints: hexadecimal(&thumbprints)?, based_on: None };
+            let (from, to, thumbprints) = (ClientList::Rejected, ClientList::Trusted, hexadecimal(&thumbprints)?);
+            let mut accept_notes = settled.yes;
+            if !settled.output.is_json() {
+                let reports = settled.reports(&configuration, &chosen, ListTrust, &REJECTED)?;
+                let held = chosen.iter().zip(&reports).filter_map(|(entry, report)| match &report.result {
+                    Ok(Outcome::TrustLists(held)) => Some((entry, held.as_ref())),
+                    _ => None,
+                });
+                show_move(settled, to, &thumbprints, &held.collect::<Vec<_>>())?;
+                accept_notes = true;
+            }
+            let operation = MoveClients { from, to, thumbprints, accept_notes, based_on: None };
             settled.batch(&configuration, &chosen, operation, &CHANGE)
         }
     }

@@ -96,7 +96,7 @@ impl Output {
     /// What clients will say about a certificate, on standard error.
     pub fn findings(self, who: &str, findings: &[Finding]) {
         for finding in findings {
-            let severity = match (finding.severity(), self.language) {
+            let severity = match (finding.severity, self.language) {
                 (Severity::Error, Language::En) => "error",
                 (Severity::Warning, Language::En) => "warning",
                 (Severity::Error, Language::Zh) => "错误",

@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::secret_file::read_secret;
 use super::{Ending, Settled, read_bounded};
-use crate::model::{CertificateStatus, ErrorCode, Problem, SecurityPolicy};
+use crate::model::{ErrorCode, Language, Problem, SecurityPolicy};
 use crate::pki::{
     self, Bundle, Certificate, MAX_BUNDLE_BYTES, PkiError, Presented, Rejection, Role, TrustLists, TrustPolicy,
     read_bundle,
@@ -150,25 +150,28 @@ fn verify(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
 }
 
 fn rejected(settled: &Settled, rejection: &Rejection) -> Ending {
-    let Rejection { status, subject, depth, reason } = rejection;
+    let (status, language) = (rejection.status(), settled.output.language());
+    let Rejection { flaw, subject, depth } = rejection;
     if settled.output.is_json() {
-        let line = json!({ "status": status, "subject": subject, "depth": depth, "reason": reason });
+        let line = json!({
+            "status": status,
+            "subject": subject,
+            "depth": depth,
+            "reason": rejection.reason(),
+            "cause": rejection.cause(),
+            "remedy": flaw.remedy(Language::En),
+        });
         settled.output.text(&line.to_string());
     } else {
         settled.output.text(status.as_str());
     }
-    eprintln!("{subject}: {reason}\n    {}", status.explain(settled.output.language()));
+    eprintln!("{subject}: {}\n    {}", flaw.reason(language), flaw.remedy(language));
     Ending::SomeFailed
 }
 
 /// What was shown is no certificate: step 1 of OPC 10000-4 §6.1.3.
 fn unreadable(file: &Path, error: &PkiError) -> Rejection {
-    Rejection {
-        status: CertificateStatus::CertificateInvalid,
-        subject: file.display().to_string(),
-        depth: 0,
-        reason: error.to_string(),
-    }
+    Rejection::unreadable(error, &file.display().to_string())
 }
 
 /// Whether the file is something else than a certificate, rather than a damaged one.

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::table::table;
 use super::{Settled, read_bounded};
-use crate::jobs::{Destination, Fate, Note, SkipReason, Target, Thing, TrustFile, TrustPlan};
-use crate::model::{ErrorCode, FirmwareGeneration, ListLimits, Problem};
+use crate::jobs::{Destination, Fate, Note, SkipReason, Target, Thing, TrustFile, TrustPlan, TrustSnapshot};
+use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Language, ListLimits, Problem};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
 use crate::workspace::ControllerEntry;
 
@@ -51,7 +51,12 @@ pub fn show_plan(
             eprintln!("Controllers with {says}:\n{}", table(&["FILE", "WHAT", "GOES TO", "NOTE"], &rows(&plan)));
         }
     }
-    if !unclear || settled.yes {
+    if unclear { agreed(settled) } else { Ok(()) }
+}
+
+/// Whether somebody agrees to what was just said: with `--yes`, or at the terminal.
+fn agreed(settled: &Settled) -> Result<(), Problem> {
+    if settled.yes {
         return Ok(());
     }
     if !std::io::stdin().is_terminal() {
@@ -66,6 +71,26 @@ pub fn show_plan(
     }
 }
 
+/// Says what there is to think about before these certificates are moved into a list, and asks if there is anything.
+pub fn show_move(
+    settled: &Settled,
+    to: ClientList,
+    thumbprints: &[String],
+    held: &[(&ControllerEntry, &TrustSnapshot)],
+) -> Result<(), Problem> {
+    let mut rows = Vec::new();
+    for (entry, lists) in held {
+        for (thumbprint, notes) in lists.notes_of_move(to, thumbprints) {
+            rows.push(vec![entry.name.to_string(), thumbprint, words(&notes, settled.output.language())]);
+        }
+    }
+    if rows.is_empty() {
+        return Ok(());
+    }
+    eprintln!("{}", table(&["NAME", "CERTIFICATE", "NOTE"], &rows));
+    agreed(settled)
+}
+
 fn rows(plan: &TrustPlan) -> Vec<Vec<String>> {
     plan.items
         .iter()
@@ -76,9 +101,7 @@ fn rows(plan: &TrustPlan) -> Vec<Vec<String>> {
                 Thing::Crl { summary, .. } => format!("CRL of {}", summary.issuer),
             };
             let (to, note) = match &item.fate {
-                Fate::Goes { to, notes } => {
-                    (target(*to), notes.iter().map(|n| says(*n)).collect::<Vec<_>>().join("; "))
-                }
+                Fate::Goes { to, notes } => (target(*to), words(notes, Language::En)),
                 Fate::Skipped(reason) => ("-", skipped(*reason).to_owned()),
                 Fate::Refused(problem) => ("-", problem.to_string()),
             };
@@ -95,15 +118,8 @@ const fn target(target: Target) -> &'static str {
     }
 }
 
-const fn says(note: Note) -> &'static str {
-    match note {
-        Note::TrustsAllItIssues => "lets in every client with a certificate from it",
-        Note::OnlyCompletesAChain => "only completes a chain",
-        Note::CrlAmongCertificates => "a CRL among certificates",
-        Note::ReplacesOlder => "replaces the older one",
-        Note::Expired => "expired",
-        Note::NotYetValid => "not valid yet",
-    }
+fn words(notes: &[Note], language: Language) -> String {
+    notes.iter().map(|note| note.text(language)).collect::<Vec<_>>().join("; ")
 }
 
 const fn skipped(reason: SkipReason) -> &'static str {

@@ -11,7 +11,7 @@ use super::table::table;
 use super::{Ending, Settled};
 use crate::jobs::{Outcome, Refusal, Verdict, Verify, VerifyReport};
 use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword};
-use crate::pki::Severity;
+use crate::pki::{Rejection, Severity};
 use crate::session::opcua_client::{MessageSecurity, Patience};
 
 /// Exit code 1 if anything that is offered does not work.
@@ -97,22 +97,27 @@ fn as_json(report: &VerifyReport, language: Language) -> Value {
         })
         .collect();
     let certificate = report.certificate.as_ref().map(|verdict| {
-        let (status, reason) = match &verdict.refused {
-            Some((status, reason)) => (status.as_str(), Some(reason)),
-            None => ("Good", None),
-        };
+        let refused = verdict.refused.as_ref();
+        let status = refused.map_or("Good", |rejection| rejection.status().as_str());
         let findings: Vec<Value> = verdict
             .findings
             .iter()
             .map(|finding| {
                 json!({
-                    "severity": severity(finding.severity()),
+                    "severity": severity(finding.severity),
                     "status": finding.status(),
+                    "cause": finding.flaw,
                     "message": finding.explain(language),
                 })
             })
             .collect();
-        json!({ "status": status, "reason": reason, "certificate": verdict.summary, "findings": findings })
+        json!({
+            "status": status,
+            "reason": refused.map(Rejection::reason),
+            "cause": refused.map(Rejection::cause),
+            "certificate": verdict.summary,
+            "findings": findings,
+        })
     });
     let endpoints: Vec<Value> = report
         .endpoints
@@ -127,9 +132,10 @@ fn as_json(report: &VerifyReport, language: Language) -> Value {
                         "result": token.verdict.code(),
                         "message": token.verdict.explain(language),
                     });
-                    if let Verdict::Fails(Refusal::OwnCertificate(Some((status, reason)))) = &token.verdict {
-                        json["status"] = json!(status.as_str());
-                        json["reason"] = json!(reason);
+                    if let Verdict::Fails(Refusal::OwnCertificate(Some(told))) = &token.verdict {
+                        json["status"] = json!(told.status);
+                        json["reason"] = json!(told.reason);
+                        json["cause"] = json!(told.cause);
                     }
                     if let Verdict::Fails(Refusal::Status { name, .. }) = &token.verdict {
                         json["status"] = json!(name);
@@ -168,13 +174,12 @@ fn words(report: &VerifyReport, language: Language) -> String {
         match (&verdict.refused, language) {
             (None, Language::En) => line('✓', "A careful client accepts the server's certificate"),
             (None, Language::Zh) => line('✓', "客户端可接受服务器证书"),
-            (Some((status, reason)), _) => {
-                line('✗', &format!("{status}: {}", status.explain(language)));
-                line(' ', reason);
+            (Some(rejection), _) => {
+                line('✗', &format!("{}: {}", rejection.status(), rejection.cause().explain(language)));
             }
         }
-        for finding in &verdict.findings {
-            line(mark(finding.severity()), &finding.explain(language));
+        for finding in verdict.further_findings() {
+            line(mark(finding.severity), &finding.explain(language));
         }
     }
     let mut rows = Vec::new();

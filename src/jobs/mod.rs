@@ -74,6 +74,6 @@ pub use trust::{
 };
 pub use users::{AddUser, ListUsers, RemoveUsers};
 pub use verify::{
-    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, TrustConfigurator, Verdict, Verify,
-    VerifyFinding, VerifyReport,
+    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, TrustConfigurator, Verdict,
+    Verify, VerifyFinding, VerifyReport,
 };

@@ -3,7 +3,7 @@
 use super::Run;
 use super::self_signed::server_names;
 use crate::model::{ControllerInfo, ErrorCode, Language, Problem};
-use crate::pki::{Certificate, Expected, Finding, PkiError, Severity, preflight};
+use crate::pki::{Certificate, CertificateFlaw, Expected, Finding, PkiError, Severity, preflight};
 
 /// Compares a certificate with the controller it is for. Reads the controller's settings.
 pub(super) async fn examine(
@@ -16,7 +16,7 @@ pub(super) async fn examine(
     let hosts: Vec<String> = names.ips.iter().map(ToString::to_string).chain(names.dns).collect();
     let expected =
         Expected { application_uri: &names.application_uri, hosts: &hosts, policies: &policies, now: info.clock };
-    Ok(preflight(certificate, &expected)?)
+    Ok(preflight(certificate, &expected))
 }
 
 /// Refuses what clients would refuse, and what they may complain about unless that is accepted. An expired certificate
@@ -29,13 +29,13 @@ pub(super) async fn admit(
 ) -> Result<Vec<Finding>, Problem> {
     let findings = examine(run, info, certificate).await?;
     for finding in &findings {
-        match finding {
-            Finding::Expired { not_after, .. } => return Err(PkiError::Expired(*not_after).into()),
-            Finding::KeyLength { bits } => return Err(PkiError::KeyLengthNotAllowed(*bits).into()),
+        match &finding.flaw {
+            CertificateFlaw::Expired { until, .. } => return Err(PkiError::Expired(*until).into()),
+            CertificateFlaw::KeyLengthNotTicked { bits } => return Err(PkiError::KeyLengthNotAllowed(*bits).into()),
             _ => {}
         }
     }
-    let of = |severity: Severity| findings.iter().filter(move |f| f.severity() == severity);
+    let of = |severity: Severity| findings.iter().filter(move |f| f.severity == severity);
     if of(Severity::Error).next().is_some() {
         return Err(Problem::with_detail(ErrorCode::Preflight, listed(of(Severity::Error))));
     }

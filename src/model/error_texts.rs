@@ -575,10 +575,14 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ErrorCode::NotConfirmed,
         text(
             "The operation was not confirmed",
-            "It stops, replaces or deletes something, and there is no terminal to ask on.",
+            "It stops, replaces or deletes something, or there is something to think about first, and there is no terminal to ask on.",
             "Repeat the command with --yes.",
         ),
-        text("操作未确认", "该操作会停止、替换或删除某些内容，且没有可询问的终端。", "请加上 --yes 重新执行命令。"),
+        text(
+            "操作未确认",
+            "该操作会停止、替换或删除某些内容，或有需要先考虑的事项，且没有可询问的终端。",
+            "请加上 --yes 重新执行命令。",
+        ),
     ),
     (
         ErrorCode::CsrMismatch,

@@ -10,12 +10,15 @@ use x509_parser::prelude::{FromDer as _, SubjectPublicKeyInfo};
 
 use super::certificate::check_size;
 use super::facts::Extensions;
+use super::general_name::{NameConstraints, Subtree};
 use super::signature::{Curve, PublicKey, SignatureAlgorithm, Verdict};
 use super::signers::{Signed, Signers};
+use super::trust::checks;
 use super::{
     AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, KeyUsage, MAX_BUNDLE_BYTES,
     PkiError, RevocationReason, key_file, name, pem, pkcs12, read_bundle, read_key_file, tlv,
 };
+use crate::model::Language;
 
 /// One thing inside a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -45,6 +48,12 @@ pub struct CertificateDescription {
     pub basic_constraints: Option<BasicConstraints>,
     pub key_usages: Option<Vec<KeyUsage>>,
     pub extended_key_usages: Option<Vec<ExtendedKeyUsage>>,
+    /// What an authority says about the names below it.
+    #[serde(default)]
+    pub name_constraints: Option<NameConstraintsDescription>,
+    /// Object identifiers of certificate policies; `None` without the extension.
+    #[serde(default)]
+    pub policies: Option<Vec<String>>,
     /// Upper-case hexadecimal.
     pub subject_key_id: Option<String>,
     /// Upper-case hexadecimal.
@@ -61,6 +70,13 @@ pub struct CertificateDescription {
     pub sha1: String,
     /// Upper-case hexadecimal.
     pub sha256: String,
+}
+
+/// RFC 5280 §4.2.1.10.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NameConstraintsDescription {
+    pub permitted: Vec<String>,
+    pub excluded: Vec<String>,
 }
 
 /// Everything a revocation list says.
@@ -257,16 +273,26 @@ impl Certificate {
             basic_constraints: facts.extensions.basic_constraints,
             key_usages: facts.extensions.key_usages.clone(),
             extended_key_usages: facts.extensions.extended_key_usages.clone(),
+            name_constraints: facts.extensions.name_constraints.as_ref().map(NameConstraints::describe),
+            policies: facts.extensions.policies.asserted.clone(),
             subject_key_id: self.subject_key_id().map(hex::encode_upper),
             authority_key_id: self.authority_key_id().map(hex::encode_upper),
             key: facts.public_key.describe(),
             signature_algorithm: facts.signature_algorithm.name().to_owned(),
             self_signed: signed.by_itself,
             signed_by: signed.by.map(Self::thumbprint_sha1),
-            not_understood: facts.extensions.not_understood.clone(),
+            not_understood: checks::structure_flaw(self).map(|flaw| flaw.reason(Language::En)),
             sha1: self.thumbprint_sha1(),
             sha256: hex::encode_upper(self.sha256()),
         }
+    }
+}
+
+impl NameConstraints {
+    fn describe(&self) -> NameConstraintsDescription {
+        let texts =
+            |subtrees: &[Subtree]| subtrees.iter().map(|subtree| name::printable(&subtree.base.text())).collect();
+        NameConstraintsDescription { permitted: texts(&self.permitted), excluded: texts(&self.excluded) }
     }
 }
 

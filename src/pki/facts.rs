@@ -6,10 +6,14 @@ use std::ops::Range;
 
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
-use x509_parser::prelude::{ASN1Time, GeneralName, ParsedExtension, X509Certificate, X509Extension};
+use x509_parser::prelude::{
+    ASN1Time, GeneralName as Parsed, ParsedExtension, PolicyMapping, X509Certificate, X509Extension,
+};
 
+use super::flaw::quoted;
+use super::general_name::{GeneralName, NameConstraints};
 use super::signature::{PublicKey, SignatureAlgorithm};
-use super::{Fingerprint, PkiError, name};
+use super::{CertificateFlaw, Fingerprint, PkiError, name};
 
 /// What a key may be used for (RFC 5280 §4.2.1.3), by the names of that document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -131,6 +135,8 @@ pub(super) struct Facts {
     /// For comparing names; see [`name::folded`].
     pub subject_folded: Vec<u8>,
     pub issuer_folded: Vec<u8>,
+    /// The mailboxes among the attributes of the subject (RFC 5280 §4.1.2.6).
+    pub subject_emails: Vec<GeneralName>,
     pub names_equal: bool,
     pub version: u32,
     pub serial_number: String,
@@ -151,14 +157,33 @@ pub(super) struct Facts {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub(super) struct Extensions {
     pub alternative_names: Vec<AlternativeName>,
+    /// The same, to be compared with name constraints.
+    pub names: Vec<GeneralName>,
+    pub name_constraints: Option<NameConstraints>,
+    pub policies: Policies,
     pub basic_constraints: Option<BasicConstraints>,
     pub key_usages: Option<Vec<KeyUsage>>,
     pub extended_key_usages: Option<Vec<ExtendedKeyUsage>>,
     pub subject_key_id: Option<Vec<u8>>,
     pub authority_key_id: Option<Vec<u8>>,
+    /// Those that are critical, by their names.
+    pub critical: Vec<String>,
     /// Why nobody should act on this certificate, though it can be shown: an extension that is critical and not
     /// understood, or one that contradicts its own definition.
-    pub not_understood: Option<String>,
+    pub not_understood: Option<CertificateFlaw>,
+}
+
+/// What the extensions say about certificate policies, by object identifier (RFC 5280 §4.2.1.4, .5, .11, .14).
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub(super) struct Policies {
+    /// `None` without the extension.
+    pub asserted: Option<Vec<String>>,
+    /// From the issuer's policies to the subject's.
+    pub mappings: Vec<(String, String)>,
+    /// After how many more certificates a policy is needed.
+    pub require_explicit: Option<u32>,
+    pub inhibit_mapping: Option<u32>,
+    pub inhibit_any: Option<u32>,
 }
 
 impl Facts {
@@ -179,6 +204,7 @@ impl Facts {
             issuer: name::full(parsed.issuer()),
             subject_folded: name::folded(parsed.subject()),
             issuer_folded: name::folded(parsed.issuer()),
+            subject_emails: name::emails(parsed.subject()).into_iter().map(GeneralName::Email).collect(),
             names_equal: parsed.subject().as_raw() == parsed.issuer().as_raw(),
             version: parsed.version().0.saturating_add(1),
             serial_number: serial_number(parsed.raw_serial()),
@@ -205,15 +231,28 @@ impl Extensions {
     }
 
     fn read_extension(&mut self, extension: &X509Extension<'_>) {
-        let oid = || extension.oid.to_id_string();
-        match extension.parsed_extension() {
-            ParsedExtension::ParseError { .. } => self.not_understood(format!("the extension {} is damaged", oid())),
+        let extension_name = || extension_name(&extension.oid.to_id_string());
+        if extension.critical {
+            self.critical.push(extension_name());
+        }
+        let parsed = extension.parsed_extension();
+        match parsed {
+            ParsedExtension::ParseError { .. } => self.damaged(extension_name()),
+            // The parser passes over distances, and reads only some kinds of names.
+            ParsedExtension::NameConstraints(_) => match NameConstraints::parse(extension.value) {
+                Some(constraints) => self.name_constraints = Some(constraints),
+                None => self.damaged(extension_name()),
+            },
             known if self.read(known) => {}
             _ if extension.critical => {
-                self.not_understood(format!("the extension {} is critical and not understood", oid()));
+                self.not_understood(CertificateFlaw::UnknownCriticalExtension { extension: extension_name() });
             }
             _ => {}
         }
+    }
+
+    fn damaged(&mut self, extension: String) {
+        self.not_understood(CertificateFlaw::DamagedExtension { extension });
     }
 
     /// Whether the extension is understood.
@@ -231,28 +270,83 @@ impl Extensions {
             ParsedExtension::ExtendedKeyUsage(usage) => self.extended_key_usages = Some(purposes(usage)),
             ParsedExtension::SubjectAlternativeName(names) => {
                 self.alternative_names = names.general_names.iter().map(alternative_name).collect();
-                if names.general_names.iter().any(|name| matches!(name, GeneralName::Invalid(..))) {
-                    self.not_understood("the subject alternative name is damaged".to_owned());
+                self.names = names.general_names.iter().filter_map(GeneralName::of).collect();
+                for name in &names.general_names {
+                    match name {
+                        Parsed::Invalid(tag, bytes) if text_form(tag.0).is_some() => {
+                            let name = quoted(&not_utf8(tag.0, bytes));
+                            self.not_understood(CertificateFlaw::NameNotAscii { name });
+                        }
+                        Parsed::Invalid(..) => self.damaged(extension_name(ALTERNATIVE_NAME)),
+                        _ => {}
+                    }
                 }
             }
             ParsedExtension::SubjectKeyIdentifier(id) => self.subject_key_id = Some(id.0.to_vec()),
             ParsedExtension::AuthorityKeyIdentifier(authority) => {
                 self.authority_key_id = authority.key_identifier.as_ref().map(|id| id.0.to_vec());
             }
-            // No policy is ever asked for, so that none is too many.
-            ParsedExtension::CertificatePolicies(_) => {}
-            ParsedExtension::NameConstraints(_) => {
-                // Whoever wrote them wanted them to hold, critical or not.
-                self.not_understood("name constraints are not supported".to_owned());
+            ParsedExtension::CertificatePolicies(policies) => {
+                self.policies.asserted = Some(policies.iter().map(|policy| policy.policy_id.to_id_string()).collect());
             }
+            ParsedExtension::PolicyMappings(mappings) => {
+                let pair = |one: &PolicyMapping<'_>| {
+                    (one.issuer_domain_policy.to_id_string(), one.subject_domain_policy.to_id_string())
+                };
+                self.policies.mappings = mappings.mappings.iter().map(pair).collect();
+            }
+            ParsedExtension::PolicyConstraints(constraints) => {
+                self.policies.require_explicit = constraints.require_explicit_policy;
+                self.policies.inhibit_mapping = constraints.inhibit_policy_mapping;
+            }
+            ParsedExtension::InhibitAnyPolicy(inhibit) => self.policies.inhibit_any = Some(inhibit.skip_certs),
+            // Where revocation lists are fetched from: an OPC UA application is given its lists.
+            ParsedExtension::CRLDistributionPoints(_) => {}
             _ => return false,
         }
         true
     }
 
-    fn not_understood(&mut self, why: String) {
+    fn not_understood(&mut self, why: CertificateFlaw) {
         self.not_understood.get_or_insert(why);
     }
+}
+
+/// As RFC 5280 writes it; of others, the object identifier.
+fn extension_name(oid: &str) -> String {
+    let known = match oid {
+        "2.5.29.14" => "subjectKeyIdentifier",
+        "2.5.29.15" => "keyUsage",
+        ALTERNATIVE_NAME => "subjectAltName",
+        "2.5.29.19" => "basicConstraints",
+        "2.5.29.30" => "nameConstraints",
+        "2.5.29.31" => "cRLDistributionPoints",
+        "2.5.29.32" => "certificatePolicies",
+        "2.5.29.33" => "policyMappings",
+        "2.5.29.35" => "authorityKeyIdentifier",
+        "2.5.29.36" => "policyConstraints",
+        "2.5.29.37" => "extKeyUsage",
+        "2.5.29.54" => "inhibitAnyPolicy",
+        other => other,
+    };
+    known.to_owned()
+}
+
+const ALTERNATIVE_NAME: &str = "2.5.29.17";
+
+/// What a name with that tag is called, if it is text (RFC 5280 §4.2.1.6).
+const fn text_form(tag: u32) -> Option<&'static str> {
+    match tag {
+        1 => Some("email"),
+        2 => Some("DNS"),
+        6 => Some("URI"),
+        _ => None,
+    }
+}
+
+/// A name in another encoding than UTF-8, as far as it can be read.
+fn not_utf8(tag: u32, bytes: &[u8]) -> String {
+    format!("{}:{}", text_form(tag).unwrap_or("?"), String::from_utf8_lossy(bytes))
 }
 
 fn purposes(usage: &x509_parser::prelude::ExtendedKeyUsage<'_>) -> Vec<ExtendedKeyUsage> {
@@ -269,22 +363,25 @@ fn purposes(usage: &x509_parser::prelude::ExtendedKeyUsage<'_>) -> Vec<ExtendedK
     known.chain(usage.other.iter().map(|oid| ExtendedKeyUsage::Other(oid.to_id_string()))).collect()
 }
 
-fn alternative_name(general_name: &GeneralName<'_>) -> AlternativeName {
+fn alternative_name(general_name: &Parsed<'_>) -> AlternativeName {
     match general_name {
-        GeneralName::URI(uri) => AlternativeName::Uri(name::printable(uri)),
-        GeneralName::DNSName(dns) => AlternativeName::Dns(name::printable(dns)),
-        GeneralName::RFC822Name(mail) => AlternativeName::Email(name::printable(mail)),
-        GeneralName::IPAddress(bytes) => match (<[u8; 4]>::try_from(*bytes), <[u8; 16]>::try_from(*bytes)) {
+        Parsed::URI(uri) => AlternativeName::Uri(name::printable(uri)),
+        Parsed::DNSName(dns) => AlternativeName::Dns(name::printable(dns)),
+        Parsed::RFC822Name(mail) => AlternativeName::Email(name::printable(mail)),
+        Parsed::IPAddress(bytes) => match (<[u8; 4]>::try_from(*bytes), <[u8; 16]>::try_from(*bytes)) {
             (Ok(v4), _) => AlternativeName::Ip(v4.into()),
             (_, Ok(v6)) => AlternativeName::Ip(v6.into()),
             _ => AlternativeName::Other(format!("IP:{}", hex::encode_upper(bytes))),
         },
-        GeneralName::DirectoryName(directory) => AlternativeName::Other(format!("dirName:{}", name::full(directory))),
-        GeneralName::RegisteredID(oid) => AlternativeName::Other(format!("RID:{}", oid.to_id_string())),
-        GeneralName::OtherName(oid, _) => AlternativeName::Other(format!("otherName:{}", oid.to_id_string())),
-        GeneralName::X400Address(_) => AlternativeName::Other("X400".to_owned()),
-        GeneralName::EDIPartyName(_) => AlternativeName::Other("ediPartyName".to_owned()),
-        GeneralName::Invalid(tag, _) => AlternativeName::Other(format!("damaged [{}]", tag.0)),
+        Parsed::DirectoryName(directory) => AlternativeName::Other(format!("dirName:{}", name::full(directory))),
+        Parsed::RegisteredID(oid) => AlternativeName::Other(format!("RID:{}", oid.to_id_string())),
+        Parsed::OtherName(oid, _) => AlternativeName::Other(format!("otherName:{}", oid.to_id_string())),
+        Parsed::X400Address(_) => AlternativeName::Other("X400".to_owned()),
+        Parsed::EDIPartyName(_) => AlternativeName::Other("ediPartyName".to_owned()),
+        Parsed::Invalid(tag, bytes) if text_form(tag.0).is_some() => {
+            AlternativeName::Other(name::printable(&not_utf8(tag.0, bytes)))
+        }
+        Parsed::Invalid(tag, _) => AlternativeName::Other(format!("damaged [{}]", tag.0)),
     }
 }
 

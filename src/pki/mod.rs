@@ -4,6 +4,8 @@
 //! |---|---|
 //! | `certificate` | [`Certificate`]: one X.509 certificate that was parsed and found whole |
 //! | `facts` | what is read from a certificate, once |
+//! | `general_name` | names, and the constraints an authority puts on them |
+//! | `flaw` | [`CertificateFlaw`]: what can be wrong with a certificate, and what to do |
 //! | `signature` | which signatures there are, and whether one is right |
 //! | `crl` | [`Crl`]: one certificate revocation list, indexed |
 //! | `authority` | [`is_authority`]: whether a certificate is that of an authority or of an application |
@@ -47,6 +49,8 @@ mod describe;
 mod error;
 mod facts;
 mod fingerprint;
+mod flaw;
+mod general_name;
 mod identity;
 mod issuers;
 mod key;
@@ -75,11 +79,13 @@ pub use client_identity::{ClientIdentity, client_identity};
 pub use crl::{Crl, MAX_CRL_BYTES, RevocationReason, Revoked};
 pub use csr::{Csr, make_csr};
 pub use describe::{
-    CertificateDescription, CrlDescription, CrlEntry, CsrDescription, Description, KeyDescription, describe,
+    CertificateDescription, CrlDescription, CrlEntry, CsrDescription, Description, KeyDescription,
+    NameConstraintsDescription, describe,
 };
 pub use error::PkiError;
 pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use fingerprint::{Fingerprint, FingerprintError};
+pub use flaw::{CertificateFlaw, RefusalCause, explain_refusal};
 pub use identity::{TlsIdentity, tls_identity};
 pub use issuers::{Issuers, issuers_of};
 pub use key::PrivateKey;
@@ -91,5 +97,5 @@ pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_k
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 pub use self_signed::{ServerNames, self_signed};
-pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy};
+pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};
 pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

@@ -23,6 +23,11 @@ pub(super) fn full(name: &X509Name<'_>) -> String {
     parts.join(", ")
 }
 
+/// The mailboxes in a name (RFC 2985 §5.2.1).
+pub(super) fn emails(name: &X509Name<'_>) -> Vec<String> {
+    name.iter_email().map(decoded).collect()
+}
+
 /// Equal for names that RFC 5280 §7.1 calls the same: whatever the string type, case and inner white space.
 ///
 /// Every part stands behind its length, so that no text can pass for the seam between two parts.

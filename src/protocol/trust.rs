@@ -4,7 +4,8 @@ use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
 use super::{Base64Bytes, Changed};
-use crate::model::{CertificateStatus, CertificateSummary, ClientList, CrlSummary};
+use crate::model::{CertificateStatus, CertificateSummary, ClientList, CrlSummary, Language};
+use crate::pki::{RefusalCause, explain_refusal};
 
 /// A certificate in the trusted or issuers list.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -27,6 +28,9 @@ pub struct RejectedClient {
     pub summary: CertificateSummary,
     /// Why it was refused last.
     pub status: CertificateStatus,
+    /// The same, with what is wrong in particular; left out where the controller does not tell it.
+    #[serde(default, deserialize_with = "RefusalCause::if_known", skip_serializing_if = "Option::is_none")]
+    pub cause: Option<RefusalCause>,
     /// The same in English words.
     pub reason: String,
     /// The IP address it came from last; empty when it was moved here from another list and has not come since.
@@ -35,6 +39,13 @@ pub struct RejectedClient {
     pub last_seen: DateTime<Utc>,
     /// How often it was refused; 0 when it was moved here from another list and has not come since.
     pub count: u64,
+}
+
+impl RejectedClient {
+    /// What the refusal means and what to do.
+    pub fn explain(&self, language: Language) -> String {
+        explain_refusal(self.status, self.cause.as_ref(), language)
+    }
 }
 
 /// A CRL in a controller.

@@ -17,7 +17,7 @@ use super::opcua::Refusals;
 use super::state::{Listed, State};
 use super::store::{StoreError, replace_private_file};
 use crate::model::CertificateStatus;
-use crate::pki::{Certificate, Rejection};
+use crate::pki::{Certificate, RefusalCause, Rejection};
 use crate::protocol::{Base64Bytes, RejectedClient};
 
 /// The client certificates that were refused, for a person to decide about (manual 2.7.3).
@@ -54,6 +54,8 @@ pub struct Entry {
     pub chain: Vec<Base64Bytes>,
     pub thumbprint: String,
     pub status: CertificateStatus,
+    #[serde(default, deserialize_with = "RefusalCause::if_known", skip_serializing_if = "Option::is_none")]
+    pub cause: Option<RefusalCause>,
     pub reason: String,
     pub address: Option<IpAddr>,
     pub first_seen: DateTime<Utc>,
@@ -222,7 +224,7 @@ impl Refusals for RejectedClients {
         let now = self.faults.now();
         let at_fault = if rejection.depth > 0 { format!(" ({})", rejection.subject) } else { String::new() };
         let reason: String = rejection
-            .reason
+            .reason()
             .chars()
             .chain(at_fault.chars())
             .filter(|c| !c.is_control())
@@ -236,7 +238,8 @@ impl Refusals for RejectedClients {
                     certificate: Base64Bytes(certificate.der().to_vec()),
                     chain: Vec::new(),
                     thumbprint: certificate.thumbprint_sha1(),
-                    status: rejection.status,
+                    status: rejection.status(),
+                    cause: None,
                     reason: String::new(),
                     address: None,
                     first_seen: now,
@@ -248,7 +251,8 @@ impl Refusals for RejectedClients {
         };
         let entry = &mut list.entries[index];
         entry.chain = chain.iter().take(MAX_CHAIN).map(|c| Base64Bytes(c.der().to_vec())).collect();
-        entry.status = rejection.status;
+        entry.status = rejection.status();
+        entry.cause = Some(rejection.cause());
         entry.reason = reason;
         entry.address = Some(address.to_canonical());
         entry.last_seen = now;
@@ -303,6 +307,7 @@ impl Entry {
             chain: Vec::new(),
             thumbprint,
             status: CertificateStatus::Untrusted,
+            cause: None,
             reason: "it was taken out of the list it was in".to_owned(),
             address: None,
             first_seen: now,
@@ -321,6 +326,7 @@ impl Entry {
             certificate: self.certificate,
             chain: self.chain,
             status: self.status,
+            cause: self.cause,
             reason: self.reason,
             address: self.address.map(|address| address.to_string()).unwrap_or_default(),
             first_seen: self.first_seen,
@@ -352,6 +358,7 @@ mod tests {
     use std::sync::{Arc, LazyLock};
     use std::time::Instant;
 
+    use crate::pki::CertificateFlaw;
     use crate::virtual_controller::{Identity, NewController, Surroundings};
 
     const HOME: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 1));
@@ -385,12 +392,7 @@ mod tests {
     }
 
     fn untrusted() -> Rejection {
-        Rejection {
-            status: CertificateStatus::Untrusted,
-            subject: "CN=client".to_owned(),
-            depth: 0,
-            reason: "nobody trusts it\u{1b}[2J".to_owned(),
-        }
+        Rejection { flaw: CertificateFlaw::Untrusted, subject: "CN=client".to_owned(), depth: 0 }
     }
 
     #[test]
@@ -400,15 +402,33 @@ mod tests {
         let stamp = rejected.stamp();
         let chain = [certificate(1), certificate(2), certificate(3)];
         rejected.record(&chain, HOME, &untrusted());
-        let issuer = Rejection { status: CertificateStatus::IssuerRevoked, depth: 1, ..untrusted() };
+        let flaw = CertificateFlaw::IssuerMissing { issuer: "CN=Root\u{1b}[2J".to_owned() };
+        let issuer = Rejection { flaw: flaw.clone(), depth: 1, ..untrusted() };
         rejected.record(&chain[..1], STRANGER, &issuer);
         rejected.record(&[], HOME, &untrusted());
         assert_eq!(rejected.stamp(), stamp + 2);
         let [entry] = &rejected.list()[..] else { panic!() };
         assert_eq!((entry.count, entry.address.as_str()), (2, "10.0.0.66"));
-        assert_eq!((entry.status, entry.reason.as_str()), (issuer.status, "nobody trusts it[2J (CN=client)"));
+        let reason = "the certificate of its issuer, CN=Root\u{fffd}[2J, is missing (CN=client)";
+        assert_eq!((entry.status, entry.reason.as_str()), (CertificateStatus::ChainIncomplete, reason));
+        assert_eq!(entry.cause, Some(RefusalCause { flaw, at_fault: Some("CN=client".to_owned()) }));
         assert!(entry.first_seen <= entry.last_seen);
         assert_eq!(entry.summary.thumbprint, chain[0].thumbprint_sha1());
+    }
+
+    #[test]
+    fn a_file_of_before_causes_were_kept_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let rejected = open(folder.path());
+        rejected.record(&[certificate(1)], HOME, &untrusted());
+        rejected.write().unwrap();
+        let file = folder.path().join(FILE);
+        let mut entries: serde_json::Value = serde_json::from_slice(&fs::read(&file).unwrap()).unwrap();
+        assert_eq!(entries[0]["cause"]["flaw"], "untrusted");
+        entries[0].as_object_mut().unwrap().remove("cause");
+        fs::write(&file, entries.to_string()).unwrap();
+        let list = open(folder.path()).list();
+        assert_eq!((list.len(), &list[0].cause, list[0].status), (1, &None, CertificateStatus::Untrusted));
     }
 
     #[test]

@@ -71,9 +71,20 @@ fn client_params(name: &str, serial: u64) -> CertificateParams {
 impl Identity {
     /// With a certificate it signed itself.
     pub fn new(name: &str) -> Self {
-        let key = rsa();
         let mut params = client_params(name, 1);
         params.key_usages.push(KeyUsagePurpose::KeyCertSign);
+        Self::self_signed(name, &params)
+    }
+
+    /// With a key that may only sign, which OPC 10000-6 §6.2.2 does not allow.
+    pub fn sign_only(name: &str) -> Self {
+        let mut params = client_params(name, 1);
+        params.key_usages = vec![KeyUsagePurpose::DigitalSignature];
+        Self::self_signed(name, &params)
+    }
+
+    fn self_signed(name: &str, params: &CertificateParams) -> Self {
+        let key = rsa();
         let certificate = Certificate::from_der(params.self_signed(&key).unwrap().der()).unwrap();
         Self { name: name.to_owned(), certificate, key, serial: SerialNumber::from(1_u64) }
     }

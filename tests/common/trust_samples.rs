@@ -106,6 +106,7 @@ pub fn refused(
         chain: vec![],
         summary: summary(n, to, by, 700, clock),
         status,
+        cause: None,
         reason: "what was found in this very certificate".to_owned(),
         address: format!("192.168.10.{}", n % 250),
         first_seen: clock - Duration::minutes(minutes * 10),

@@ -241,18 +241,6 @@ pub(super) fn structure(table: &mut Table) {
         |_| None,
         agrees,
     );
-    for at in 1..=2 {
-        let unsupported = Differs("OpenSSL supports name constraints, and these are kept");
-        table.one(&format!("name constraints at {at}"), 3, Some(CertificateInvalid), unsupported, |world| {
-            let subtree = seq(&[&tlv(DNS, &[b"plant.example"])]);
-            let value = seq(&[&tlv(0xa0, &[&subtree])]);
-            world.certs[at].set(Extension::new("2.5.29.30", true, value));
-        });
-        let unsupported = Differs("OpenSSL looks at policies only if it is told to");
-        table.one(&format!("critical policy constraints at {at}"), 3, Some(CertificateInvalid), unsupported, |world| {
-            world.certs[at].set(Extension::new("2.5.29.36", true, seq(&[&tlv(0x80, &[&[0]])])));
-        });
-    }
     for length in 1..=3 {
         table.one("the same extension twice", length, Some(CertificateInvalid), Agrees, |world| {
             let again = world.certs[0].extensions[1].clone();

@@ -89,6 +89,9 @@ pub fn accepts(world: &World, built: &Built, folder: &Path) -> (bool, String) {
         Role::Server => command.args(["-purpose", "sslserver"]),
         Role::Either => &mut command,
     };
+    if world.check_policies {
+        command.arg("-policy_check");
+    }
     if let Some(host) = world.host {
         let is_address = host.parse::<std::net::IpAddr>().is_ok();
         command.args([if is_address { "-verify_ip" } else { "-verify_hostname" }, host]);

@@ -1,6 +1,7 @@
 //! Every case: what is wrong, what OPC UA says of it, and what OpenSSL says.
 
 mod chain_cases;
+mod constraint_cases;
 mod name_cases;
 mod revocation_cases;
 mod trust_cases;
@@ -102,6 +103,8 @@ pub fn cases() -> Vec<Case> {
     chain_cases::signatures(&mut table);
     chain_cases::strength(&mut table);
     chain_cases::structure(&mut table);
+    constraint_cases::names(&mut table);
+    constraint_cases::certificate_policies(&mut table);
     name_cases::names_and_serials(&mut table);
     trust_cases::trust(&mut table);
     trust_cases::several_chains(&mut table);

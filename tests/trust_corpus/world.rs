@@ -33,6 +33,8 @@ pub struct World {
     pub policy: TrustPolicy,
     pub damage_leaf: Option<fn(&mut Vec<u8>)>,
     pub ask: Ask,
+    /// OpenSSL looks at certificate policies only if it is told to.
+    pub check_policies: bool,
 }
 
 /// How OpenSSL is asked.
@@ -86,6 +88,7 @@ pub fn world(length: usize) -> World {
         damage_leaf: None,
         // Nobody stands above a self-signed application who could revoke it; OpenSSL would want a list of itself.
         ask: if length == 1 { Ask::NoLists } else { Ask::AllLists },
+        check_policies: false,
     }
 }
 
@@ -227,5 +230,5 @@ pub fn judge(world: &World, built: &Built) -> Result<Option<CertificateStatus>, 
     {
         return Err(format!("control characters in {rejection:?}"));
     }
-    Ok(first.err().map(|rejection| rejection.status))
+    Ok(first.err().map(|rejection| rejection.status()))
 }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `snapshot` | [`ListTrust`]: everything a controller trusts, read at once |
 //! | `plan` | [`TrustPlan`]: which file's certificates and CRLs go where, before anything is sent |
+//! | `notes` | [`Note`]: what a person should think about before something goes into a list |
 //! | `add` | [`AddTrust`]: do what such a plan says |
 //! | `remove` | [`RemoveClients`], [`RemoveCrls`] |
 //! | `relist` | [`MoveClients`]: from one list into another |
@@ -13,6 +14,7 @@
 
 mod add;
 mod change;
+mod notes;
 mod plan;
 mod relist;
 mod remove;
@@ -24,7 +26,8 @@ mod watch;
 
 pub use add::AddTrust;
 pub use change::TrustChange;
-pub use plan::{Destination, Fate, Note, Planned, SkipReason, Target, Thing, TrustFile, TrustPlan};
+pub use notes::Note;
+pub use plan::{Destination, Fate, Planned, SkipReason, Target, Thing, TrustFile, TrustPlan};
 pub use relist::MoveClients;
 pub use remove::{RemoveClients, RemoveCrls};
 pub use snapshot::{ListTrust, TrustSnapshot};

@@ -4,6 +4,7 @@ use std::fmt;
 use chrono::{DateTime, Utc};
 
 use super::TrustSnapshot;
+use super::notes::{self, Note};
 use crate::model::{CertificateSummary, ClientList, CrlSummary, ErrorCode, FirmwareGeneration, ListLimits, Problem};
 use crate::pki::{Bundle, Certificate, Crl, is_authority};
 use crate::protocol::{Base64Bytes, MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES, TrustStep};
@@ -75,23 +76,6 @@ pub enum Fate {
     Skipped(SkipReason),
     /// It makes the whole request wrong.
     Refused(Problem),
-}
-
-/// What a person may want to think about.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Note {
-    /// An authority in the trusted list: every client is let in that has a certificate from it.
-    TrustsAllItIssues,
-    /// An authority that came with an application's certificate goes into the issuers list, not into the one asked for.
-    OnlyCompletesAChain,
-    /// A CRL among certificates goes to the CRLs.
-    CrlAmongCertificates,
-    /// It takes the place of the older CRL of the same issuer.
-    ReplacesOlder,
-    /// Its validity is over, or a newer CRL should have come.
-    Expired,
-    /// Its validity has not begun.
-    NotYetValid,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -286,31 +270,27 @@ impl Sorter<'_> {
         with_authority: bool,
     ) -> Fate {
         let legacy = self.generation == FirmwareGeneration::Legacy;
-        let (to, note) = match (self.destination, authority) {
+        let (to, completes_a_chain) = match (self.destination, authority) {
             (Destination::Crls, _) => return Fate::Skipped(SkipReason::NotAskedFor),
             (Destination::Issuers, _) if legacy => return Fate::Refused(ErrorCode::FirmwareTooOld.into()),
             (Destination::Issuers, false) if with_authority => return Fate::Skipped(SkipReason::NotAskedFor),
             (Destination::Issuers, false) => {
                 return Fate::Refused(Problem::with_detail(ErrorCode::NotAnAuthority, thumbprint));
             }
-            (Destination::Issuers, true) => (Target::Issuers, None),
-            (Destination::ByKind | Destination::Trusted, false) => (Target::Trusted, None),
-            (Destination::ByKind, true) if legacy => (Target::Trusted, Some(Note::TrustsAllItIssues)),
-            (Destination::ByKind, true) => (Target::Issuers, None),
-            (Destination::Trusted, true) if with_application && !legacy => {
-                (Target::Issuers, Some(Note::OnlyCompletesAChain))
-            }
-            (Destination::Trusted, true) => (Target::Trusted, Some(Note::TrustsAllItIssues)),
+            (Destination::Issuers, true) => (Target::Issuers, false),
+            (Destination::ByKind | Destination::Trusted, false) => (Target::Trusted, false),
+            (Destination::ByKind, true) if legacy => (Target::Trusted, false),
+            (Destination::ByKind, true) => (Target::Issuers, false),
+            (Destination::Trusted, true) if with_application && !legacy => (Target::Issuers, true),
+            (Destination::Trusted, true) => (Target::Trusted, false),
         };
         let list = if to == Target::Issuers { ClientList::Issuers } else { ClientList::Trusted };
         if self.held.is_some_and(|held| held.holds(list, thumbprint)) {
             return Fate::Skipped(SkipReason::AlreadyHeld);
         }
-        let mut notes: Vec<Note> = note.into_iter().collect();
-        if certificate.not_after() < self.now {
-            notes.push(Note::Expired);
-        } else if certificate.not_before() > self.now {
-            notes.push(Note::NotYetValid);
+        let mut notes = notes::of_certificate(certificate, authority, to, self.now);
+        if completes_a_chain {
+            notes.insert(0, Note::OnlyCompletesAChain);
         }
         Fate::Goes { to, notes }
     }

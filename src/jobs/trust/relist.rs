@@ -3,7 +3,7 @@ use async_trait::async_trait;
 use super::TrustSnapshot;
 use super::change::apply;
 use crate::jobs::{Confirmation, Operation, Outcome, Run, Step};
-use crate::model::{ClientList, ErrorCode, Problem};
+use crate::model::{ClientList, ErrorCode, Language, Problem};
 use crate::protocol::TrustStep;
 
 /// Moves certificates from one client list into another, such as a refused client into the trusted list:
@@ -14,6 +14,9 @@ pub struct MoveClients {
     pub to: ClientList,
     /// SHA-1, upper-case hexadecimal.
     pub thumbprints: Vec<String>,
+    /// A person agreed to what [`TrustSnapshot::notes_of_move`] says; without that, certificates with a note are not
+    /// moved: [`ErrorCode::NotConfirmed`].
+    pub accept_notes: bool,
     /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
     pub based_on: Option<u64>,
 }
@@ -44,7 +47,27 @@ impl Operation for MoveClients {
             let detail = format!("{} > {limit}", have + self.thumbprints.len());
             return Err(Problem::with_detail(ErrorCode::ListFull, detail));
         }
+        let (before, notes) = self.notes(run, before).await?;
+        if !self.accept_notes && !notes.is_empty() {
+            return Err(Problem::with_detail(ErrorCode::NotConfirmed, notes.join("; ")));
+        }
         let step = TrustStep::Move { from: self.from, to: self.to, thumbprints: self.thumbprints.clone() };
         apply(run, before, vec![step], self.based_on).await
+    }
+}
+
+impl MoveClients {
+    /// In English, with the name of each certificate. Checks signatures: off the async threads.
+    async fn notes(&self, run: &Run<'_>, before: TrustSnapshot) -> Result<(TrustSnapshot, Vec<String>), Problem> {
+        let (to, thumbprints) = (self.to, self.thumbprints.clone());
+        run.off_thread(move || {
+            let notes = before.notes_of_move(to, &thumbprints);
+            let said = notes.iter().flat_map(|(thumbprint, notes)| {
+                notes.iter().map(move |note| format!("{thumbprint}: {}", note.text(Language::En)))
+            });
+            let said = said.collect();
+            Ok((before, said))
+        })
+        .await
     }
 }

@@ -129,6 +129,7 @@ pub fn rejected(certificate: &Certificate) -> RejectedClient {
         chain: Vec::new(),
         summary: certificate.summary(),
         status: crate::model::CertificateStatus::Untrusted,
+        cause: None,
         reason: "nobody trusts it".to_owned(),
         address: "10.0.0.9".to_owned(),
         first_seen: now(),

@@ -51,12 +51,7 @@ pub(super) fn judge(shown: &Certificate, chain: &[Certificate], wanted: &Wanted<
         policies: wanted.policies,
         now: wanted.controllers_clock,
     };
-    CertificateVerdict {
-        summary: shown.summary(),
-        refused: rejection.map(|rejection| (rejection.status, rejection.reason)),
-        // It was parsed before.
-        findings: preflight(shown, &expected).unwrap_or_default(),
-    }
+    CertificateVerdict { summary: shown.summary(), refused: rejection, findings: preflight(shown, &expected) }
 }
 
 #[cfg(test)]
@@ -114,7 +109,7 @@ mod tests {
             now: Utc::now(),
             controllers_clock: Utc::now(),
         };
-        judge(shown, &[], &wanted).refused.map(|(status, _)| status)
+        judge(shown, &[], &wanted).refused.map(|rejection| rejection.status())
     }
 
     #[test]

@@ -21,7 +21,8 @@ use async_trait::async_trait;
 use chrono::Utc;
 
 pub use report::{
-    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Verdict, VerifyFinding, VerifyReport,
+    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding,
+    VerifyReport,
 };
 
 pub use trust::TrustConfigurator;

@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use chrono::{DateTime, TimeDelta, Utc};
 
-use super::report::{EndpointVerdict, NotTried, Refusal, TokenVerdict, Verdict, VerifyFinding};
+use super::report::{EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding};
 use crate::jobs::{Run, Step};
 use crate::model::{CertificateStatus, Credential, Problem, SecurityPolicy, ServerSettings, UserTokenPolicy};
 use crate::pki::Certificate;
@@ -125,12 +125,13 @@ impl Probe<'_> {
     }
 
     /// Why the controller refused this program's certificate just now, if it did and says so.
-    async fn told_why(&self, run: &mut Run<'_>) -> Option<(CertificateStatus, String)> {
+    async fn told_why(&self, run: &mut Run<'_>) -> Option<Told> {
         let rejected = run.session.rejected_clients().await.inspect_err(|problem| {
             tracing::info!(%problem, "the controller does not tell whom it refused");
         });
         let own = |client: &RejectedClient| client.certificate.0 == self.own.der() && client.last_seen >= self.since;
-        rejected.ok()?.value.into_iter().find(own).map(|client| (client.status, printable(&client.reason)))
+        let client = rejected.ok()?.value.into_iter().find(own)?;
+        Some(Told { status: client.status, reason: printable(&client.reason), cause: client.cause })
     }
 }
 
@@ -157,9 +158,9 @@ fn is_about_a_user(status: &str) -> bool {
 }
 
 /// A server that tells the client itself, which the standard advises against.
-fn told_plainly(failure: &Failure) -> Option<(CertificateStatus, String)> {
+fn told_plainly(failure: &Failure) -> Option<Told> {
     let status = failure.status()?.parse().ok().filter(|status| *status != CertificateStatus::SecurityChecksFailed)?;
-    Some((status, failure.cause.to_string()))
+    Some(Told { status, cause: None, reason: failure.cause.to_string() })
 }
 
 /// What the endpoints lack, and have too much, compared with the basic settings.
@@ -230,7 +231,7 @@ mod tests {
     fn a_status_that_tells_nothing_is_no_reason() {
         assert_eq!(told_plainly(&status(Stage::Channel, "BadSecurityChecksFailed")), None);
         let told = told_plainly(&status(Stage::Channel, "BadCertificateRevoked"));
-        assert_eq!(told.map(|(status, _)| status), Some(CertificateStatus::Revoked));
+        assert_eq!(told.map(|told| told.status), Some(CertificateStatus::Revoked));
     }
 
     #[test]

@@ -1,7 +1,7 @@
 use chrono::TimeDelta;
 
 use crate::model::{CertificateStatus, CertificateSummary, ErrorCode, SecurityPolicy, ServerStatus, UserTokenPolicy};
-use crate::pki::{Finding, Severity};
+use crate::pki::{Finding, RefusalCause, Rejection, Severity};
 use crate::session::opcua_client::{MessageSecurity, TokenKind};
 use crate::workspace::OwnIdentity;
 
@@ -24,8 +24,8 @@ pub struct VerifyReport {
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertificateVerdict {
     pub summary: CertificateSummary,
-    /// Why it is refused (OPC 10000-4 §6.1.3), and in English words; `None`: it is accepted.
-    pub refused: Option<(CertificateStatus, String)>,
+    /// Why it is refused (OPC 10000-4 §6.1.3); `None`: it is accepted.
+    pub refused: Option<Rejection>,
     /// Everything clients may say about it, errors first.
     pub findings: Vec<Finding>,
 }
@@ -66,7 +66,7 @@ pub enum Refusal {
     Closed,
     /// The server refuses this program's certificate. The true reason is that of the controller's rejected list, `None`
     /// where that does not tell it.
-    OwnCertificate(Option<(CertificateStatus, String)>),
+    OwnCertificate(Option<Told>),
     /// The certificate in the answer is another than the one of the endpoint.
     OtherCertificate,
     /// User name or password.
@@ -82,6 +82,15 @@ pub enum Refusal {
         name: String,
         reason: String,
     },
+}
+
+/// Why a certificate was refused, as far as it is told.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Told {
+    pub status: CertificateStatus,
+    pub cause: Option<RefusalCause>,
+    /// In English.
+    pub reason: String,
 }
 
 /// Why something that is offered was left out. None of it is a fault.
@@ -159,7 +168,7 @@ impl VerifyReport {
     pub fn lacks_trust(&self) -> bool {
         self.verdicts().any(|verdict| match verdict {
             Verdict::Fails(Refusal::OwnCertificate(why)) => {
-                why.as_ref().is_none_or(|(status, _)| *status == CertificateStatus::Untrusted)
+                why.as_ref().is_none_or(|told| told.status == CertificateStatus::Untrusted)
             }
             _ => false,
         })
@@ -172,6 +181,14 @@ impl VerifyReport {
 
     fn verdicts(&self) -> impl Iterator<Item = &Verdict> {
         self.endpoints.iter().flat_map(|endpoint| &endpoint.tokens).map(|token| &token.verdict)
+    }
+}
+
+impl CertificateVerdict {
+    /// Without what is the reason of the refusal.
+    pub fn further_findings(&self) -> impl Iterator<Item = &Finding> {
+        let told = self.refused.as_ref().map(|rejection| &rejection.flaw);
+        self.findings.iter().filter(move |finding| Some(&finding.flaw) != told)
     }
 }
 

@@ -1,7 +1,8 @@
 //! What a person reads about a report, in English and Chinese.
 
-use super::report::{NotTried, Refusal, Verdict, VerifyFinding};
+use super::report::{NotTried, Refusal, Told, Verdict, VerifyFinding};
 use crate::model::{CertificateStatus, Language, UserTokenPolicy};
+use crate::pki::explain_refusal;
 use crate::session::opcua_client::TokenKind;
 
 impl Verdict {
@@ -39,13 +40,14 @@ impl Refusal {
             Self::OwnCertificate(None) => "The server refuses the certificate of this configurator and does not say \
                                            why; most often it is not trusted yet"
                 .to_owned(),
-            Self::OwnCertificate(Some((CertificateStatus::Untrusted, _))) => {
+            Self::OwnCertificate(Some(Told { status: CertificateStatus::Untrusted, .. })) => {
                 "The server does not trust the certificate of this configurator; add it to Trusted and verify again"
                     .to_owned()
             }
-            Self::OwnCertificate(Some((status, _))) => format!(
-                "The server refuses the certificate of this configurator ({status}): {}",
-                without_stop(status.explain(Language::En))
+            Self::OwnCertificate(Some(told)) => format!(
+                "The server refuses the certificate of this configurator ({}): {}",
+                told.status,
+                without_stop(&told.explain(Language::En))
             ),
             Self::OtherCertificate => {
                 "The server answers with another certificate than the one of the endpoint; no password was sent"
@@ -71,11 +73,12 @@ impl Refusal {
             Self::NotOpcUa(why) => format!("应答方不是正常的 OPC UA 服务器：{why}"),
             Self::Closed => "服务器未说明原因即断开连接，请查看服务器日志；多次拒绝后一分钟内不再说明原因".to_owned(),
             Self::OwnCertificate(None) => "服务器拒绝本配置工具的证书且未说明原因，通常是尚未信任该证书".to_owned(),
-            Self::OwnCertificate(Some((CertificateStatus::Untrusted, _))) => {
+            Self::OwnCertificate(Some(Told { status: CertificateStatus::Untrusted, .. })) => {
                 "服务器尚未信任本配置工具的证书，请将其添加到[信任]后重新验证".to_owned()
             }
-            Self::OwnCertificate(Some((status, _))) => {
-                format!("服务器拒绝本配置工具的证书 ({status})：{}", without_stop(status.explain(Language::Zh)))
+            Self::OwnCertificate(Some(told)) => {
+                let said = told.explain(Language::Zh);
+                format!("服务器拒绝本配置工具的证书 ({})：{}", told.status, without_stop(&said))
             }
             Self::OtherCertificate => "服务器应答中的证书与端点的证书不同，未发送密码".to_owned(),
             Self::Password => "用户名或密码错误，或该用户被锁定一分钟".to_owned(),
@@ -85,6 +88,12 @@ impl Refusal {
             Self::Status { name, reason } if reason.is_empty() => format!("服务器拒绝：{name}"),
             Self::Status { name, reason } => format!("服务器拒绝：{name}，{reason}"),
         }
+    }
+}
+
+impl Told {
+    fn explain(&self, language: Language) -> String {
+        explain_refusal(self.status, self.cause.as_ref(), language)
     }
 }
 
@@ -254,6 +263,10 @@ mod tests {
     use crate::model::{ErrorCode, SecurityPolicy, ServerStatus};
     use chrono::TimeDelta;
 
+    fn told(status: CertificateStatus) -> Told {
+        Told { status, cause: None, reason: "why".into() }
+    }
+
     #[test]
     fn everything_is_said_in_both_languages() {
         let refusals = [
@@ -262,8 +275,8 @@ mod tests {
             Refusal::NotOpcUa("why".into()),
             Refusal::Closed,
             Refusal::OwnCertificate(None),
-            Refusal::OwnCertificate(Some((CertificateStatus::Untrusted, "why".into()))),
-            Refusal::OwnCertificate(Some((CertificateStatus::Revoked, "why".into()))),
+            Refusal::OwnCertificate(Some(told(CertificateStatus::Untrusted))),
+            Refusal::OwnCertificate(Some(told(CertificateStatus::Revoked))),
             Refusal::OtherCertificate,
             Refusal::Password,
             Refusal::Anonymous,

@@ -2,9 +2,9 @@ use std::collections::HashMap;
 
 use super::checks::{self, Step};
 use super::{Presented, Rejection, TrustLists, TrustPolicy, revocation};
-use crate::model::CertificateStatus;
-use crate::pki::Certificate;
+use crate::pki::flaw::quoted;
 use crate::pki::signature::Verdict;
+use crate::pki::{Certificate, CertificateFlaw};
 
 /// How many certificates a chain may have, from the application's to the root.
 const MAX_CHAIN: usize = 10;
@@ -37,7 +37,7 @@ impl<'a> Search<'a> {
         if self.extend(&mut chain) {
             return Ok(chain.into_iter().cloned().collect());
         }
-        let nothing = || Rejection::new(CertificateStatus::ChainIncomplete, leaf, 0, "no chain of issuers was found");
+        let nothing = || Rejection::new(CertificateFlaw::TooManyIssuers, leaf, 0);
         Err(self.best.map_or_else(nothing, |(_, rejection)| rejection))
     }
 
@@ -55,7 +55,7 @@ impl<'a> Search<'a> {
             return self.check(chain);
         }
         if chain.len() == MAX_CHAIN {
-            self.fail(Step::Chain, last, depth, format!("the chain has more than {MAX_CHAIN} certificates"));
+            self.fail(Step::Chain, last, depth, CertificateFlaw::ChainTooLong { most: MAX_CHAIN });
             return false;
         }
         let mut has_issuer = false;
@@ -77,20 +77,43 @@ impl<'a> Search<'a> {
                     chain.pop();
                 }
                 Verdict::Wrong => {
-                    let why = format!("its signature is not that of its issuer, {}", issuer.subject());
-                    self.fail(Step::Signature, last, depth, why);
+                    let issuer = quoted(issuer.subject());
+                    self.fail(Step::Signature, last, depth, CertificateFlaw::SignatureWrong { issuer });
                 }
-                Verdict::CannotSay(why) => self.fail(Step::Policy, last, depth, why),
+                Verdict::CannotSay(why) => {
+                    self.fail(Step::Policy, last, depth, CertificateFlaw::SignatureUnverifiable { why: quoted(&why) });
+                }
             }
         }
         match itself {
             _ if has_issuer => {}
-            Some(Verdict::CannotSay(why)) => self.fail(Step::Policy, last, depth, why),
-            Some(_) => self.fail(Step::Signature, last, depth, "it is not signed with its own key".to_owned()),
+            Some(Verdict::CannotSay(why)) => {
+                self.fail(Step::Policy, last, depth, CertificateFlaw::SignatureUnverifiable { why: quoted(&why) });
+            }
+            Some(_) => self.fail(Step::Signature, last, depth, CertificateFlaw::SelfSignatureWrong),
             None if self.policy.allow_incomplete_chain && self.lists.is_trusted(last) => return self.check(chain),
-            None => self.fail(Step::Chain, last, depth, format!("its issuer, {}, is missing", last.issuer())),
+            None => {
+                let flaw = self.why_no_issuer(last);
+                self.fail(Step::Chain, last, depth, flaw);
+            }
         }
         false
+    }
+
+    /// Why none of the certificates with the name of the issuer was tried, if there are any.
+    fn why_no_issuer(&mut self, certificate: &'a Certificate) -> CertificateFlaw {
+        let issuer = quoted(certificate.issuer());
+        let wanted = certificate.authority_key_id().map(hex::encode_upper).unwrap_or_default();
+        let mut flaw = CertificateFlaw::IssuerMissing { issuer: issuer.clone() };
+        for namesake in self.named(certificate) {
+            // Half of the signatures that may be checked are left for chains.
+            let is_affordable = self.signatures.len() < MAX_SIGNATURES / 2;
+            if is_affordable && self.signature(certificate, namesake) == Verdict::Right {
+                return CertificateFlaw::IssuerKeyIdentifier { issuer, wanted: quoted(&wanted) };
+            }
+            flaw = CertificateFlaw::IssuerKey { issuer: issuer.clone() };
+        }
+        flaw
     }
 
     /// Whether the chain, which is complete, has no flaw.
@@ -108,19 +131,24 @@ impl<'a> Search<'a> {
 
     /// Whoever may have issued it, by name and key identifier: trusted ones first, what was sent last.
     fn issuers(&self, certificate: &Certificate) -> Vec<&'a Certificate> {
-        let facts = certificate.facts();
-        let sent = self.presented.chain.iter().filter(|sent| sent.facts().subject_folded == facts.issuer_folded);
-        let mut issuers: Vec<&'a Certificate> = Vec::new();
-        for issuer in self.lists.with_subject(&facts.issuer_folded).iter().chain(sent) {
-            let keys_fit = match (certificate.authority_key_id(), issuer.subject_key_id()) {
-                (Some(wanted), Some(has)) => wanted == has,
-                _ => true,
-            };
-            if keys_fit && !issuers.contains(&issuer) {
-                issuers.push(issuer);
+        let keys_fit = |issuer: &&Certificate| match (certificate.authority_key_id(), issuer.subject_key_id()) {
+            (Some(wanted), Some(has)) => wanted == has,
+            _ => true,
+        };
+        self.named(certificate).into_iter().filter(keys_fit).collect()
+    }
+
+    /// Every certificate with the name of its issuer, each once: trusted ones first, what was sent last.
+    fn named(&self, certificate: &Certificate) -> Vec<&'a Certificate> {
+        let issuer = &certificate.facts().issuer_folded;
+        let sent = self.presented.chain.iter().filter(|sent| sent.facts().subject_folded == *issuer);
+        let mut named: Vec<&'a Certificate> = Vec::new();
+        for one in self.lists.with_subject(issuer).iter().chain(sent) {
+            if !named.contains(&one) {
+                named.push(one);
             }
         }
-        issuers
+        named
     }
 
     fn names_equal(&self, certificate: &Certificate) -> bool {
@@ -141,16 +169,10 @@ impl<'a> Search<'a> {
         verdict
     }
 
-    fn fail(&mut self, step: Step, certificate: &Certificate, depth: usize, reason: String) {
-        let status = match step {
-            Step::Chain => CertificateStatus::ChainIncomplete,
-            Step::Policy => CertificateStatus::PolicyCheckFailed,
-            _ => CertificateStatus::CertificateInvalid,
-        };
+    fn fail(&mut self, step: Step, certificate: &Certificate, depth: usize, flaw: CertificateFlaw) {
         // Out of budget, nothing is known about the signature; the chain was not found, that is all.
-        let (step, status) =
-            if self.exhausted { (Step::Chain, CertificateStatus::ChainIncomplete) } else { (step, status) };
-        self.note(step, Rejection::new(status, certificate, depth, reason));
+        let (step, flaw) = if self.exhausted { (Step::Chain, CertificateFlaw::TooManyIssuers) } else { (step, flaw) };
+        self.note(step, Rejection::new(flaw, certificate, depth));
     }
 
     fn note(&mut self, step: Step, rejection: Rejection) {

@@ -1,10 +1,11 @@
-use chrono::SecondsFormat;
+use chrono::{DateTime, Utc};
 
 use super::policy::Strength;
-use super::{Presented, Rejection, Role, TrustLists, TrustPolicy};
-use crate::model::CertificateStatus as Status;
+use super::{Presented, Rejection, Role, TrustLists, TrustPolicy, names, policies};
+use crate::model::SecurityPolicy;
+use crate::pki::flaw::quoted;
 use crate::pki::signature::{Hash, PublicKey};
-use crate::pki::{Certificate, ExtendedKeyUsage, KeyUsage};
+use crate::pki::{AlternativeName, Certificate, CertificateFlaw as Flaw, ExtendedKeyUsage, KeyUsage, is_authority};
 
 /// The steps of OPC 10000-4 §6.1.3, in its order: a chain that fails at a later one came further.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -12,6 +13,8 @@ pub(super) enum Step {
     Structure,
     Chain,
     Signature,
+    /// Name constraints and certificate policies (RFC 5280 §6.1).
+    Constraints,
     Policy,
     TrustList,
     Validity,
@@ -26,12 +29,14 @@ pub(super) type Failure = (Step, Rejection);
 
 /// Step 1, of one certificate.
 pub(super) fn structure(certificate: &Certificate, depth: usize) -> Result<(), Rejection> {
-    let invalid = |reason: &str| Err(Rejection::new(Status::CertificateInvalid, certificate, depth, reason));
-    match &certificate.facts().extensions.not_understood {
-        Some(why) => invalid(why),
-        None if certificate.not_after() < certificate.not_before() => invalid("it ends before it begins"),
-        None => Ok(()),
-    }
+    structure_flaw(certificate).map_or(Ok(()), |flaw| Err(Rejection::new(flaw, certificate, depth)))
+}
+
+/// What is wrong with the certificate by itself.
+pub(in crate::pki) fn structure_flaw(certificate: &Certificate) -> Option<Flaw> {
+    let ends_early = certificate.not_after() < certificate.not_before();
+    let not_understood = certificate.facts().extensions.not_understood.clone();
+    not_understood.or_else(|| ends_early.then_some(Flaw::EndsBeforeItBegins))
 }
 
 /// Steps 4 to 9, of a chain that is complete and whose signatures are right.
@@ -41,174 +46,187 @@ pub(super) fn chain(
     presented: &Presented<'_>,
     policy: &TrustPolicy,
 ) -> Result<(), Failure> {
+    names::check(chain).and_then(|()| policies::check(chain)).map_err(|rejection| (Step::Constraints, rejection))?;
+    let at = |step: Step, certificate: &Certificate, depth: usize, flaw: Option<Flaw>| {
+        flaw.map_or(Ok(()), |flaw| Err((step, Rejection::new(flaw, certificate, depth))))
+    };
     for (depth, certificate) in chain.iter().enumerate() {
-        strength(certificate, depth, presented, policy).map_err(|rejection| (Step::Policy, rejection))?;
+        let flaw = strength_flaw(certificate, depth > 0, presented.security_policy, policy);
+        at(Step::Policy, certificate, depth, flaw)?;
     }
     let Some(leaf) = chain.first() else { return Ok(()) };
     if !chain.iter().any(|certificate| lists.is_trusted(certificate)) {
-        let reason = "neither it nor any of its issuers is in the trust list";
-        return Err((Step::TrustList, Rejection::new(Status::Untrusted, leaf, 0, reason)));
+        return Err((Step::TrustList, Rejection::new(Flaw::Untrusted, leaf, 0)));
     }
     if !policy.allow_expired_certificates {
         for (depth, certificate) in chain.iter().enumerate() {
-            validity(certificate, depth, presented).map_err(|rejection| (Step::Validity, rejection))?;
+            at(Step::Validity, certificate, depth, validity_flaw(certificate, presented.now))?;
         }
     }
-    host(leaf, presented).map_err(|rejection| (Step::HostName, rejection))?;
-    uri(leaf, presented).map_err(|rejection| (Step::Uri, rejection))?;
-    application(leaf, chain.len() > 1, presented.role, policy).map_err(|rejection| (Step::Usage, rejection))?;
+    at(Step::HostName, leaf, 0, presented.host.and_then(|host| host_flaw(leaf, &[host])))?;
+    at(Step::Uri, leaf, 0, presented.application_uri.and_then(|announced| uri_flaw(leaf, announced)))?;
+    at(Step::Usage, leaf, 0, application_flaw(leaf, chain.len() > 1, presented.role, policy))?;
     for depth in 1..chain.len() {
-        issuer(chain, depth, presented.role).map_err(|rejection| (Step::Usage, rejection))?;
+        at(Step::Usage, chain[depth], depth, issuer_flaw(chain, depth, presented.role))?;
     }
     Ok(())
 }
 
-fn strength(
+/// What of the key and the signature the security policy does not take.
+pub(super) fn strength_flaw(
     certificate: &Certificate,
-    depth: usize,
-    presented: &Presented<'_>,
+    is_issuer: bool,
+    security_policy: Option<SecurityPolicy>,
     policy: &TrustPolicy,
-) -> Result<(), Rejection> {
-    let wanted = Strength::of(presented.security_policy);
-    let weak = |reason: String| Err(Rejection::new(Status::PolicyCheckFailed, certificate, depth, reason));
+) -> Option<Flaw> {
+    let wanted = Strength::of(security_policy);
     match &certificate.facts().public_key {
-        PublicKey::Rsa { exponent_fits: false, .. } => {
-            return weak("its RSA key has an impossible exponent".to_owned());
-        }
+        PublicKey::Rsa { exponent_fits: false, .. } => return Some(Flaw::KeyExponent),
         PublicKey::Rsa { bits, .. } if *bits < wanted.min_rsa_bits => {
-            return weak(format!("its RSA key has {bits} bits; at least {} are needed", wanted.min_rsa_bits));
+            return Some(Flaw::KeyTooShort { bits: *bits, least: wanted.min_rsa_bits });
         }
-        PublicKey::Rsa { bits, .. } if depth == 0 && *bits > wanted.max_rsa_bits => {
-            return weak(format!("its RSA key has {bits} bits; at most {} are allowed", wanted.max_rsa_bits));
+        PublicKey::Rsa { bits, .. } if !is_issuer && *bits > wanted.max_rsa_bits => {
+            return Some(Flaw::KeyTooLong { bits: *bits, most: wanted.max_rsa_bits });
         }
         PublicKey::Rsa { .. } => {}
         // A CA may sign with what it likes, as long as it can be checked.
-        PublicKey::Ec { curve: Some(_), .. } if depth > 0 => {}
-        PublicKey::Ec { .. } | PublicKey::Other { .. } => {
-            return weak("its key is not an RSA key, which the security policies need".to_owned());
-        }
+        PublicKey::Ec { curve: Some(_), .. } if is_issuer => {}
+        PublicKey::Ec { .. } | PublicKey::Other { .. } => return Some(Flaw::KeyNotRsa),
     }
-    if !accepts_hash(certificate.facts().signature_algorithm.hash(), presented, policy) {
-        let name = certificate.facts().signature_algorithm.name();
-        return weak(format!("it is signed with {name}, which is too weak"));
-    }
-    Ok(())
+    let algorithm = &certificate.facts().signature_algorithm;
+    let accepted = accepts(algorithm.hash(), security_policy, policy);
+    (!accepted).then(|| Flaw::WeakHash { algorithm: algorithm.name().to_owned() })
 }
 
 /// Whether a signature with that hash is good enough.
 pub(super) fn accepts_hash(hash: Option<Hash>, presented: &Presented<'_>, policy: &TrustPolicy) -> bool {
+    accepts(hash, presented.security_policy, policy)
+}
+
+fn accepts(hash: Option<Hash>, security_policy: Option<SecurityPolicy>, policy: &TrustPolicy) -> bool {
     match hash {
         Some(Hash::Md5) | None => false,
-        Some(Hash::Sha1) => policy.allow_sha1 || Strength::of(presented.security_policy).sha1,
+        Some(Hash::Sha1) => policy.allow_sha1 || Strength::of(security_policy).sha1,
         Some(Hash::Sha256 | Hash::Sha384 | Hash::Sha512) => true,
     }
 }
 
-fn validity(certificate: &Certificate, depth: usize, presented: &Presented<'_>) -> Result<(), Rejection> {
-    let status = if depth == 0 { Status::TimeInvalid } else { Status::IssuerTimeInvalid };
-    let text = |time: chrono::DateTime<chrono::Utc>| time.to_rfc3339_opts(SecondsFormat::Secs, true);
-    let (now, from, to) = (presented.now, certificate.not_before(), certificate.not_after());
-    // The last second counts whole.
-    let reason = if now < from {
-        format!("it is valid from {} on; it is {}", text(from), text(now))
-    } else if now.timestamp() > to.timestamp() {
-        format!("it was valid until {}; it is {}", text(to), text(now))
+pub(in crate::pki) fn validity_flaw(certificate: &Certificate, now: DateTime<Utc>) -> Option<Flaw> {
+    let (from, until) = (certificate.not_before(), certificate.not_after());
+    if now < from {
+        Some(Flaw::NotYetValid { from, now })
+    } else if now.timestamp() > until.timestamp() {
+        // The last second counts whole.
+        Some(Flaw::Expired { until, now })
     } else {
-        return Ok(());
-    };
-    Err(Rejection::new(status, certificate, depth, reason))
-}
-
-fn host(leaf: &Certificate, presented: &Presented<'_>) -> Result<(), Rejection> {
-    match presented.host {
-        Some(host) if !leaf.names_host(host) => {
-            let reason = format!("it is not for {}, but for {}", crate::pki::name::printable(host), names_of(leaf));
-            Err(Rejection::new(Status::HostNameInvalid, leaf, 0, reason))
-        }
-        _ => Ok(()),
+        None
     }
 }
 
-fn uri(leaf: &Certificate, presented: &Presented<'_>) -> Result<(), Rejection> {
-    let Some(announced) = presented.application_uri else { return Ok(()) };
-    let found = leaf.application_uri();
-    // A URI is ASCII; anything else may stand for a character that was replaced.
-    if announced.is_ascii() && found.as_deref() == Some(announced) {
-        return Ok(());
+/// One of the hosts is enough.
+pub(in crate::pki) fn host_flaw(leaf: &Certificate, hosts: &[impl AsRef<str>]) -> Option<Flaw> {
+    if hosts.iter().any(|host| leaf.names_host(host.as_ref())) {
+        return None;
     }
-    let reason = match found {
-        Some(found) => {
-            format!("its application URI is {found}; the application says {}", crate::pki::name::printable(announced))
-        }
-        None => "it has no application URI".to_owned(),
-    };
-    Err(Rejection::new(Status::UriInvalid, leaf, 0, reason))
+    let is_host = |name: &&AlternativeName| matches!(name, AlternativeName::Dns(_) | AlternativeName::Ip(_));
+    let names = leaf.alternative_names().iter().filter(is_host).take(MOST_NAMES);
+    let names = names.map(|name| match name {
+        AlternativeName::Dns(host) => quoted(host),
+        other => other.to_string().trim_start_matches("IP:").to_owned(),
+    });
+    let hosts = hosts.iter().map(|host| quoted(host.as_ref()));
+    Some(Flaw::HostName { hosts: hosts.collect(), names: names.collect() })
+}
+
+/// Whether a certificate is that of the application with this ApplicationUri (OPC 10000-4 §6.1.3, step 8).
+pub fn check_application_uri(leaf: &Certificate, announced: &str) -> Result<(), Rejection> {
+    uri_flaw(leaf, announced).map_or(Ok(()), |flaw| Err(Rejection::of(flaw, leaf)))
+}
+
+pub(in crate::pki) fn uri_flaw(leaf: &Certificate, announced: &str) -> Option<Flaw> {
+    match leaf.facts().extensions.application_uri() {
+        None => Some(Flaw::UriMissing { announced: Some(quoted(announced)) }),
+        Some(found) if !found.is_ascii() => Some(Flaw::UriNotAscii { uri: quoted(found) }),
+        Some(_) if !announced.is_ascii() => Some(Flaw::UriNotAscii { uri: quoted(announced) }),
+        Some(found) if found == announced => None,
+        Some(found) => Some(Flaw::UriDiffers { certificate: quoted(found), announced: quoted(announced) }),
+    }
 }
 
 /// OPC 10000-6 §6.2.2: what the certificate of an application must be for.
-fn application(leaf: &Certificate, is_issued: bool, role: Role, policy: &TrustPolicy) -> Result<(), Rejection> {
-    let refused = |reason: String| Err(Rejection::new(Status::UseNotAllowed, leaf, 0, reason));
+pub(in crate::pki) fn application_flaw(
+    leaf: &Certificate,
+    is_issued: bool,
+    role: Role,
+    policy: &TrustPolicy,
+) -> Option<Flaw> {
     if is_issued && leaf.basic_constraints().is_some_and(|constraints| constraints.ca) {
-        return refused("it is the certificate of a CA, not of an application".to_owned());
+        return Some(Flaw::CertificateOfAuthority);
     }
     if policy.allow_any_usage {
-        return Ok(());
+        return None;
     }
-    let Some(usages) = leaf.key_usages() else {
-        return refused("it does not say what its key may be used for".to_owned());
+    key_usage_flaw(leaf).or_else(|| role_flaw(leaf, role))
+}
+
+pub(in crate::pki) fn key_usage_flaw(leaf: &Certificate) -> Option<Flaw> {
+    let missing: Vec<KeyUsage> = match leaf.key_usages() {
+        Some(usages) => NEEDED.into_iter().filter(|usage| !usages.contains(usage)).collect(),
+        None => NEEDED.to_vec(),
     };
-    let missing: Vec<&str> =
-        NEEDED.iter().filter(|usage| !usages.contains(usage)).map(|usage| usage.as_str()).collect();
-    if !missing.is_empty() {
-        return refused(format!("its key may not be used for {}", missing.join(", ")));
-    }
-    match excluded_role(leaf, role) {
-        Some(who) => refused(format!("it is not for {who}")),
-        None => Ok(()),
+    if missing.is_empty() {
+        None
+    } else if is_authority(leaf, []) {
+        Some(Flaw::CertificateOfAuthority)
+    } else if leaf.key_usages().is_none() {
+        Some(Flaw::KeyUsageMissing)
+    } else {
+        Some(Flaw::KeyUsageLacks { missing })
     }
 }
 
-/// Whom the extended key usages leave out, if they leave out the role.
-fn excluded_role(certificate: &Certificate, role: Role) -> Option<&'static str> {
-    let purposes = certificate.extended_key_usages()?;
+pub(in crate::pki) fn role_flaw(leaf: &Certificate, role: Role) -> Option<Flaw> {
+    excluded_role(leaf, role).then_some(Flaw::NotForRole { role })
+}
+
+/// Whether the extended key usages leave out the role.
+fn excluded_role(certificate: &Certificate, role: Role) -> bool {
+    let Some(purposes) = certificate.extended_key_usages() else { return false };
     let allows = |purpose| purposes.contains(&purpose) || purposes.contains(&ExtendedKeyUsage::AnyExtendedKeyUsage);
     let (client, server) = (allows(ExtendedKeyUsage::ClientAuth), allows(ExtendedKeyUsage::ServerAuth));
     match role {
-        Role::Client => (!client).then_some("clients"),
-        Role::Server => (!server).then_some("servers"),
-        Role::Either => (!client && !server).then_some("clients or servers"),
+        Role::Client => !client,
+        Role::Server => !server,
+        Role::Either => !client && !server,
     }
 }
 
 /// Whether the certificate at that depth may have issued what stands below it (RFC 5280 §6.1.4).
-fn issuer(chain: &[&Certificate], depth: usize, role: Role) -> Result<(), Rejection> {
+fn issuer_flaw(chain: &[&Certificate], depth: usize, role: Role) -> Option<Flaw> {
     let certificate = chain[depth];
-    let refused = |reason: String| Err(Rejection::new(Status::IssuerUseNotAllowed, certificate, depth, reason));
-    let Some(constraints) = certificate.basic_constraints().filter(|constraints| constraints.ca) else {
-        return refused("it issued a certificate, but is not a CA".to_owned());
-    };
+    if let Some(flaw) = may_issue_flaw(certificate, role) {
+        return Some(flaw);
+    }
+    let most = certificate.basic_constraints()?.path_length?;
+    // A CA that issued a new certificate to itself is the same CA, and does not count.
+    let is_other = |below: &&&Certificate| below.facts().subject_folded != below.facts().issuer_folded;
+    let found = chain[1..depth].iter().filter(is_other).count();
+    (found as u64 > u64::from(most)).then_some(Flaw::TooManyAuthoritiesBelow { most, found })
+}
+
+/// Whether it may issue any certificates for that role.
+pub(super) fn may_issue_flaw(certificate: &Certificate, role: Role) -> Option<Flaw> {
+    if !certificate.basic_constraints().is_some_and(|constraints| constraints.ca) {
+        return Some(Flaw::NotAnAuthority);
+    }
     if !certificate.is_ca() {
-        return refused("it issued a certificate, but its key may not sign certificates".to_owned());
+        return Some(Flaw::MayNotIssue);
     }
-    // Whoever gave a CA extended key usages wanted its certificates to be for nothing else; everybody reads it so.
-    if let Some(who) = excluded_role(certificate, role) {
-        return refused(format!("it may not issue certificates for {who}"));
-    }
-    if let Some(most) = constraints.path_length {
-        // A CA that issued a new certificate to itself is the same CA, and does not count.
-        let is_other = |below: &&&Certificate| below.facts().subject_folded != below.facts().issuer_folded;
-        let cas_below = chain[1..depth].iter().filter(is_other).count();
-        if cas_below as u64 > u64::from(most) {
-            return refused(format!("at most {most} CAs may stand below it, but {cas_below} do"));
-        }
-    }
-    Ok(())
+    // Extended key usages of a CA say what its certificates are for; OpenSSL and Windows read them so as well.
+    excluded_role(certificate, role).then_some(Flaw::MayNotIssueFor { role })
 }
 
-fn names_of(leaf: &Certificate) -> String {
-    let names: Vec<String> = leaf.alternative_names().iter().map(ToString::to_string).collect();
-    if names.is_empty() { "no host".to_owned() } else { names.join(", ") }
-}
-
+/// How many names of a certificate a message lists.
+const MOST_NAMES: usize = 20;
 const NEEDED: [KeyUsage; 4] =
     [KeyUsage::DigitalSignature, KeyUsage::NonRepudiation, KeyUsage::KeyEncipherment, KeyUsage::DataEncipherment];

@@ -2,8 +2,9 @@
 //!
 //! | step | checked | in |
 //! |---|---|---|
-//! | 1 | structure: extensions that are critical and not understood, or damaged | `checks` |
+//! | 1 | structure: extensions that are critical and not supported, or damaged | `checks` |
 //! | 2, 3 | the chain, and every signature in it, also the one a root makes for itself | `chain` |
+//! | | name constraints and certificate policies of the authorities (RFC 5280 §6.1) | `names`, `policies` |
 //! | 4 | the security policy: keys and hashes | `checks` |
 //! | 5 | the trust list | `checks` |
 //! | 6 | validity, of the issuers too | `checks` |
@@ -28,17 +29,26 @@
 //!   can be excused, a revocation cannot.
 //! - **Only the key that issued a certificate** may sign the list that revokes it; a list by another key of the same
 //!   authority does not count.
-//! - **Name constraints** are not supported; a certificate with them is refused rather than misunderstood.
+//! - **Key identifiers** that differ are told apart from an issuer that is missing; such a chain is refused, as OpenSSL
+//!   does.
+//! - **Name constraints** of every authority count, those of the root too; names that cannot be compared with a constraint
+//!   of their form are refused (RFC 5280 §4.2.1.10).
+//! - **Certificate policies**: OPC UA asks for none, so that a chain fails only where an authority below the root asks.
 
 mod chain;
-mod checks;
+pub(super) mod checks;
 mod lists;
+mod names;
+mod never;
+mod policies;
 mod policy;
 mod rejection;
 mod revocation;
 #[cfg(test)]
 mod tests;
 
+pub use checks::check_application_uri;
 pub use lists::TrustLists;
+pub use never::never_accepted;
 pub use policy::{Presented, Role, TrustPolicy};
 pub use rejection::Rejection;

@@ -1,4 +1,5 @@
 use chrono::{DateTime, Utc};
+use serde::{Deserialize, Serialize};
 
 use crate::model::SecurityPolicy;
 use crate::pki::Certificate;
@@ -20,7 +21,8 @@ pub struct Presented<'a> {
 }
 
 /// What the owner of a certificate is to us.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Role {
     /// It connects to us: extended key usages, if any, must allow client authentication.
     Client,

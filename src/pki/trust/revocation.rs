@@ -2,10 +2,10 @@ use chrono::SecondsFormat;
 
 use super::checks::{Failure, Step, accepts_hash};
 use super::{Presented, Rejection, TrustLists, TrustPolicy};
-use crate::model::CertificateStatus as Status;
 use crate::pki::crl::Revoked;
+use crate::pki::flaw::quoted;
 use crate::pki::signature::Verdict;
-use crate::pki::{Certificate, Crl, KeyUsage};
+use crate::pki::{Certificate, CertificateFlaw, Crl, KeyUsage};
 
 /// What the revocation lists say of one certificate.
 enum Answer {
@@ -28,14 +28,12 @@ pub(super) fn check(
         match ask(certificate, issuer, lists, presented, policy) {
             Answer::NotRevoked => {}
             Answer::Revoked(revoked) => {
-                let status = if depth == 0 { Status::Revoked } else { Status::IssuerRevoked };
-                let date = revoked.date.to_rfc3339_opts(SecondsFormat::Secs, true);
-                let reason = format!("it was revoked on {date} ({})", revoked.reason.as_str());
-                return Err((Step::Revocation, Rejection::new(status, certificate, depth, reason)));
+                let flaw = CertificateFlaw::Revoked { on: revoked.date, because: revoked.reason };
+                return Err((Step::Revocation, Rejection::new(flaw, certificate, depth)));
             }
-            Answer::Unknown(reason) => {
-                let status = if depth == 0 { Status::RevocationUnknown } else { Status::IssuerRevocationUnknown };
-                let rejection = Rejection::new(status, certificate, depth, reason);
+            Answer::Unknown(why) => {
+                let flaw = CertificateFlaw::RevocationUnknown { why: quoted(&why) };
+                let rejection = Rejection::new(flaw, certificate, depth);
                 unknown.get_or_insert((Step::FindRevocationList, rejection));
             }
         }

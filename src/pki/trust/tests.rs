@@ -18,7 +18,7 @@ fn presented(certificate: &Certificate) -> Presented<'_> {
 }
 
 fn status(lists: &TrustLists, presented: &Presented<'_>) -> Option<Status> {
-    lists.validate(presented, &TrustPolicy::default()).err().map(|rejection| rejection.status)
+    lists.validate(presented, &TrustPolicy::default()).err().map(|rejection| rejection.status())
 }
 
 #[test]
@@ -48,12 +48,12 @@ fn a_rejection_names_the_certificate_at_fault_and_how_far_up_it_stands() {
     let presented = Presented { chain: &sent, ..presented(&application) };
     let lists = TrustLists::new(vec![root.certificate.clone()], vec![], crls.clone());
     let rejection = lists.validate(&presented, &TrustPolicy::default()).unwrap_err();
-    assert_eq!((rejection.status, rejection.depth), (Status::IssuerRevoked, 1));
+    assert_eq!((rejection.status(), rejection.depth), (Status::IssuerRevoked, 1));
     assert!(rejection.subject.contains("Plant CA"), "{rejection}");
     assert!(rejection.to_string().contains("keyCompromise"), "{rejection}");
     let without = TrustLists::new(vec![root.certificate.clone()], vec![], crls[1..].to_vec());
     let rejection = without.validate(&presented, &TrustPolicy::default()).unwrap_err();
-    assert_eq!((rejection.status, rejection.depth), (Status::IssuerRevocationUnknown, 1));
+    assert_eq!((rejection.status(), rejection.depth), (Status::IssuerRevocationUnknown, 1));
     let policy = TrustPolicy { allow_unknown_revocation: true, ..TrustPolicy::default() };
     assert_eq!(without.validate(&presented, &policy).map(|chain| chain.len()), Ok(3));
 }

@@ -94,7 +94,7 @@ fn chain(ui: &mut Ui, issuers: &Issuers, model: &Model) {
 
 fn finding(ui: &mut Ui, finding: &Finding, model: &Model) {
     let palette = palette(ui);
-    let (severity, color) = match finding.severity() {
+    let (severity, color) = match finding.severity {
         Severity::Error => (T::StatusError, palette.error),
         Severity::Warning => (T::Warning, palette.warning),
     };

@@ -91,6 +91,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, on_top: bool, focus: bool, model: &Model, m
         Dialog::Trust(form) => trust::show(ui, form, on_top, model, messages),
         Dialog::AddTrust(form) => trust::add(ui, form, focus, model, messages),
         Dialog::DeleteTrust(asked) => trust::delete(ui, asked, model),
+        Dialog::MoveTrust(asked) => trust::move_anyway(ui, asked, model),
         Dialog::TrustDetails(view) => trust::details(ui, view, model),
         Dialog::Drop(form) => drop::show(ui, form, model),
         Dialog::Authority(view) => authority::show(ui, view, model, messages),

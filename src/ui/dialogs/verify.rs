@@ -120,13 +120,14 @@ fn certificate(ui: &mut Ui, verdict: &CertificateVerdict, model: &Model) {
             word(ui, key.text(language), color);
         });
         fine_print(ui, &texts::stored_certificate(language, &verdict.summary, model.zone));
-        if let Some((status, reason)) = &verdict.refused {
-            ui.add(Label::new(RichText::new(status.explain(language)).color(palette.error)).wrap().selectable(true));
+        if let Some(rejection) = &verdict.refused {
+            let said = rejection.cause().explain(language);
+            ui.add(Label::new(RichText::new(said).color(palette.error)).wrap().selectable(true));
             // The words an OPC UA client would log.
-            fine_print(ui, &format!("{status}: {reason}"));
+            fine_print(ui, rejection.status().as_str());
         }
-        for finding in &verdict.findings {
-            line(ui, finding.severity(), &finding.explain(language), model);
+        for finding in verdict.further_findings() {
+            line(ui, finding.severity, &finding.explain(language), model);
         }
     });
 }

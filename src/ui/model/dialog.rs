@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use super::trust::{AddTrustForm, DeleteTrust, DetailsView, TrustForm};
+use super::trust::{AddTrustForm, DeleteTrust, DetailsView, MoveTrust, TrustForm};
 use super::{
     ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, DropForm,
     ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose, RestoreForm, RowId, Task, TransferForm,
@@ -38,6 +38,7 @@ pub enum Dialog {
     Trust(Box<TrustForm>),
     AddTrust(AddTrustForm),
     DeleteTrust(DeleteTrust),
+    MoveTrust(MoveTrust),
     TrustDetails(Box<DetailsView>),
     Drop(DropForm),
     Authority(AuthorityView),

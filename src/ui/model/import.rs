@@ -99,7 +99,7 @@ pub struct Checked {
 
 impl Checked {
     pub fn is_refused(&self) -> bool {
-        self.findings.iter().any(|finding| finding.severity() == Severity::Error)
+        self.findings.iter().any(|finding| finding.severity == Severity::Error)
     }
 }
 

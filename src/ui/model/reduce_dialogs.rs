@@ -164,6 +164,7 @@ impl Model {
             }
             Dialog::AddTrust(form) => self.submit_add_trust(form),
             Dialog::DeleteTrust(asked) => self.delete_trust(asked),
+            Dialog::MoveTrust(asked) => self.move_anyway(asked),
             Dialog::Drop(form) if form.offers() => self.submit_dropped(form),
             Dialog::AuthorityForm(form) => self.submit_authority(form),
             Dialog::Backup { on } => {

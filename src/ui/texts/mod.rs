@@ -503,6 +503,8 @@ texts! {
     TrustCutNone: "Nobody was disconnected", "没有客户端被断开";
     TrustPickLine: "Click a line to see all of it here", "单击一行可在此查看完整内容";
     TrustMovedHere: "put here by a person, has not come since", "由人工移入，此后未再连接";
+    TrustMoveTitle: "Trust anyway?", "仍要信任吗？";
+    TrustMove: "Move", "移动";
     TrustDeleteTitle: "Delete certificates", "删除证书";
     TrustDeleteText: "Clients that are not trusted any more are disconnected at once. The OPC UA server goes on running. The deletion can be taken back until the dialog is closed.", "不再受信任的客户端将立即断开，OPC UA 服务器继续运行。关闭对话框之前可以撤销删除。";
     TrustDeleteRejected: "They are forgotten until they try again. This cannot be taken back.", "将清除这些记录，客户端再次尝试连接时会重新出现。此操作无法撤销。";
@@ -526,12 +528,6 @@ texts! {
     TrustKindClient: "client", "客户端";
     TrustKindAuthority: "authority", "机构";
     TrustKindCrl: "CRL", "CRL";
-    TrustNoteAll: "lets in every client with a certificate from it", "允许其签发的所有客户端连接";
-    TrustNoteChain: "only completes the chain", "仅用于补全证书链";
-    TrustNoteCrl: "CRL among certificates", "证书中包含的 CRL";
-    TrustNoteReplaces: "replaces the older one", "替换旧的 CRL";
-    TrustNoteExpired: "expired", "已过期";
-    TrustNoteNotYet: "not valid yet", "尚未生效";
     TrustSkipRepeated: "is in the files twice", "文件中重复";
     TrustSkipHeld: "is in the controller already", "控制器中已有";
     TrustSkipOutdated: "is older than the one in the controller", "比控制器中的旧";

@@ -3,7 +3,7 @@
 use chrono::Duration;
 
 use super::TextKey as T;
-use crate::jobs::{Note, SkipReason};
+use crate::jobs::SkipReason;
 use crate::model::{CertificateStatus, Language, Problem};
 use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
 use crate::protocol::CutClient;
@@ -49,6 +49,12 @@ pub const fn trust_column(column: TrustColumn) -> T {
         TrustColumn::Number => T::CrlNumber,
         TrustColumn::Health => T::CrlHealth,
     }
+}
+
+/// The end of a sentence as a line of its own.
+pub fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map(|first| first.to_uppercase().chain(chars).collect()).unwrap_or_default()
 }
 
 /// "3 of 50".
@@ -191,17 +197,6 @@ pub fn file_holds(language: Language, certificate_count: usize, crl_count: usize
         (crl_count > 0).then(|| crls(language, crl_count)),
     ];
     parts.into_iter().flatten().collect::<Vec<_>>().join(comma)
-}
-
-pub const fn note(note: Note) -> T {
-    match note {
-        Note::TrustsAllItIssues => T::TrustNoteAll,
-        Note::OnlyCompletesAChain => T::TrustNoteChain,
-        Note::CrlAmongCertificates => T::TrustNoteCrl,
-        Note::ReplacesOlder => T::TrustNoteReplaces,
-        Note::Expired => T::TrustNoteExpired,
-        Note::NotYetValid => T::TrustNoteNotYet,
-    }
 }
 
 pub const fn skipped_thing(reason: SkipReason) -> T {

@@ -103,5 +103,5 @@ pub(super) fn trust_lists(state: &State) -> Result<TrustLists, Problem> {
 
 fn cut_client(cut: CutConnection) -> CutClient {
     let CertificateSummary { issued_to, thumbprint, .. } = cut.certificate.summary();
-    CutClient { address: cut.address.to_string(), issued_to, thumbprint, status: cut.rejection.status }
+    CutClient { address: cut.address.to_string(), issued_to, thumbprint, status: cut.rejection.status() }
 }

@@ -220,11 +220,13 @@ fn one(ui: &mut Ui, item: &Planned, model: &Model) {
     };
     let (to, color, notes) = match &item.fate {
         Fate::Goes { to, notes } => {
-            let notes: Vec<&str> = notes.iter().map(|note| texts::note(*note).text(language)).collect();
+            let notes: Vec<_> = notes.iter().map(|note| note.text(language)).collect();
             (texts::pane(PaneKind::of(*to)), palette.ok, notes)
         }
-        Fate::Skipped(reason) => (T::TrustNothing, palette.off, vec![texts::skipped_thing(*reason).text(language)]),
-        Fate::Refused(problem) => (T::TrustNothing, palette.error, vec![problem.code.explain(language).message]),
+        Fate::Skipped(reason) => {
+            (T::TrustNothing, palette.off, vec![texts::skipped_thing(*reason).text(language).into()])
+        }
+        Fate::Refused(problem) => (T::TrustNothing, palette.error, vec![problem.code.explain(language).message.into()]),
     };
     crate::ui::widgets::chip(ui, to.text(language), color);
     ui.with_layout(Layout::top_down(Align::Min), |ui| {

@@ -89,7 +89,7 @@ pub fn parts<'a>(column: TrustColumn, entry: &'a Entry, model: &Model, palette: 
             let word = words.and_then(|(key, color)| part(key.text(language).into(), color, Look::Small));
             [part(until.text.as_str().into(), color, Look::Plain), word]
         }
-        C::Reason => [refusal.and_then(|r| part(r.status.explain(language).into(), palette.error, Look::Plain)), None],
+        C::Reason => [refusal.and_then(|r| part(r.explain(language).into(), palette.error, Look::Plain)), None],
         C::Address => refusal.map_or([None, None], |refusal| number(&refusal.address)),
         C::Count => [refusal.and_then(|r| part(r.count.to_string().into(), palette.text, Look::Plain)), None],
         C::FirstSeen => refusal.map_or([None, None], |refusal| weak(&refusal.first_seen.text)),

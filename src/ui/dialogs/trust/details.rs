@@ -23,11 +23,11 @@ pub fn show(ui: &Ui, view: &DetailsView, model: &Model) -> Answer {
 
 fn certificate(ui: &mut Ui, view: &CertificateView, model: &Model) {
     let language = model.language;
-    if let Some((status, reason)) = &view.refused {
+    if let Some(refusal) = &view.refused {
         note(ui, palette(ui).error, |ui| {
-            ui.add(Label::new(RichText::new(status.explain(language)).strong()).wrap());
-            // The words an OPC UA client would log, and what was found in this very certificate.
-            let words = [status.as_str(), reason].into_iter().filter(|part| !part.is_empty());
+            ui.add(Label::new(RichText::new(refusal.explain(language)).strong()).wrap());
+            // The words an OPC UA client would log.
+            let words = [refusal.status.as_str(), &refusal.reason].into_iter().filter(|part| !part.is_empty());
             fine_print(ui, &words.collect::<Vec<_>>().join(": "));
         });
         ui.add_space(theme::SPACE);

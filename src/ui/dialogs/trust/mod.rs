@@ -6,6 +6,7 @@ mod delete;
 mod details;
 mod keys;
 mod line;
+mod move_anyway;
 mod pane;
 mod strip;
 
@@ -13,6 +14,7 @@ pub use add::show as add;
 pub use delete::show as delete;
 pub use details::show as details;
 pub use keys::UNDO;
+pub use move_anyway::show as move_anyway;
 
 use egui::{Align, Id, Label, Layout, RichText, TextEdit, Ui, vec2};
 

@@ -43,8 +43,8 @@ fn lines(ui: &mut Ui, entry: &Entry, model: &Model, palette: &Palette) {
     let language = model.language;
     ui.add(Label::new(RichText::new(&entry.issued_to).strong()).truncate());
     if let Some(refusal) = &entry.refusal {
-        let said = refusal.status.explain(language);
-        ui.add(Label::new(RichText::new(said).color(palette.error)).truncate()).on_hover_text(said);
+        let said = refusal.explain(language);
+        ui.add(Label::new(RichText::new(&said).color(palette.error)).truncate()).on_hover_text(&said);
         let when = if refusal.count == 0 {
             T::TrustMovedHere.text(language).to_owned()
         } else {

@@ -36,6 +36,7 @@ fn refused(name: &str, count: u64) -> RejectedClient {
         chain: vec![],
         summary: summary(name, 100),
         status: CertificateStatus::Untrusted,
+        cause: None,
         reason: String::new(),
         address: "10.0.0.77".into(),
         first_seen: now(),
@@ -173,6 +174,31 @@ fn a_change_is_made_without_asking_and_its_answer_is_newer_than_what_was_being_r
     assert!(names(&mut model, PaneKind::Rejected).is_empty());
     seen(&mut model, watch, WatchEvent::Lists(Box::new(held(4))));
     assert!(names(&mut model, PaneKind::Rejected).is_empty(), "that was read before the change");
+}
+
+#[test]
+fn a_client_that_is_never_let_in_is_trusted_only_after_asking() {
+    use crate::ui::model::{Task, trust::TrustTask};
+    let (mut model, _) = opened();
+    let der = include_bytes!("../../../../tests/cases/15-never-admitted/self-ec.der");
+    let certificate = crate::pki::Certificate::from_der(der).unwrap();
+    let lists = form(&mut model);
+    let mut held = lists.held.as_deref().unwrap().clone();
+    held.rejected[0].certificate = Base64Bytes(der.to_vec());
+    held.rejected[0].summary = certificate.summary();
+    lists.fill(Box::new(held), now());
+    lists.pane_mut(PaneKind::Rejected).unwrap().toggle(0, false);
+    let move_it = || TrustAction::Move { from: PaneKind::Rejected, to: PaneKind::Trusted };
+    assert!(act(&mut model, move_it()).is_empty());
+    let Some(Dialog::MoveTrust(asked)) = model.dialogs.last() else { panic!("{:?}", model.dialogs) };
+    let [(name, notes)] = &asked.notes[..] else { panic!("{asked:?}") };
+    let flaw = crate::pki::CertificateFlaw::KeyNotRsa;
+    assert_eq!((name.as_str(), &notes[0]), ("ec", &crate::jobs::Note::NeverAccepted { authority: false, flaw }));
+    let commands = reduce(&mut model, Message::Submit);
+    let [Command::Run { task: Task::Trust(TrustTask::Move(moved)), .. }] = &commands[..] else {
+        panic!("{commands:?}")
+    };
+    assert!(moved.accept_notes);
 }
 
 #[test]

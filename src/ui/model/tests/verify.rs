@@ -1,7 +1,7 @@
 //! Connecting as a client, as the window sees it.
 
 use super::*;
-use crate::jobs::{EndpointVerdict, NotTried, Refusal, TokenVerdict, Verdict, VerifyFinding, VerifyReport};
+use crate::jobs::{EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding, VerifyReport};
 use crate::model::{CertificateStatus, SecurityPolicy};
 use crate::pki::client_identity;
 use crate::session::opcua_client::{MessageSecurity, TokenKind};
@@ -10,7 +10,11 @@ use crate::workspace::OwnIdentity;
 /// `None` works, and a user name was not tried; `trusted` says whether the encrypted endpoint works as well.
 fn report(trusted: bool) -> Outcome {
     let token = |kind, verdict| TokenVerdict { kind, verdict };
-    let refused = Refusal::OwnCertificate(Some((CertificateStatus::Untrusted, "nobody trusts it".into())));
+    let refused = Refusal::OwnCertificate(Some(Told {
+        status: CertificateStatus::Untrusted,
+        cause: None,
+        reason: "nobody trusts it".into(),
+    }));
     let encrypted = if trusted { Verdict::Works } else { Verdict::Fails(refused) };
     let endpoint = |policy, mode, tokens| EndpointVerdict { policy: Ok(policy), mode: Some(mode), tokens };
     Outcome::Verified(Box::new(VerifyReport {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::{Done, Link, PaneKind, TrustAction, TrustForm, TrustTask};
-use crate::jobs::{MoveClients, Outcome, RemoveClients, RemoveCrls, TrustChange, UndoTrust};
+use crate::jobs::{MoveClients, Note, Outcome, RemoveClients, RemoveCrls, TrustChange, UndoTrust};
 use crate::model::{ErrorCode, Problem};
 use crate::ui::backend::Command;
 use crate::ui::model::{Dialog, Model, Purpose, RowId, Task};
@@ -16,6 +16,17 @@ pub struct DeleteTrust {
     /// Id, and what it is called.
     pub what: Vec<(String, String)>,
     revision: Option<u64>,
+}
+
+/// What is to be moved into a list, although there is something to think about.
+#[derive(Debug)]
+pub struct MoveTrust {
+    pub name: String,
+    pub to: PaneKind,
+    /// What the certificates are called, and what is noted about them.
+    pub notes: Vec<(String, Vec<Note>)>,
+    from: PaneKind,
+    thumbprints: Vec<String>,
 }
 
 impl Model {
@@ -69,16 +80,43 @@ impl Model {
     }
 
     fn move_clients(&mut self, from: PaneKind, to: PaneKind) -> Vec<Command> {
-        let (Some(list), Some(to_list)) = (from.list(), to.list()) else { return vec![] };
+        let Some(to_list) = to.list() else { return vec![] };
         let Some(form) = self.changing() else { return vec![] };
         let chosen = form.pane(from).map(|pane| pane.chosen()).unwrap_or_default();
-        let thumbprints: Vec<String> = chosen.into_iter().map(|entry| entry.id.clone()).collect();
+        let thumbprints: Vec<String> = chosen.iter().map(|entry| entry.id.clone()).collect();
         if thumbprints.is_empty() {
             return vec![];
         }
+        let names: BTreeMap<&str, &str> =
+            chosen.iter().map(|entry| (entry.id.as_str(), entry.issued_to.as_str())).collect();
+        let notes = form.held.as_ref().map(|held| held.notes_of_move(to_list, &thumbprints)).unwrap_or_default();
+        let notes: Vec<(String, Vec<Note>)> = notes
+            .into_iter()
+            .map(|(thumbprint, notes)| (names.get(thumbprint.as_str()).copied().unwrap_or_default().to_owned(), notes))
+            .collect();
+        if notes.is_empty() {
+            return self.send_move(from, to, thumbprints, false);
+        }
+        let name = form.name.clone();
+        self.dialogs.push(Dialog::MoveTrust(MoveTrust { name, from, to, notes, thumbprints }));
+        vec![]
+    }
+
+    pub(in crate::ui::model) fn move_anyway(&mut self, asked: MoveTrust) -> Vec<Command> {
+        self.send_move(asked.from, asked.to, asked.thumbprints, true)
+    }
+
+    fn send_move(
+        &mut self,
+        from: PaneKind,
+        to: PaneKind,
+        thumbprints: Vec<String>,
+        accept_notes: bool,
+    ) -> Vec<Command> {
+        let (Some(list), Some(to_list)) = (from.list(), to.list()) else { return vec![] };
         let done = Done::Moved { from, to, count: thumbprints.len() };
         // Whatever else was changed meanwhile: the certificates are named, so nothing else can be meant.
-        let task = TrustTask::Move(MoveClients { from: list, to: to_list, thumbprints, based_on: None });
+        let task = TrustTask::Move(MoveClients { from: list, to: to_list, thumbprints, accept_notes, based_on: None });
         self.change(task, done)
     }
 

@@ -2,9 +2,9 @@
 
 use chrono::{DateTime, Utc};
 
-use super::{PaneKind, Shows};
+use super::{PaneKind, Refusal, Shows};
 use crate::jobs::TrustSnapshot;
-use crate::model::{CertificateStatus, CertificateSummary, ErrorCode, Problem};
+use crate::model::{CertificateSummary, ErrorCode, Problem};
 use crate::pki::{self, AlternativeName, Certificate, RevocationReason};
 use crate::protocol::ListedCertificate;
 use crate::ui::model::{Dialog, Model};
@@ -33,8 +33,8 @@ pub struct CertificateView {
     pub fields: Vec<Field>,
     /// From the root down to the certificate itself.
     pub chain: Vec<ChainNode>,
-    /// Why the controller refused it last, and the same in English words about this very certificate.
-    pub refused: Option<(CertificateStatus, String)>,
+    /// Why the controller refused it last.
+    pub refused: Option<Refusal>,
     pub pem: String,
 }
 
@@ -99,7 +99,7 @@ impl CertificateView {
             PaneKind::Rejected => {
                 let found = held.rejected.iter().find(|client| client.summary.thumbprint == thumbprint)?;
                 let sent = found.chain.iter().filter_map(|der| Certificate::from_der(&der.0).ok()).collect();
-                let refused = Some((found.status, found.reason.clone()));
+                let refused = Some(Refusal::of(found, zone));
                 (&found.certificate, &found.summary, String::new(), sent, refused)
             }
             PaneKind::Crls => return None,

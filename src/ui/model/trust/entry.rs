@@ -3,8 +3,8 @@ use std::cmp::Ordering;
 use chrono::{DateTime, Duration, Utc};
 
 use super::TrustColumn;
-use crate::model::{CertificateStatus, CertificateSummary};
-use crate::pki::CrlHealth;
+use crate::model::{CertificateStatus, CertificateSummary, Language};
+use crate::pki::{CrlHealth, RefusalCause, explain_refusal};
 use crate::protocol::{ListedCertificate, ListedCrl, RejectedClient};
 use crate::ui::model::EXPIRES_SOON;
 use crate::ui::texts::Zone;
@@ -29,6 +29,7 @@ pub enum Life {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Refusal {
     pub status: CertificateStatus,
+    pub cause: Option<RefusalCause>,
     /// What was wrong with this very certificate, in English words; may be empty.
     pub reason: String,
     /// Empty: it was put here by a person, and has not come since.
@@ -38,6 +39,26 @@ pub struct Refusal {
     pub last_seen: Moment,
     /// It came while the dialog was open, and nobody has looked at it yet.
     pub is_new: bool,
+}
+
+impl Refusal {
+    pub fn of(client: &RejectedClient, zone: Zone) -> Self {
+        Self {
+            status: client.status,
+            cause: client.cause.clone(),
+            reason: client.reason.clone(),
+            address: client.address.clone(),
+            count: client.count,
+            first_seen: Moment { at: client.first_seen, text: zone.date_time(client.first_seen) },
+            last_seen: Moment { at: client.last_seen, text: zone.date_time(client.last_seen) },
+            is_new: false,
+        }
+    }
+
+    /// What it means and what to do.
+    pub fn explain(&self, language: Language) -> String {
+        explain_refusal(self.status, self.cause.as_ref(), language)
+    }
 }
 
 /// What only a CRL has.
@@ -80,16 +101,7 @@ impl Entry {
     }
 
     pub fn rejected(client: &RejectedClient, zone: Zone, now: DateTime<Utc>) -> Self {
-        let refusal = Refusal {
-            status: client.status,
-            reason: client.reason.clone(),
-            address: client.address.clone(),
-            count: client.count,
-            first_seen: Moment { at: client.first_seen, text: zone.date_time(client.first_seen) },
-            last_seen: Moment { at: client.last_seen, text: zone.date_time(client.last_seen) },
-            is_new: false,
-        };
-        Self::certificate(&client.summary, String::new(), Some(refusal), zone, now)
+        Self::certificate(&client.summary, String::new(), Some(Refusal::of(client, zone)), zone, now)
     }
 
     pub fn crl(

@@ -22,7 +22,7 @@ mod task;
 mod watch;
 
 pub use add::{AddFile, AddTrustForm, MAX_TRUST_FILES, ReadTrustFile};
-pub use change::DeleteTrust;
+pub use change::{DeleteTrust, MoveTrust};
 pub use details::{CertificateView, ChainNode, ChainState, CrlLine, CrlView, DetailsView, Field};
 pub use entry::{Crl, Entry, Life, Moment, Refusal};
 pub use form::{Done, Link, Shows, TrustForm};

@@ -27,8 +27,8 @@ use super::report::Reporter;
 use super::rewrap::{Own, SecuredClient};
 use super::server_to_client::{ServerToClient, say};
 use super::sessions::{SessionNumber, Sessions};
-use crate::model::{CertificateStatus, SecurityPolicy};
-use crate::pki::{Certificate, Rejection, TrustLists};
+use crate::model::SecurityPolicy;
+use crate::pki::{Certificate, CertificateFlaw, Rejection, TrustLists, check_application_uri};
 use crate::virtual_controller::connection_limits::Standing;
 
 /// Stands in front of the OPC UA crate's server, which has no port of its own, and lets in whom it may.
@@ -430,18 +430,10 @@ impl Gate {
         };
         let (certificate, application_uri) = facts();
         let problem = match identity.leaf() {
-            Some(leaf) if certificate.as_deref() != Some(leaf.der()) => Some(Rejection {
-                status: CertificateStatus::CertificateInvalid,
-                subject: leaf.subject().to_owned(),
-                depth: 0,
-                reason: "the session was opened under another certificate than the secure channel".to_owned(),
-            }),
-            Some(leaf) if leaf.application_uri().as_deref() != Some(application_uri.as_str()) => Some(Rejection {
-                status: CertificateStatus::UriInvalid,
-                subject: leaf.subject().to_owned(),
-                depth: 0,
-                reason: "the client gives another application URI than its certificate".to_owned(),
-            }),
+            Some(leaf) if certificate.as_deref() != Some(leaf.der()) => {
+                Some(Rejection::of(CertificateFlaw::NotThatOfTheChannel, leaf))
+            }
+            Some(leaf) => check_application_uri(leaf, &application_uri).err(),
             None if certificate.is_some() => {
                 // Opened under a policy with security and moved to a channel without.
                 connection.stop(self.refuse(
@@ -450,11 +442,11 @@ impl Gate {
                 ));
                 return Err(StatusCode::BadSecurityChecksFailed);
             }
-            _ => None,
+            None => None,
         };
         if let Some(rejection) = problem {
             connection.stop(self.reject(&connection, &identity.chain, &rejection));
-            return Err(StatusCode::from(rejection.status.code()));
+            return Err(StatusCode::from(rejection.status().code()));
         }
         connection.state.lock().add_session(session);
         connection.activity.reached(Standing::InSession);

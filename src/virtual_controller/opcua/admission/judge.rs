@@ -8,7 +8,7 @@ use parking_lot::RwLock;
 
 use super::fault::Fault;
 use super::frame::split_certificates;
-use crate::model::{CertificateStatus, SecurityPolicy};
+use crate::model::SecurityPolicy;
 use crate::pki::{Certificate, Presented, Rejection, Role, TrustLists, TrustPolicy};
 
 /// The clock certificates are checked by; this machine's by default.
@@ -91,19 +91,14 @@ pub(super) fn read_chain(sent: &[u8]) -> Result<Vec<Certificate>, Rejection> {
 
 /// A rejection that does not need the lists.
 pub(super) fn invalid(reason: &str) -> Rejection {
-    Rejection {
-        status: CertificateStatus::CertificateInvalid,
-        subject: String::new(),
-        depth: 0,
-        reason: reason.chars().filter(|c| !c.is_control()).collect(),
-    }
+    Rejection::unreadable(reason, "")
 }
 
 /// What the peer is told. Not more than that it was refused, unless `detailed`: the reason would help whoever looks for
 /// a certificate to steal (OPC 10000-6 §6.7.6).
 pub(super) fn fault(rejection: &Rejection, detailed: bool) -> Fault {
     if detailed {
-        Fault::new(StatusCode::from(rejection.status.code()), rejection.to_string())
+        Fault::new(StatusCode::from(rejection.status().code()), rejection.to_string())
     } else {
         Fault::new(StatusCode::BadSecurityChecksFailed, "the certificate is not accepted")
     }

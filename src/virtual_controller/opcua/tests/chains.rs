@@ -63,7 +63,7 @@ async fn an_issuer_that_was_sent_completes_a_chain_but_is_not_trusted_for_it() {
     let (sent, address, rejection) = &recorded[0];
     assert_eq!(*sent, [client.certificate(), authority.certificate.clone()]);
     assert_eq!(
-        (address.to_string(), rejection.status),
+        (address.to_string(), rejection.status()),
         ("127.0.0.1".to_owned(), crate::model::CertificateStatus::Untrusted)
     );
     server.stop().await;

@@ -19,10 +19,20 @@ pub(in super::super) struct Identity {
 
 impl Identity {
     pub fn new(name: &str) -> Self {
-        Self::made(name, RsaKeySize::_2048, None)
+        Self::made(name, RsaKeySize::_2048, None, |_| {})
     }
 
-    fn made(name: &str, size: RsaKeySize, authority: Option<&Authority>) -> Self {
+    /// Its certificate names no URI, only an address.
+    pub fn without_uri(name: &str) -> Self {
+        Self::made(name, RsaKeySize::_2048, None, |params| drop(params.subject_alt_names.remove(0)))
+    }
+
+    fn made(
+        name: &str,
+        size: RsaKeySize,
+        authority: Option<&Authority>,
+        change: impl FnOnce(&mut CertificateParams),
+    ) -> Self {
         let key = KeyPair::generate_rsa_for(&PKCS_RSA_SHA256, size).unwrap();
         let mut params = CertificateParams::default();
         params.distinguished_name.push(DnType::CommonName, name);
@@ -38,6 +48,7 @@ impl Identity {
             KeyUsagePurpose::DataEncipherment,
         ];
         params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth, ExtendedKeyUsagePurpose::ClientAuth];
+        change(&mut params);
         let made = match authority {
             Some(authority) => {
                 params.use_authority_key_identifier_extension = true;
@@ -79,7 +90,7 @@ impl Authority {
     }
 
     pub fn issue(&self, name: &str, size: RsaKeySize) -> Identity {
-        Identity::made(name, size, Some(self))
+        Identity::made(name, size, Some(self), |_| {})
     }
 
     pub fn crl(&self, number: u64, revoked: &[&Identity]) -> Crl {

@@ -6,6 +6,7 @@ use opcua::types::{StatusCode, VariableId};
 use super::disguise::Disguise;
 use super::*;
 use crate::model::CertificateStatus;
+use crate::pki::CertificateFlaw;
 
 const TIME: VariableId = VariableId::Server_ServerStatus_CurrentTime;
 
@@ -30,7 +31,7 @@ async fn a_session_under_another_certificate_than_its_channel_ends_at_once() {
     }
     let disguise = Disguise::start(&server, &CLIENT, &other, &[]).await;
     gets_nothing(Dial { through: Some(disguise.url.clone()), ..Dial::new(&server) }).await;
-    told.wait_for("opened under another certificate").await;
+    told.wait_for("opened with another certificate").await;
 
     // The disguise is not what it fails by.
     let honest = Disguise::start(&server, &CLIENT, &CLIENT, &[]).await;
@@ -51,10 +52,24 @@ async fn a_client_that_gives_another_application_uri_than_its_certificate_is_cut
     let recorded = recorded.0.lock().clone();
     assert_eq!(recorded.len(), 1, "{recorded:?}");
     assert_eq!(
-        (&recorded[0].0[..], recorded[0].2.status),
+        (&recorded[0].0[..], recorded[0].2.status()),
         (&[CLIENT.certificate()][..], CertificateStatus::UriInvalid)
     );
     assert!(Client::encrypted(&server).await.unwrap().is_served().await);
+    server.stop().await;
+}
+
+/// The secure channel does not ask for the URI; the session does.
+#[tokio::test(flavor = "multi_thread")]
+async fn a_client_whose_certificate_has_no_application_uri_is_refused_for_that() {
+    let folder = tempfile::tempdir().unwrap();
+    let recorded = Arc::new(Recorded::default());
+    let refusals: Arc<dyn Refusals> = recorded.clone();
+    let bare = Identity::without_uri("bare");
+    let server = start(OpcUaConfig { trust: trusting(&[&bare]), refusals: Some(refusals), ..config(&folder) }).await;
+    gets_nothing(Dial::new(&server).identity(&bare)).await;
+    let flaws: Vec<CertificateFlaw> = recorded.0.lock().iter().map(|(.., rejection)| rejection.flaw.clone()).collect();
+    assert_eq!(flaws, [CertificateFlaw::UriMissing { announced: Some("urn:bare".to_owned()) }]);
     server.stop().await;
 }
 

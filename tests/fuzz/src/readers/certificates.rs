@@ -28,7 +28,7 @@ pub(super) fn assert_certificate(certificate: &Certificate) {
         policies: &policies,
         now: DateTime::from_timestamp(1_900_000_000, 0).expect("a time"),
     };
-    for finding in preflight(certificate, &expected).into_iter().flatten() {
+    for finding in preflight(certificate, &expected) {
         assert_printable(&finding.explain(Language::En));
         assert_printable(&finding.explain(Language::Zh));
     }

@@ -1,5 +1,5 @@
 use chrono::DateTime;
-use opcua_configurator::model::SecurityPolicy;
+use opcua_configurator::model::{Language, SecurityPolicy};
 use opcua_configurator::pki::{
     Bundle, Certificate, Crl, MAX_BUNDLE_BYTES, MAX_CRL_BYTES, Presented, Role, TrustLists, TrustPolicy, read_bundle,
 };
@@ -76,7 +76,7 @@ pub fn trust(bytes: &[u8]) {
             assert!(lists.validate(&presented, &lax).is_ok());
         }
         Err(rejection) => {
-            assert_printable(&rejection.reason);
+            assert_printable(&rejection.cause().explain(Language::En));
             assert_printable(&rejection.subject);
         }
     }

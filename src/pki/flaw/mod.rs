@@ -1,0 +1,342 @@
+//! What can be wrong with a certificate: values that decide the OPC UA status, the words and the remedy.
+//!
+//! | file | content |
+//! |---|---|
+//! | `english`, `chinese` | what is wrong and what to do, in these languages |
+
+mod chinese;
+mod english;
+
+use chrono::{DateTime, SecondsFormat, Utc};
+use serde::{Deserialize, Deserializer, Serialize};
+
+use super::{KeyUsage, RevocationReason, Role, name};
+use crate::model::{CertificateStatus as Status, Language};
+
+/// One thing that is wrong with a certificate.
+///
+/// Texts in it come from certificates; they hold no control characters and are cut to 200 characters. In JSON it has
+/// the field `flaw` with its name in kebab case, and its own fields beside it.
+#[non_exhaustive]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "flaw", rename_all = "kebab-case")]
+pub enum CertificateFlaw {
+    // OPC 10000-4 §6.1.3, step 1: the certificate itself
+    /// What was sent or read is not a certificate.
+    Unreadable {
+        why: String,
+    },
+    /// RFC 5280 §4.2: critical, and of a kind that is not supported. The object identifier.
+    UnknownCriticalExtension {
+        extension: String,
+    },
+    /// One that is supported here, but not by every client.
+    RareCriticalExtension {
+        extension: String,
+    },
+    /// Its content contradicts its definition. A name, or the object identifier.
+    DamagedExtension {
+        extension: String,
+    },
+    /// A name of the subject alternative name is not ASCII (RFC 5280 §4.2.1.6), and neither is it UTF-8.
+    NameNotAscii {
+        name: String,
+    },
+    EndsBeforeItBegins,
+
+    // steps 2 and 3: the chain and its signatures
+    ChainTooLong {
+        most: usize,
+    },
+    /// More authorities carry the names in question than are tried.
+    TooManyIssuers,
+    IssuerMissing {
+        issuer: String,
+    },
+    /// The authority at hand signed it, but has another key identifier than it names (RFC 5280 §4.2.1.1).
+    IssuerKeyIdentifier {
+        issuer: String,
+        wanted: String,
+    },
+    /// An authority of that name is at hand, but with another key than the one that is named.
+    IssuerKey {
+        issuer: String,
+    },
+    SignatureWrong {
+        issuer: String,
+    },
+    /// It carries its own name as that of its issuer, but another key signed it.
+    SelfSignatureWrong,
+    /// The algorithm is not supported, or proves nothing.
+    SignatureUnverifiable {
+        why: String,
+    },
+
+    // RFC 5280 §6.1.3 and §6.1.4: what authorities above it say about names and policies
+    /// RFC 5280 §4.2.1.10: the authority may not certify this name.
+    NameNotPermitted {
+        name: String,
+        authority: String,
+    },
+    /// The authority constrains names of this kind in a way that cannot be checked.
+    NameConstraintUnsupported {
+        name: String,
+        authority: String,
+    },
+    /// More names and constraints than are compared.
+    TooManyNames {
+        authority: String,
+    },
+    /// RFC 5280 §6.1.5 (g): an authority above it wants a certificate policy, and none holds for the whole chain.
+    PolicyMissing,
+    /// RFC 5280 §6.1.4 (a): a policy mapping from or to anyPolicy.
+    PolicyMappingOfAny,
+
+    // step 4: the security policy
+    KeyNotRsa,
+    KeyExponent,
+    /// In bits. Only the deprecated Basic128Rsa15 and Basic256 take 1024 bits.
+    KeyTooShort {
+        bits: u16,
+        least: u16,
+    },
+    KeyTooLong {
+        bits: u16,
+        most: u16,
+    },
+    /// A length that no security policy ticked in the controller uses.
+    KeyLengthNotTicked {
+        bits: u16,
+    },
+    WeakHash {
+        algorithm: String,
+    },
+
+    // step 5: the trust list
+    Untrusted,
+
+    // step 6: validity
+    NotYetValid {
+        from: DateTime<Utc>,
+        now: DateTime<Utc>,
+    },
+    Expired {
+        until: DateTime<Utc>,
+        now: DateTime<Utc>,
+    },
+    /// Still valid, but not for long.
+    ExpiresSoon {
+        until: DateTime<Utc>,
+    },
+
+    // steps 7 and 8: host name and application URI
+    /// It names none of the hosts.
+    HostName {
+        hosts: Vec<String>,
+        names: Vec<String>,
+    },
+    /// `announced`: what the application says of itself, if it was asked.
+    UriMissing {
+        announced: Option<String>,
+    },
+    UriDiffers {
+        certificate: String,
+        announced: String,
+    },
+    /// RFC 5280 §4.2.1.6: a URI is ASCII; other characters may stand for ones that were replaced.
+    UriNotAscii {
+        uri: String,
+    },
+
+    // step 9: usages
+    /// The certificate of an authority where one of an application belongs.
+    CertificateOfAuthority,
+    /// A self-signed certificate of an application says that it is a CA.
+    ClaimsToBeAuthority,
+    KeyUsageMissing,
+    KeyUsageLacks {
+        missing: Vec<KeyUsage>,
+    },
+    /// Its extended key usages leave out what the application is.
+    NotForRole {
+        role: Role,
+    },
+    ExtendedKeyUsageMissing,
+    /// It issued a certificate, but is not a CA.
+    NotAnAuthority,
+    /// It issued a certificate, but its key may not sign certificates.
+    MayNotIssue,
+    /// Its extended key usages leave out what it issued a certificate for.
+    MayNotIssueFor {
+        role: Role,
+    },
+    TooManyAuthoritiesBelow {
+        most: u32,
+        found: usize,
+    },
+
+    // steps 10 and 11: revocation
+    RevocationUnknown {
+        why: String,
+    },
+    Revoked {
+        on: DateTime<Utc>,
+        because: RevocationReason,
+    },
+
+    /// A session was opened with another certificate than its secure channel (OPC 10000-4 §5.7.2).
+    NotThatOfTheChannel,
+}
+
+impl CertificateFlaw {
+    /// The OPC UA status; `of_issuer`: of a certificate above the one that is checked.
+    pub const fn status(&self, of_issuer: bool) -> Status {
+        match self {
+            Self::Unreadable { .. }
+            | Self::UnknownCriticalExtension { .. }
+            | Self::RareCriticalExtension { .. }
+            | Self::DamagedExtension { .. }
+            | Self::NameNotAscii { .. }
+            | Self::EndsBeforeItBegins
+            | Self::SignatureWrong { .. }
+            | Self::SelfSignatureWrong
+            | Self::NameNotPermitted { .. }
+            | Self::NameConstraintUnsupported { .. }
+            | Self::TooManyNames { .. }
+            | Self::PolicyMissing
+            | Self::PolicyMappingOfAny
+            | Self::NotThatOfTheChannel => Status::CertificateInvalid,
+            Self::ChainTooLong { .. }
+            | Self::TooManyIssuers
+            | Self::IssuerMissing { .. }
+            | Self::IssuerKeyIdentifier { .. }
+            | Self::IssuerKey { .. } => Status::ChainIncomplete,
+            Self::SignatureUnverifiable { .. }
+            | Self::KeyNotRsa
+            | Self::KeyExponent
+            | Self::KeyTooShort { .. }
+            | Self::KeyTooLong { .. }
+            | Self::KeyLengthNotTicked { .. }
+            | Self::WeakHash { .. } => Status::PolicyCheckFailed,
+            Self::Untrusted => Status::Untrusted,
+            Self::NotYetValid { .. } | Self::Expired { .. } | Self::ExpiresSoon { .. } if of_issuer => {
+                Status::IssuerTimeInvalid
+            }
+            Self::NotYetValid { .. } | Self::Expired { .. } | Self::ExpiresSoon { .. } => Status::TimeInvalid,
+            Self::HostName { .. } => Status::HostNameInvalid,
+            Self::UriMissing { .. } | Self::UriDiffers { .. } | Self::UriNotAscii { .. } => Status::UriInvalid,
+            Self::CertificateOfAuthority
+            | Self::ClaimsToBeAuthority
+            | Self::KeyUsageMissing
+            | Self::KeyUsageLacks { .. }
+            | Self::NotForRole { .. }
+            | Self::ExtendedKeyUsageMissing => Status::UseNotAllowed,
+            Self::NotAnAuthority
+            | Self::MayNotIssue
+            | Self::MayNotIssueFor { .. }
+            | Self::TooManyAuthoritiesBelow { .. } => Status::IssuerUseNotAllowed,
+            Self::RevocationUnknown { .. } if of_issuer => Status::IssuerRevocationUnknown,
+            Self::RevocationUnknown { .. } => Status::RevocationUnknown,
+            Self::Revoked { .. } if of_issuer => Status::IssuerRevoked,
+            Self::Revoked { .. } => Status::Revoked,
+        }
+    }
+
+    /// What is wrong, as the end of a sentence about the certificate: "its key is not an RSA key".
+    pub fn reason(&self, language: Language) -> String {
+        printable(match language {
+            Language::En => self.english(),
+            Language::Zh => self.chinese(),
+        })
+    }
+
+    /// What to do, as the end of a sentence: "make a new one".
+    pub fn remedy(&self, language: Language) -> String {
+        printable(match language {
+            Language::En => self.english_remedy(),
+            Language::Zh => self.chinese_remedy(),
+        })
+    }
+
+    /// What is wrong and what to do.
+    pub fn explain(&self, language: Language) -> String {
+        sentence(&self.reason(language), &self.remedy(language), language)
+    }
+}
+
+/// Why a certificate is refused: what is wrong, and with which certificate of its chain.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RefusalCause {
+    #[serde(flatten)]
+    pub flaw: CertificateFlaw,
+    /// The name of the issuer at fault; `None`: the certificate itself is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_fault: Option<String>,
+}
+
+impl RefusalCause {
+    pub const fn status(&self) -> Status {
+        self.flaw.status(self.at_fault.is_some())
+    }
+
+    /// What is wrong and what to do.
+    pub fn explain(&self, language: Language) -> String {
+        let reason = self.flaw.reason(language);
+        let reason = match (&self.at_fault, language) {
+            (None, _) => reason,
+            (Some(issuer), Language::En) => printable(format!("its issuer {issuer} is at fault: {reason}")),
+            (Some(issuer), Language::Zh) => printable(format!("问题在于其签发者 {issuer}：{reason}")),
+        };
+        sentence(&reason, &self.flaw.remedy(language), language)
+    }
+
+    /// For serde: a cause that is not known, as a newer controller may send, is none.
+    pub fn if_known<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Self>, D::Error> {
+        let value = serde_json::Value::deserialize(from)?;
+        Ok(serde_json::from_value(value).ok())
+    }
+}
+
+/// What a refusal means and what to do: by its cause, or by its status where the cause is not told.
+pub fn explain_refusal(status: Status, cause: Option<&RefusalCause>, language: Language) -> String {
+    cause.map_or_else(|| status.explain(language).to_owned(), |cause| cause.explain(language))
+}
+
+fn sentence(reason: &str, remedy: &str, language: Language) -> String {
+    match language {
+        Language::En => format!("{}. {}.", capital(reason), capital(remedy)),
+        Language::Zh => format!("{reason}。{remedy}。"),
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map(|first| first.to_uppercase().chain(chars).collect()).unwrap_or_default()
+}
+
+/// A cause may come from a controller: its texts are not to be trusted more than a certificate's.
+fn printable(text: String) -> String {
+    const MOST: usize = 1000;
+    name::printable(&text).chars().take(MOST).collect()
+}
+
+/// A text of a certificate or a peer, made fit for a [`CertificateFlaw`].
+pub(super) fn quoted(text: &str) -> String {
+    const MOST: usize = 200;
+    let mut quoted: String = name::printable(text).chars().take(MOST).collect();
+    if quoted.len() < text.len() && text.chars().nth(MOST).is_some() {
+        quoted.push('…');
+    }
+    quoted
+}
+
+fn date(when: &DateTime<Utc>) -> String {
+    when.to_rfc3339_opts(SecondsFormat::Secs, true)
+}
+
+fn usages(usages: &[KeyUsage]) -> Vec<&'static str> {
+    usages.iter().map(|usage| usage.as_str()).collect()
+}
+
+#[cfg(test)]
+mod tests;
