@@ -172,8 +172,8 @@ pub(super) fn certificate_policies(table: &mut Table) {
             vec![(1, mapping(ONE, OTHER)), (2, require_policy_and_inhibit_mapping())],
             invalid,
         ),
-        ("a mapping of any policy", &[&[], &[], &[]], vec![(1, mapping(ANY, OTHER))], invalid),
-        ("a mapping to any policy", &[&[], &[], &[]], vec![(2, mapping(ONE, ANY))], invalid),
+        ("a mapping of any policy", &[&[], &[ONE], &[ONE]], vec![(1, mapping(ANY, OTHER))], invalid),
+        ("a mapping to any policy", &[&[], &[ONE], &[ONE]], vec![(2, mapping(ONE, ANY))], invalid),
         ("a critical mapping, and no policy is needed", &[&[], &[ONE], &[ONE]], vec![(1, mapping(ONE, OTHER))], None),
         (
             "any policy, which is inhibited",
