@@ -397,9 +397,9 @@ async fn the_next_turn_begins_before_the_last_goodbye_is_said() {
 struct LockedKeyring(Mutex<std::sync::mpsc::Receiver<()>>);
 
 impl Passwords for LockedKeyring {
-    fn get(&self, _: Fingerprint) -> Option<SecretString> {
+    fn get(&self, _: Fingerprint) -> Result<Option<SecretString>, Problem> {
         let _gone = self.0.lock().recv();
-        None
+        Ok(None)
     }
     fn set(&self, _: Fingerprint, _: SecretString) -> Result<(), Problem> {
         unimplemented!()

@@ -9,14 +9,17 @@ mod desk;
 mod process;
 
 use std::fs::{self, File};
-use std::io::Write as _;
-use std::os::fd::{FromRawFd as _, OwnedFd};
+use std::io::{Read as _, Write as _};
+use std::os::fd::{AsRawFd as _, FromRawFd as _, OwnedFd};
 use std::path::PathBuf;
 use std::process::Stdio;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use ca::Ca;
-use desk::{DONE, Desk, walk};
+use desk::{DONE, Desk, program, walk};
 use opcua_configurator::pki::Csr;
+use parking_lot::Mutex;
 use process::{Finished, Running};
 use rcgen::SanType;
 
@@ -31,6 +34,16 @@ fn terminal() -> (File, OwnedFd) {
     unsafe { (File::from_raw_fd(keyboard), OwnedFd::from_raw_fd(program)) }
 }
 
+/// Whether the terminal shows what is typed.
+fn echoes(terminal: &File) -> bool {
+    let mut settings = std::mem::MaybeUninit::<libc::termios>::uninit();
+    // SAFETY: the descriptor is open, and the call fills in what it is given.
+    let read = unsafe { libc::tcgetattr(terminal.as_raw_fd(), settings.as_mut_ptr()) };
+    assert_eq!(read, 0, "{}", std::io::Error::last_os_error());
+    // SAFETY: the call succeeded.
+    unsafe { settings.assume_init() }.c_lflag & libc::ECHO != 0
+}
+
 impl Desk {
     /// Runs with a terminal on which this is typed.
     fn typing(&self, typed: &str, arguments: &[&str]) -> Finished {
@@ -39,6 +52,49 @@ impl Desk {
         let finished = Running::start_with(self.command().args(arguments), Stdio::from(program)).unwrap().finish(DONE);
         drop(keyboard);
         finished
+    }
+
+    /// Runs with a terminal for input and messages, and no connection password. Each answer is typed once its question
+    /// is there and what is typed is not shown any more. Returns what the terminal showed.
+    fn answering(&self, answers: &[(&str, &str)], arguments: &[&str]) -> (Option<i32>, String) {
+        let (mut keyboard, screen) = terminal();
+        let mut command = program();
+        command.arg("--workspace").arg(self.workspace()).args(arguments);
+        command.stdin(screen.try_clone().unwrap()).stderr(screen).stdout(Stdio::null());
+        let mut child = command.spawn().unwrap();
+        // Holds the other end of the terminal.
+        drop(command);
+        let shown = Arc::new(Mutex::new(String::new()));
+        let reader = {
+            let (mut screen, shown) = (keyboard.try_clone().unwrap(), shown.clone());
+            std::thread::spawn(move || {
+                let mut bytes = [0; 1024];
+                // Fails once no program has the terminal any more.
+                while let Ok(count @ 1..) = screen.read(&mut bytes) {
+                    shown.lock().push_str(&String::from_utf8_lossy(&bytes[..count]));
+                }
+            })
+        };
+        let until = Instant::now() + DONE;
+        for (question, answer) in answers {
+            while !shown.lock().contains(question) || echoes(&keyboard) {
+                assert!(Instant::now() < until, "not asked: {question}; {}", shown.lock());
+                std::thread::sleep(Duration::from_millis(5));
+            }
+            keyboard.write_all(format!("{answer}\n").as_bytes()).unwrap();
+        }
+        let code = loop {
+            if let Some(status) = child.try_wait().unwrap() {
+                break status.code();
+            }
+            if Instant::now() > until {
+                child.kill().unwrap();
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        };
+        reader.join().unwrap();
+        let shown = shown.lock().clone();
+        (code, shown)
     }
 
     fn found(&self, name: &str) -> Option<PathBuf> {
@@ -107,4 +163,26 @@ fn a_stop_and_a_request_say_that_the_server_stays_stopped() {
     assert!(request.stderr.contains("stays stopped until another certificate"), "{}", request.stderr);
     let chinese = desk.typing("n\n", &["--lang", "zh", "stop", "weld"]);
     assert!(chinese.stderr.contains("将停止 OPC UA 服务器"), "{}", chinese.stderr);
+}
+
+#[test]
+fn the_passphrase_of_the_vault_is_asked_for_and_not_shown() {
+    let desk = Desk::start(1);
+    assert_eq!(desk.add(0, "weld").0, Some(0));
+    let (first, again) = ("Passphrase of the vault: ", "The same again: ");
+    let (code, shown) = desk.answering(&[(first, "correct horse"), (again, "correct house")], &["vault", "init"]);
+    assert!(code == Some(2) && shown.contains("differ"), "{shown}");
+    let (code, shown) = desk.answering(&[(first, "correct horse"), (again, "correct horse")], &["vault", "init"]);
+    assert!(code == Some(0) && !shown.contains("horse"), "{shown}");
+    fs::write(desk.folder.path().join("list.csv"), "Name,Password\nweld,plant-password\n").unwrap();
+    let list = desk.file("list.csv");
+    assert_eq!(desk.answering(&[(first, "correct horse")], &["vault", "import", &list]).0, Some(0));
+
+    let (code, shown) = desk.answering(&[(first, "correct horse")], &["info", "weld"]);
+    assert_eq!(code, Some(0), "{shown}");
+    let (code, shown) = desk.answering(&[(first, "correct house")], &["info", "weld"]);
+    assert!(code == Some(2) && shown.contains("does not open the vault"), "{shown}");
+    // Who has no passphrase presses Enter.
+    let (code, shown) = desk.answering(&[(first, "")], &["info", "weld"]);
+    assert!(code == Some(1) && shown.contains("connection password is not known"), "{shown}");
 }

@@ -9,7 +9,6 @@ use parking_lot::Mutex;
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
 
-use super::passwords::CommandPasswords;
 use super::table::table;
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Operation, Outcome, Report};
@@ -17,7 +16,7 @@ use crate::model::{ControllerInfo, ErrorCode, Problem};
 use crate::pki::Severity;
 use crate::session::ManagementConnector;
 use crate::ui::texts;
-use crate::workspace::{Configuration, ControllerEntry, Passwords, Retrieved, WorkspaceLock};
+use crate::workspace::{Configuration, ControllerEntry, Retrieved, WorkspaceLock};
 
 /// What is shown of one controller's success.
 pub struct Shown {
@@ -60,10 +59,6 @@ impl Settled {
             self.output.explain(None, &notice);
         }
         Ok(loaded.configuration)
-    }
-
-    pub fn passwords(&self) -> Result<Arc<dyn Passwords>, Problem> {
-        Ok(Arc::new(CommandPasswords::new(self.connection_password_file.as_deref())?))
     }
 
     pub fn context(&self, parallelism: usize) -> Result<JobContext, Problem> {

@@ -4,13 +4,14 @@ use clap::{Args, Subcommand};
 use secrecy::SecretString;
 use serde_json::json;
 
-use super::secret_file::read_secret;
 use super::table::table;
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Enrolled};
 use crate::model::{Address, ControllerName, ControllerSeries, ErrorCode, Problem};
 use crate::pki::Fingerprint;
-use crate::workspace::{ConnectionList, ControllerEntry, MAX_CONNECTION_LIST_BYTES, PlannedConnection, Retrieved};
+use crate::workspace::{
+    ConnectionList, ControllerEntry, MAX_CONNECTION_LIST_BYTES, PlannedConnection, Retrieved, VaultState,
+};
 
 #[derive(Debug, Subcommand)]
 pub enum ControllersCommand {
@@ -32,7 +33,7 @@ pub enum ControllersCommand {
         #[arg(long, default_value = "RC700")]
         series: String,
     },
-    /// Accept the fingerprint of a controller that was imported
+    /// Accept the fingerprint of a controller that was imported or added without confirming it
     Trust(TrustArgs),
 }
 
@@ -47,12 +48,17 @@ pub struct AddArgs {
     #[arg(long)]
     series: String,
     /// SHA-256 of the controller's management identity, as the controller shows it
-    #[arg(long, value_name = "HEX", required_unless_present = "trust_on_first_use")]
+    #[arg(long, value_name = "HEX", required_unless_present_any = ["trust_on_first_use", "unconfirmed"])]
     fingerprint: Option<String>,
     /// Accept whatever fingerprint the controller presents now: safe only on a network where nobody can pretend to be it
     #[arg(long, conflicts_with = "fingerprint")]
     trust_on_first_use: bool,
-    /// File with the connection password, "-" for standard input; kept in the operating system's keyring
+    /// Add it without confirming its identity, as while it is switched off: nothing is sent to it, now or later, before
+    /// "controllers trust NAME"
+    #[arg(long, conflicts_with_all = ["fingerprint", "trust_on_first_use", "password_file"])]
+    unconfirmed: bool,
+    /// File with the connection password, "-" for standard input; kept in the operating system's keyring, or in the
+    /// vault of the workspace
     #[arg(long, value_name = "FILE")]
     password_file: Option<PathBuf>,
 }
@@ -67,7 +73,8 @@ pub struct TrustArgs {
     /// Accept whatever fingerprint the controller presents now: safe only on a network where nobody can pretend to be it
     #[arg(long, conflicts_with = "fingerprint")]
     trust_on_first_use: bool,
-    /// File with the connection password, "-" for standard input; kept in the operating system's keyring
+    /// File with the connection password, "-" for standard input; kept in the operating system's keyring, or in the
+    /// vault of the workspace
     #[arg(long, value_name = "FILE")]
     password_file: Option<PathBuf>,
 }
@@ -97,10 +104,11 @@ fn list(settled: &Settled) -> Result<Ending, Problem> {
             .iter()
             .map(|c| {
                 let seen = c.last.as_ref().map_or("-".into(), |l| l.at.format("%Y-%m-%d %H:%M UTC").to_string());
-                vec![c.name.to_string(), c.series.to_string(), c.address.to_string(), seen]
+                let identity = if c.fingerprint.is_some() { "confirmed" } else { "not confirmed" };
+                vec![c.name.to_string(), c.series.to_string(), c.address.to_string(), identity.to_owned(), seen]
             })
             .collect();
-        settled.output.text(&table(&["NAME", "TYPE", "ADDRESS", "RETRIEVED"], &rows));
+        settled.output.text(&table(&["NAME", "TYPE", "ADDRESS", "IDENTITY", "RETRIEVED"], &rows));
     }
     Ok(Ending::AllDone)
 }
@@ -111,26 +119,34 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
     let address: Address = args.address.parse().map_err(|e| bad(ErrorCode::BadAddress, &e))?;
     let series: ControllerSeries = args.series.parse().map_err(|e| bad(ErrorCode::BadName, &e))?;
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
-    let password = password(settled, args.password_file.as_ref())?;
     // Held from the check to the save, so that two commands cannot add the same name.
     let lock = settled.lock()?;
     let mut configuration = settled.configuration()?;
     configuration.check_new(&name, &address)?;
-    let Some(enrolled) = meet(settled, &name, &address, given, password)? else {
-        return Ok(Ending::SomeFailed);
+    let (entry, shown, text) = if args.unconfirmed {
+        let text = format!("Added {name}: {address}; confirm its identity with \"controllers trust\"");
+        let entry = ControllerEntry::unconfirmed(name.clone(), address, series);
+        (entry, json!({ "fingerprint": null }), text)
+    } else {
+        let password = settled.first_password(&name, args.password_file.as_deref())?;
+        let (fingerprint, info) = match meet(settled, &name, &address, given, password)? {
+            Ok(Enrolled { fingerprint, info, .. }) => (fingerprint, info),
+            Err(code) => {
+                if code.is_unreached() && !settled.output.is_json() {
+                    eprintln!("    To add it now and confirm its identity later, use --unconfirmed.");
+                }
+                return Ok(Ending::SomeFailed);
+            }
+        };
+        if info.series != series {
+            eprintln!("{name}: the controller says that it is {} {}", info.series, info.serial);
+        }
+        let text = format!("Added {name}: {} {} {fingerprint}", info.series, info.serial);
+        let shown = json!({ "fingerprint": fingerprint, "info": info });
+        let (series, last) = (info.series, Some(Retrieved { at: chrono::Utc::now(), info }));
+        (ControllerEntry { name: name.clone(), address, series, fingerprint: Some(fingerprint), last }, shown, text)
     };
-    if enrolled.info.series != series {
-        eprintln!("{name}: the controller says that it is {} {}", enrolled.info.series, enrolled.info.serial);
-    }
-    let shown = json!({ "fingerprint": enrolled.fingerprint, "info": enrolled.info });
-    let text = format!("Added {name}: {} {} {}", enrolled.info.series, enrolled.info.serial, enrolled.fingerprint);
-    configuration.controllers.push(ControllerEntry {
-        name: name.clone(),
-        address,
-        series: enrolled.info.series,
-        fingerprint: Some(enrolled.fingerprint),
-        last: Some(Retrieved { at: chrono::Utc::now(), info: enrolled.info }),
-    });
+    configuration.controllers.push(entry);
     settled.workspace.save(&configuration, &lock)?;
     if settled.output.is_json() {
         settled.output.done(name.as_str(), &shown);
@@ -140,20 +156,15 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
     Ok(Ending::AllDone)
 }
 
-fn password(settled: &Settled, file: Option<&PathBuf>) -> Result<SecretString, Problem> {
-    let file = file.or(settled.connection_password_file.as_ref());
-    Ok(file.map(|f| read_secret(f)).transpose()?.unwrap_or_else(|| SecretString::from("")))
-}
-
-/// Logs in for the first time, under the fingerprint given or else the one that is found. `None`: it failed, and that
-/// was said.
+/// Logs in for the first time, under the fingerprint given or else the one that is found. An inner error is the
+/// controller's, and is printed already.
 fn meet(
     settled: &Settled,
     name: &ControllerName,
     address: &Address,
     given: Option<Fingerprint>,
     password: SecretString,
-) -> Result<Option<Enrolled>, Problem> {
+) -> Result<Result<Enrolled, ErrorCode>, Problem> {
     let context = settled.context(1)?;
     let enrolled = runtime()?.block_on(async {
         let fingerprint = match given {
@@ -165,13 +176,14 @@ fn meet(
     match enrolled {
         Ok(enrolled) => {
             if let Some(problem) = &enrolled.password_not_kept {
-                tracing::warn!(%problem, "the password has to be given with --connection-password-file each time");
+                let said = problem.code.explain(settled.output.language());
+                eprintln!("{name}: {}. {}", said.message, said.remedy);
             }
-            Ok(Some(enrolled))
+            Ok(Ok(enrolled))
         }
         Err(problem) => {
             failed(settled, name.as_str(), &problem);
-            Ok(None)
+            Ok(Err(problem.code))
         }
     }
 }
@@ -224,7 +236,6 @@ fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Endi
 /// removed and added again, on purpose.
 fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
-    let password = password(settled, args.password_file.as_ref())?;
     let lock = settled.lock()?;
     let mut configuration = settled.configuration()?;
     let unknown = || Problem::with_detail(ErrorCode::UnknownController, &args.name);
@@ -235,7 +246,8 @@ fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
         let detail = format!("expected {}, given {}", known.grouped(), given.grouped());
         return Err(Problem::with_detail(ErrorCode::FingerprintChanged, detail));
     }
-    let Some(enrolled) = meet(settled, &entry.name, &entry.address, given.or(entry.fingerprint), password)? else {
+    let password = settled.first_password(&entry.name, args.password_file.as_deref())?;
+    let Ok(enrolled) = meet(settled, &entry.name, &entry.address, given.or(entry.fingerprint), password)? else {
         return Ok(Ending::SomeFailed);
     };
     let shown = json!({ "fingerprint": enrolled.fingerprint, "info": enrolled.info });
@@ -273,6 +285,12 @@ fn remove(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
         } else {
             settled.output.text(&format!("Removed {}", entry.name));
         }
+    }
+    let vault = passwords.store().map(|store| store.status().vault);
+    if matches!(vault, Some(VaultState::Closed | VaultState::Declined)) {
+        eprintln!(
+            "The vault is not open: passwords in it stay; \"vault status\" lists them, \"vault forget\" deletes them."
+        );
     }
     Ok(Ending::AllDone)
 }

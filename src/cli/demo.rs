@@ -1,3 +1,4 @@
+use std::cell::OnceCell;
 use std::sync::Arc;
 
 use clap::Args;
@@ -28,6 +29,14 @@ pub fn run(settled: &Settled, args: &DemoArgs, language: Option<Language>) -> Re
     let mut configuration = Configuration::default();
     eprintln!("Starting {} virtual controllers…", args.controllers);
     plant.enter(&mut configuration, passwords.as_ref())?;
-    let settled = Settled { workspace, output: settled.output, yes: settled.yes, connection_password_file: None };
+    let settled = Settled {
+        workspace,
+        output: settled.output,
+        yes: settled.yes,
+        connection_password_file: None,
+        connection_password_list: None,
+        vault_passphrase_file: None,
+        passwords: OnceCell::new(),
+    };
     window::open(&settled, language, configuration, lock, passwords, None, plant)
 }

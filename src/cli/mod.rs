@@ -9,6 +9,7 @@ mod batch;
 mod ca;
 mod cert;
 mod clients;
+mod connection_passwords;
 mod controllers;
 mod crl;
 mod demo;
@@ -25,19 +26,22 @@ mod start_failure;
 mod table;
 mod trust_files;
 mod users;
+mod vault;
 mod verify;
 mod virtual_fleet;
 mod virtual_plant;
 mod window;
 
+use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::sync::Arc;
 
 use clap::{CommandFactory as _, Parser, Subcommand};
 
 use crate::model::{Language, Problem};
 use crate::platform::console;
-use crate::workspace::Workspace;
+use crate::workspace::{Passwords, Workspace};
 use output::Output;
 
 /// Configures the OPC UA servers inside robot controllers.
@@ -62,7 +66,7 @@ pub struct Cli {
     yes: bool,
 
     /// File with the connection password of the chosen controllers, "-" for standard input; without it the password is
-    /// taken from the operating system's keyring
+    /// taken from the operating system's keyring, or from the vault of the workspace
     #[arg(
         long,
         value_name = "FILE",
@@ -71,6 +75,27 @@ pub struct Cli {
         hide_env_values = true
     )]
     connection_password_file: Option<PathBuf>,
+
+    /// CSV file with the columns Name,Password: the connection password of each controller; what is not in it is looked
+    /// for as if there was no list
+    #[arg(
+        long,
+        value_name = "FILE.csv",
+        global = true,
+        env = "OPCUA_CONFIGURATOR_CONNECTION_PASSWORD_LIST",
+        hide_env_values = true
+    )]
+    connection_password_list: Option<PathBuf>,
+
+    /// File with the passphrase of the vault for connection passwords, "-" for standard input
+    #[arg(
+        long,
+        value_name = "FILE",
+        global = true,
+        env = "OPCUA_CONFIGURATOR_VAULT_PASSPHRASE_FILE",
+        hide_env_values = true
+    )]
+    vault_passphrase_file: Option<PathBuf>,
 
     /// More messages on standard error; twice for still more
     #[arg(short, long, action = clap::ArgAction::Count, global = true)]
@@ -130,6 +155,9 @@ enum Command {
     /// Switch the backup of what is made on or off
     #[command(subcommand)]
     Backup(backup::BackupCommand),
+    /// Connection passwords sealed in the workspace, for a computer without a keyring
+    #[command(subcommand)]
+    Vault(vault::VaultCommand),
     /// Print a completion script for a shell
     Completions { shell: clap_complete::Shell },
 }
@@ -148,6 +176,10 @@ struct Settled {
     output: Output,
     yes: bool,
     connection_password_file: Option<PathBuf>,
+    connection_password_list: Option<PathBuf>,
+    vault_passphrase_file: Option<PathBuf>,
+    /// Made when they are first needed.
+    passwords: OnceCell<Arc<dyn Passwords>>,
 }
 
 /// How a command ended; a [`Problem`] instead means that the request was wrong and nothing was sent.
@@ -174,6 +206,9 @@ pub fn main() -> ExitCode {
         output,
         yes: cli.yes,
         connection_password_file: cli.connection_password_file,
+        connection_password_list: cli.connection_password_list,
+        vault_passphrase_file: cli.vault_passphrase_file,
+        passwords: OnceCell::new(),
     };
     let is_window = !cli.json && matches!(cli.command, None | Some(Command::Demo(_)));
     let ending = match cli.command {
@@ -197,6 +232,7 @@ pub fn main() -> ExitCode {
         Some(Command::ImportSettings(args)) => settings_transfer::import(&settled, &args),
         Some(Command::Verify(args)) => verify::run(&settled, &args),
         Some(Command::Backup(command)) => backup::run(&settled, command),
+        Some(Command::Vault(command)) => vault::run(&settled, command),
         Some(Command::Completions { shell }) => {
             clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut std::io::stdout());
             Ok(Ending::AllDone)
@@ -234,11 +270,16 @@ fn init_log(verbose: u8) {
 /// Reads a file that is given on the command line, up to one byte more than `limit`.
 fn read_bounded(path: &Path, limit: usize) -> Result<Vec<u8>, Problem> {
     use std::io::Read as _;
-    let mut bytes = Vec::new();
-    std::fs::File::open(path).and_then(|file| file.take(limit as u64 + 1).read_to_end(&mut bytes)).map_err(|e| {
-        Problem::with_detail(crate::model::ErrorCode::FileUnreadable, format!("{}: {e}", path.display()))
-    })?;
-    Ok(bytes)
+    let read = || -> std::io::Result<Vec<u8>> {
+        let file = std::fs::File::open(path)?;
+        let length = file.metadata()?.len().min(limit as u64) + 1;
+        // Room for all of it at once: a vector that grows leaves copies of passwords behind.
+        let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or_default());
+        file.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    read()
+        .map_err(|e| Problem::with_detail(crate::model::ErrorCode::FileUnreadable, format!("{}: {e}", path.display())))
 }
 
 /// The runtime commands run their jobs on.

@@ -5,11 +5,16 @@ use secrecy::{ExposeSecret as _, SecretString};
 
 use super::secret_file::read_secret;
 use crate::model::{ErrorCode, Problem};
-use crate::pki::Fingerprint;
-use crate::workspace::{KeyringPasswords, Passwords};
 
 /// The passphrase of the small CA: from a file, or asked for on the terminal, twice where it is chosen.
 pub fn ca_passphrase(file: Option<&Path>, chosen: bool) -> Result<SecretString, Problem> {
+    passphrase("Passphrase of the CA", file, chosen)
+}
+
+/// A passphrase from a file, or asked for on the terminal: twice where it is `chosen`.
+///
+/// Errors: those of [`read_secret`]; [`ErrorCode::NoPassphrase`] where there is no terminal, or the entries differ.
+pub fn passphrase(question: &str, file: Option<&Path>, chosen: bool) -> Result<SecretString, Problem> {
     if let Some(file) = file {
         return read_secret(file);
     }
@@ -21,36 +26,9 @@ pub fn ca_passphrase(file: Option<&Path>, chosen: bool) -> Result<SecretString, 
         eprint!("{question}: ");
         terminal.read_secure_line().map(SecretString::from).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))
     };
-    let passphrase = ask("Passphrase of the CA")?;
+    let passphrase = ask(question)?;
     if chosen && ask("The same again")?.expose_secret() != passphrase.expose_secret() {
         return Err(Problem::with_detail(ErrorCode::NoPassphrase, "the two entries differ"));
     }
     Ok(passphrase)
-}
-
-/// One connection password for every controller of this command, or the keyring.
-#[derive(Debug, Default)]
-pub struct CommandPasswords {
-    given: Option<SecretString>,
-    keyring: KeyringPasswords,
-}
-
-impl CommandPasswords {
-    pub fn new(file: Option<&Path>) -> Result<Self, Problem> {
-        Ok(Self { given: file.map(read_secret).transpose()?, keyring: KeyringPasswords::default() })
-    }
-}
-
-impl Passwords for CommandPasswords {
-    fn get(&self, controller: Fingerprint) -> Option<SecretString> {
-        self.given.clone().or_else(|| self.keyring.get(controller))
-    }
-
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem> {
-        self.keyring.set(controller, password)
-    }
-
-    fn forget(&self, controller: Fingerprint) {
-        self.keyring.forget(controller);
-    }
 }

@@ -10,7 +10,7 @@ use crate::platform::console;
 use crate::session::ManagementConnector;
 use crate::ui::{self, WindowOptions};
 use crate::workspace::{
-    Configuration, KeyringPasswords, Passwords, Shown, Workspace, WorkspaceError, WorkspaceLock, show_running_window,
+    Configuration, Passwords, Shown, Workspace, WorkspaceError, WorkspaceLock, show_running_window,
 };
 
 /// The window on the workspace.
@@ -26,7 +26,11 @@ pub fn run(settled: &Settled, language: Option<Language>) -> Result<Ending, Prob
     let loaded = settled.workspace.load()?;
     let mut notice = loaded.notice();
     let mut configuration = loaded.configuration;
-    let passwords: Arc<dyn Passwords> = Arc::new(KeyringPasswords::default());
+    let store = settled.store(&configuration);
+    if settled.vault_passphrase_file.is_some() {
+        store.open_vault(&settled.vault_passphrase(false)?)?;
+    }
+    let passwords: Arc<dyn Passwords> = Arc::new(store);
     let plant = VirtualPlant::in_workspace(settled.workspace.root())?;
     if plant.is_inhabited()
         && let Err(problem) = plant.enter(&mut configuration, passwords.as_ref())

@@ -61,7 +61,7 @@ impl JobContext {
         let passwords = self.passwords.clone();
         tokio::task::spawn_blocking(move || passwords.get(fingerprint))
             .await
-            .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?
+            .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))??
             .ok_or_else(|| ErrorCode::PasswordMissing.into())
     }
 }

@@ -203,10 +203,14 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ErrorCode::PasswordMissing,
         text(
             "The connection password is not known",
-            "This computer has no keyring to keep it in, so it is asked for each time the program starts.",
-            "Enter the connection password of the controller.",
+            "It was not entered yet, or this computer has no keyring to keep it in.",
+            "Enter the connection password of the controller. A vault keeps it without a keyring (Options, vault init).",
         ),
-        text("缺少连接密码", "本机没有可保存密码的密钥环，因此每次启动程序都需要输入。", "请输入控制器的连接密码。"),
+        text(
+            "缺少连接密码",
+            "尚未输入该密码，或本机没有可保存密码的密钥环。",
+            "请输入控制器的连接密码。没有密钥环时，可用密码库保存密码（[选项]或 vault init）。",
+        ),
     ),
     (
         ErrorCode::LockedOut,
@@ -1129,9 +1133,109 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text(
             "The password cannot be kept on this computer",
             "There is no operating-system keyring, or it is locked.",
-            "Enter the password each time the program starts, or unlock the keyring.",
+            "Unlock the keyring, create a vault for passwords (Options, vault init), or enter the password at each start.",
         ),
-        text("本机无法保存密码", "没有操作系统密钥环，或密钥环已锁定。", "请在每次启动时输入密码，或解锁密钥环。"),
+        text(
+            "本机无法保存密码",
+            "没有操作系统密钥环，或密钥环已锁定。",
+            "请解锁密钥环，或创建密码库（[选项]或 vault init），或在每次启动时输入密码。",
+        ),
+    ),
+    (
+        ErrorCode::VaultMissing,
+        text(
+            "There is no vault for passwords",
+            "This workspace has no vault: none was created, or its file was moved or deleted.",
+            "Create one (Options, vault init), or restore the file.",
+        ),
+        text(
+            "没有密码库",
+            "该工作区没有密码库：尚未创建，或其文件已被移动或删除。",
+            "请创建密码库（[选项]或 vault init），或恢复该文件。",
+        ),
+    ),
+    (
+        ErrorCode::VaultExists,
+        text(
+            "There is a vault already",
+            "A workspace has one vault for passwords, and it is not replaced.",
+            "Open the vault that is there. To start anew, move its file away first.",
+        ),
+        text(
+            "密码库已存在",
+            "一个工作区只有一个密码库，不会被替换。",
+            "请打开现有密码库。如需重新创建，请先移走其文件。",
+        ),
+    ),
+    (
+        ErrorCode::VaultLocked,
+        text(
+            "The vault for passwords is not open",
+            "Its passphrase was not entered, or was changed by another program since.",
+            "Enter the passphrase of the vault (--vault-passphrase-file), or the connection password.",
+        ),
+        text(
+            "密码库未打开",
+            "尚未输入密码库口令，或口令已被其他程序更改。",
+            "请输入密码库口令（--vault-passphrase-file），或输入连接密码。",
+        ),
+    ),
+    (
+        ErrorCode::VaultPassphrase,
+        text(
+            "The passphrase does not open the vault",
+            "The passphrase is wrong.",
+            "Enter the passphrase that was chosen for the vault of this workspace.",
+        ),
+        text("口令无法打开密码库", "口令错误。", "请输入为该工作区密码库设置的口令。"),
+    ),
+    (
+        ErrorCode::VaultDamaged,
+        text(
+            "The vault for passwords is damaged",
+            "Its file was changed, cut off or replaced. It is left as it is.",
+            "Restore the file from a backup. To start anew, move it away and create a vault.",
+        ),
+        text(
+            "密码库已损坏",
+            "其文件被更改、截断或替换。该文件保持原样。",
+            "请从备份恢复该文件。如需重新创建，请先移走该文件。",
+        ),
+    ),
+    (
+        ErrorCode::VaultVersion,
+        text(
+            "The vault is of a later version",
+            "It was written by a later version of this program. It is left as it is.",
+            "Update this program.",
+        ),
+        text("密码库版本过新", "该密码库由更新版本的程序写入。文件保持原样。", "请更新本程序。"),
+    ),
+    (
+        ErrorCode::VaultFull,
+        text(
+            "The password does not fit into the vault",
+            "A vault holds at most 20,000 passwords of at most 1,024 bytes each.",
+            "Take passwords that are not needed out of it (vault forget), or use a shorter password.",
+        ),
+        text(
+            "密码库无法存入该密码",
+            "密码库最多保存 20,000 个密码，每个不超过 1,024 字节。",
+            "请删除不需要的密码（vault forget），或使用较短的密码。",
+        ),
+    ),
+    (
+        ErrorCode::BadPasswordList,
+        text(
+            "The file is not a list of connection passwords",
+            "It is a CSV file with the columns Name,Password, one controller a line.",
+            "Correct the line, then try again.",
+        ),
+        text(
+            "该文件不是连接密码列表",
+            "应为包含 Name,Password 两列的 CSV 文件，每行一个控制器。",
+            "请更正该行，然后重试。",
+        ),
     ),
     (
         ErrorCode::NoDisplay,

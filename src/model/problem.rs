@@ -134,6 +134,14 @@ pub enum ErrorCode {
     FileInUse,
     ConfigurationDamaged,
     KeyringUnavailable,
+    VaultMissing,
+    VaultExists,
+    VaultLocked,
+    VaultPassphrase,
+    VaultDamaged,
+    VaultVersion,
+    VaultFull,
+    BadPasswordList,
     NoDisplay,
     NoFilePicker,
     FolderNotOpened,
@@ -193,6 +201,14 @@ impl ErrorCode {
                 | FileInUse
                 | ConfigurationDamaged
                 | KeyringUnavailable
+                | VaultMissing
+                | VaultExists
+                | VaultLocked
+                | VaultPassphrase
+                | VaultDamaged
+                | VaultVersion
+                | VaultFull
+                | BadPasswordList
                 | NoFilePicker
                 | FolderNotOpened
                 | FileTooLarge
@@ -214,6 +230,11 @@ impl ErrorCode {
                 | UnprotectedFile
                 | Cancelled
         )
+    }
+
+    /// Whether nothing answered at the controller's address, as while it is switched off.
+    pub const fn is_unreached(self) -> bool {
+        matches!(self, Self::Unreachable | Self::Timeout | Self::ConnectionLost)
     }
 
     pub fn explain(self, language: Language) -> Explanation {
@@ -328,6 +349,8 @@ mod tests {
             NoAuthority | AuthorityExists | AuthorityBusy | AuthorityDamaged | AuthorityPassphrase | NoPassphrase
             | AuthorityExpired | CsrRefused | ShortKey | AlreadySigned | UnknownSerial | AlreadyRevoked
             | BackupDamaged | BackupPassphrase => 14,
+            VaultMissing | VaultExists | VaultLocked | VaultPassphrase | VaultDamaged | VaultVersion | VaultFull
+            | BadPasswordList => 8,
             VerifyFailed => 1,
             WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
             BadConnectionList => 1,
@@ -342,7 +365,7 @@ mod tests {
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 12 + 20 + 14 + 14 + 14 + 1 + 4 + 1 + 8 + 13;
+        let all = 7 + 13 + 20 + 14 + 14 + 14 + 8 + 1 + 4 + 1 + 8 + 13;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();

@@ -30,6 +30,11 @@ impl Fingerprint {
         Self(Sha256::digest(der).into())
     }
 
+    /// The hash itself, as [`Fingerprint::as_bytes`] gave it.
+    pub const fn from_bytes(hash: [u8; 32]) -> Self {
+        Self(hash)
+    }
+
     /// The hash itself.
     pub const fn as_bytes(&self) -> &[u8; 32] {
         &self.0

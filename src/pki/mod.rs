@@ -95,7 +95,7 @@ pub use kind::{PkiKind, recognise};
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
 pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_key, pkcs12_write, pkcs12_write_key};
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
-pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
+pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealCost, SealError, Sealed, SealingKey, open, seal};
 pub use self_signed::{ServerNames, self_signed};
 pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};
 pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

@@ -5,9 +5,6 @@ use thiserror::Error;
 use zeroize::Zeroizing;
 
 /// Bytes that only the passphrase opens: AES-256-GCM under a key that Argon2id makes of passphrase and salt.
-///
-/// Argon2id takes 19 MiB and two passes in one lane, which a controller can afford: tens of milliseconds, so not for
-/// an async task. The salt is fresh each time, and with it the key.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sealed {
     pub salt: [u8; SEAL_SALT_BYTES],
@@ -31,43 +28,104 @@ pub enum SealError {
     Encrypt,
 }
 
-/// Seals `plain`. `context` stays readable and is needed, unchanged, to open it again.
+/// What Argon2id takes to make a key of a passphrase. Both ends must use the same.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct SealCost {
+    memory_kib: u32,
+    passes: u32,
+    lanes: u32,
+}
+
+impl SealCost {
+    /// 19 MiB, two passes, one lane: what a controller can afford. Tens of milliseconds.
+    pub const CONTROLLER: Self = Self { memory_kib: 19_456, passes: 2, lanes: 1 };
+    /// 64 MiB, three passes, four lanes: the second choice of RFC 9106 §4, for a PC. Some hundred milliseconds.
+    pub const PC: Self = Self { memory_kib: 65_536, passes: 3, lanes: 4 };
+}
+
+/// Seals `plain` at [`SealCost::CONTROLLER`], under a fresh salt. `context` stays readable and is needed, unchanged, to
+/// open it again. Blocks.
 pub fn seal(plain: &[u8], context: &[u8], passphrase: &SecretString) -> Result<Sealed, SealError> {
-    let (mut salt, mut nonce) = ([0; SEAL_SALT_BYTES], [0; NONCE_LEN]);
-    for bytes in [&mut salt[..], &mut nonce[..]] {
-        getrandom::fill(bytes).map_err(|e| SealError::Random(e.to_string()))?;
-    }
-    let mut bytes = plain.to_vec();
-    key(passphrase, &salt)?
-        .seal_in_place_append_tag(Nonce::assume_unique_for_key(nonce), Aad::from(context), &mut bytes)
-        .map_err(|_| SealError::Encrypt)?;
-    Ok(Sealed { salt, nonce, bytes })
+    SealingKey::new(passphrase, SealCost::CONTROLLER)?.seal(plain, context)
 }
 
-/// What was sealed, if passphrase, context and every byte are those of then.
+/// What [`seal`] sealed, if passphrase, context and every byte are the same as then. Blocks.
 pub fn open(sealed: &Sealed, context: &[u8], passphrase: &SecretString) -> Result<Zeroizing<Vec<u8>>, SealError> {
-    let mut bytes = Zeroizing::new(sealed.bytes.clone());
-    let length = key(passphrase, &sealed.salt)?
-        .open_in_place(Nonce::assume_unique_for_key(sealed.nonce), Aad::from(context), &mut bytes)
-        .map_err(|_| SealError::NotOpened)?
-        .len();
-    bytes.truncate(length);
-    Ok(bytes)
+    SealingKey::with_salt(passphrase, sealed.salt, SealCost::CONTROLLER)?.open(sealed, context)
 }
 
-fn key(passphrase: &SecretString, salt: &[u8]) -> Result<LessSafeKey, SealError> {
-    let params = Params::new(MEMORY_KIB, PASSES, LANES, Some(KEY_BYTES)).map_err(|e| SealError::Key(e.to_string()))?;
-    let mut key = Zeroizing::new([0; KEY_BYTES]);
-    Argon2::new(Algorithm::Argon2id, Version::V0x13, params)
-        .hash_password_into(passphrase.expose_secret().as_bytes(), salt, &mut *key)
-        .map_err(|e| SealError::Key(e.to_string()))?;
-    UnboundKey::new(&AES_256_GCM, &*key).map(LessSafeKey::new).map_err(|_| SealError::Encrypt)
+/// The key made of a passphrase and a salt, for data that is opened and sealed again several times. Wiped when dropped.
+pub struct SealingKey {
+    salt: [u8; SEAL_SALT_BYTES],
+    key: Zeroizing<[u8; KEY_BYTES]>,
+}
+
+impl std::fmt::Debug for SealingKey {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("SealingKey(…)")
+    }
+}
+
+impl SealingKey {
+    /// Under a fresh salt. Blocks for as long as `cost` takes.
+    pub fn new(passphrase: &SecretString, cost: SealCost) -> Result<Self, SealError> {
+        let mut salt = [0; SEAL_SALT_BYTES];
+        getrandom::fill(&mut salt).map_err(|e| SealError::Random(e.to_string()))?;
+        Self::with_salt(passphrase, salt, cost)
+    }
+
+    /// Under the salt of something sealed before. Blocks for as long as `cost` takes.
+    pub fn with_salt(
+        passphrase: &SecretString,
+        salt: [u8; SEAL_SALT_BYTES],
+        cost: SealCost,
+    ) -> Result<Self, SealError> {
+        let SealCost { memory_kib, passes, lanes } = cost;
+        let failed = |e: argon2::Error| SealError::Key(e.to_string());
+        let params = Params::new(memory_kib, passes, lanes, Some(KEY_BYTES)).map_err(failed)?;
+        let mut key = Zeroizing::new([0; KEY_BYTES]);
+        Argon2::new(Algorithm::Argon2id, Version::V0x13, params)
+            .hash_password_into(passphrase.expose_secret().as_bytes(), &salt, &mut *key)
+            .map_err(failed)?;
+        Ok(Self { salt, key })
+    }
+
+    /// Seals under a fresh nonce of 96 random bits, which allows 2^32 of them (NIST SP 800-38D §8.3).
+    pub fn seal(&self, plain: &[u8], context: &[u8]) -> Result<Sealed, SealError> {
+        let mut nonce = [0; NONCE_LEN];
+        getrandom::fill(&mut nonce).map_err(|e| SealError::Random(e.to_string()))?;
+        // Room for the tag: bytes that are not sealed yet must not be left behind where the vector grows.
+        let mut bytes = Vec::with_capacity(plain.len() + AES_256_GCM.tag_len());
+        bytes.extend_from_slice(plain);
+        self.cipher()?
+            .seal_in_place_append_tag(Nonce::assume_unique_for_key(nonce), Aad::from(context), &mut bytes)
+            .map_err(|_| SealError::Encrypt)?;
+        Ok(Sealed { salt: self.salt, nonce, bytes })
+    }
+
+    /// What was sealed, if it was under this key and context and not a byte was changed since.
+    pub fn open(&self, sealed: &Sealed, context: &[u8]) -> Result<Zeroizing<Vec<u8>>, SealError> {
+        let mut bytes = Zeroizing::new(sealed.bytes.clone());
+        let length = self
+            .cipher()?
+            .open_in_place(Nonce::assume_unique_for_key(sealed.nonce), Aad::from(context), &mut bytes)
+            .map_err(|_| SealError::NotOpened)?
+            .len();
+        bytes.truncate(length);
+        Ok(bytes)
+    }
+
+    /// Whether it was made under the salt of `sealed`.
+    pub fn has_salt_of(&self, sealed: &Sealed) -> bool {
+        self.salt == sealed.salt
+    }
+
+    fn cipher(&self) -> Result<LessSafeKey, SealError> {
+        UnboundKey::new(&AES_256_GCM, &*self.key).map(LessSafeKey::new).map_err(|_| SealError::Encrypt)
+    }
 }
 
 const KEY_BYTES: usize = 32;
-const MEMORY_KIB: u32 = 19_456;
-const PASSES: u32 = 2;
-const LANES: u32 = 1;
 
 #[cfg(test)]
 mod tests {
@@ -91,5 +149,17 @@ mod tests {
             let cut = Sealed { bytes: sealed.bytes[..length].to_vec(), ..sealed.clone() };
             assert_eq!(open(&cut, b"R7A0000001", &right), Err(SealError::NotOpened));
         }
+    }
+    #[test]
+    fn a_key_seals_again_and_again_under_its_salt() {
+        let passphrase = SecretString::from("correct horse");
+        let key = SealingKey::new(&passphrase, SealCost::PC).unwrap();
+        let (one, two) = (key.seal(b"secret", b"1").unwrap(), key.seal(b"secret", b"1").unwrap());
+        assert!(key.has_salt_of(&one) && one.salt == two.salt && one.nonce != two.nonce && one.bytes != two.bytes);
+        let again = SealingKey::with_salt(&passphrase, one.salt, SealCost::PC).unwrap();
+        assert_eq!(again.open(&two, b"1").unwrap().as_slice(), b"secret");
+        assert_eq!(again.open(&two, b"2"), Err(SealError::NotOpened));
+        let cheaper = SealingKey::with_salt(&passphrase, one.salt, SealCost::CONTROLLER).unwrap();
+        assert_eq!(cheaper.open(&one, b"1"), Err(SealError::NotOpened));
     }
 }

@@ -4,6 +4,7 @@ use std::io;
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize, Serializer};
 
+use super::PasswordPlace;
 use crate::model::{Address, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, Language, Problem, text};
 use crate::pki::Fingerprint;
 
@@ -34,6 +35,14 @@ pub struct ControllerEntry {
     /// What was read last, so that the table is not empty after a restart.
     #[serde(default)]
     pub last: Option<Retrieved>,
+}
+
+impl ControllerEntry {
+    /// A controller that was not reached yet. Nothing is sent to it until its fingerprint was compared and accepted; its
+    /// series is what a person says until then.
+    pub const fn unconfirmed(name: ControllerName, address: Address, series: ControllerSeries) -> Self {
+        Self { name, address, series, fingerprint: None, last: None }
+    }
 }
 
 /// Information with the time of this PC at which it was read.
@@ -101,6 +110,8 @@ pub struct Options {
     /// Connect to a server as a client does after each change that starts it again. Default off: it takes seconds, and a
     /// server that does not know this program notes it among those it refused.
     pub verify_after_changes: bool,
+    /// Where connection passwords are kept. Default: the keyring.
+    pub passwords: PasswordPlace,
     /// `None` follows the operating system.
     pub language: Option<Language>,
     pub theme: ThemeChoice,
@@ -113,6 +124,7 @@ impl Default for Options {
             backup: false,
             parallelism: 16,
             verify_after_changes: false,
+            passwords: PasswordPlace::Keyring,
             language: None,
             theme: ThemeChoice::System,
             window: WindowState::default(),

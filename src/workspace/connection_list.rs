@@ -109,10 +109,9 @@ impl Skipped {
 }
 
 impl NewConnection {
-    /// The entry to be registered. Nothing is sent to it until its fingerprint was compared and accepted; its series
-    /// is a guess until then, since the list does not know it.
+    /// The entry to be registered, under a series that is a guess, since the list does not know it.
     pub fn entry(self, series: ControllerSeries) -> ControllerEntry {
-        ControllerEntry { name: self.name, address: self.address, series, fingerprint: None, last: None }
+        ControllerEntry::unconfirmed(self.name, self.address, series)
     }
 }
 

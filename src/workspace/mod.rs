@@ -8,6 +8,7 @@
 //!   .lock                            held by whoever may write the configuration
 //!   .window                          where a second start asks the window to come to the front (Unix)
 //!   CA/…                             the small CA, see `authority`
+//!   Vault/…                          connection passwords sealed under a passphrase, see `vault`
 //!   <serial>/option.json             settings export of one controller (manual 2.6.4)
 //!   <serial>/Cert/SelfSigned/…       what was made for one controller (manual appendix B-1)
 //!   <serial>/Cert/CSR/…              the signing request made last
@@ -27,11 +28,15 @@ mod connection_list;
 mod file_sets;
 mod import_files;
 mod key_backups;
+mod keyring;
 mod own_identity;
+mod password_list;
+mod password_store;
 mod passwords;
 mod recognise;
 mod running_window;
 mod settings_files;
+mod vault;
 
 use std::fs::{self, File, TryLockError};
 use std::io::{self, Read as _};
@@ -51,13 +56,15 @@ pub use connection_list::{
 };
 pub use import_files::{certificate_files_beside, read_import_file};
 pub use key_backups::{BackupKind, KeyBackup, KeyBackupSource};
+pub use keyring::{Keyring, NoKeyring, SystemKeyring};
 pub use own_identity::{KeyFile, OwnIdentity, OwnIdentityFiles};
-pub use passwords::{
-    KeyringPasswords, MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase, check_protects_files,
-};
+pub use password_list::{MAX_PASSWORD_LIST_BYTES, PasswordList, PasswordListError};
+pub use password_store::{PasswordPlace, PasswordStore, StoreStatus, VaultState};
+pub use passwords::{MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase, check_protects_files};
 pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
 pub use running_window::{Shown, StartRequests, show_running_window};
 pub use settings_files::SettingsFiles;
+pub use vault::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS, Vault, VaultError, VaultFiles};
 
 use crate::model::{ErrorCode, Problem};
 use crate::platform::replace;
@@ -193,6 +200,11 @@ impl Workspace {
     /// The small CA of this workspace, whether there is one or not.
     pub fn authority(&self) -> authority::AuthorityFiles {
         authority::AuthorityFiles::new(self.root.join("CA"))
+    }
+
+    /// The vault of this workspace, whether there is one or not.
+    pub fn vault(&self) -> VaultFiles {
+        VaultFiles::new(&self.root)
     }
 
     pub fn own_identity(&self) -> OwnIdentityFiles {

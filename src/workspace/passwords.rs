@@ -3,20 +3,33 @@ use std::collections::HashMap;
 use parking_lot::Mutex;
 use secrecy::{ExposeSecret as _, SecretString};
 
+use super::PasswordStore;
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Fingerprint;
 
 /// Where connection passwords are kept between jobs.
 ///
-/// A password belongs to a controller's identity, not to its name or address: it is never offered to anybody else.
-/// Calls may block (a keyring may ask the user to unlock it): not for the window's thread.
+/// A password belongs to a controller's identity, not to its name or address: it is never offered to another one. An
+/// empty password is a password: that of a controller that has none. Calls may block (a keyring may ask the user to
+/// unlock it): not for the window's thread.
 pub trait Passwords: Send + Sync {
-    fn get(&self, controller: Fingerprint) -> Option<SecretString>;
+    /// `None`: not known. An error says why it cannot be found out, as [`ErrorCode::VaultLocked`] does.
+    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem>;
 
     /// Remembers a password at least until the program ends. An error says that it will not outlive that.
     fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem>;
 
+    /// Remembers the same password for several controllers; of several errors, the last.
+    fn set_for(&self, controllers: &[Fingerprint], password: &SecretString) -> Result<(), Problem> {
+        controllers.iter().fold(Ok(()), |result, controller| self.set(*controller, password.clone()).and(result))
+    }
+
     fn forget(&self, controller: Fingerprint);
+
+    /// The store with the vault, where this is one.
+    fn store(&self) -> Option<&PasswordStore> {
+        None
+    }
 }
 
 /// The shortest passphrase that may protect a file of secrets, in characters.
@@ -48,64 +61,27 @@ impl std::fmt::Debug for MemoryPasswords {
     }
 }
 
-impl Passwords for MemoryPasswords {
-    fn get(&self, controller: Fingerprint) -> Option<SecretString> {
+impl MemoryPasswords {
+    pub(super) fn known(&self, controller: Fingerprint) -> Option<SecretString> {
         self.0.lock().get(&controller).cloned()
     }
 
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem> {
+    pub(super) fn put(&self, controller: Fingerprint, password: SecretString) {
         self.0.lock().insert(controller, password);
+    }
+}
+
+impl Passwords for MemoryPasswords {
+    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem> {
+        Ok(self.known(controller))
+    }
+
+    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem> {
+        self.put(controller, password);
         Ok(())
     }
 
     fn forget(&self, controller: Fingerprint) {
         self.0.lock().remove(&controller);
-    }
-}
-
-/// The operating system's keyring; memory where there is none.
-#[derive(Debug, Default)]
-pub struct KeyringPasswords {
-    memory: MemoryPasswords,
-}
-
-impl KeyringPasswords {
-    const SERVICE: &str = "opcua-configurator";
-
-    fn entry(controller: Fingerprint) -> keyring::Result<keyring::Entry> {
-        keyring::Entry::new(Self::SERVICE, &controller.to_string())
-    }
-}
-
-impl Passwords for KeyringPasswords {
-    fn get(&self, controller: Fingerprint) -> Option<SecretString> {
-        if let Some(password) = self.memory.get(controller) {
-            return Some(password);
-        }
-        match Self::entry(controller).and_then(|entry| entry.get_password()) {
-            Ok(password) => {
-                let password = SecretString::from(password);
-                // Reading from memory cannot fail, and asking the keyring once per start is enough.
-                self.memory.set(controller, password.clone()).ok()?;
-                Some(password)
-            }
-            Err(error) => {
-                tracing::debug!(%error, "no password in the keyring");
-                None
-            }
-        }
-    }
-
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem> {
-        let kept = Self::entry(controller).and_then(|entry| entry.set_password(password.expose_secret()));
-        self.memory.set(controller, password)?;
-        kept.map_err(|e| Problem::with_detail(ErrorCode::KeyringUnavailable, e))
-    }
-
-    fn forget(&self, controller: Fingerprint) {
-        self.memory.forget(controller);
-        if let Err(error) = Self::entry(controller).and_then(|entry| entry.delete_credential()) {
-            tracing::debug!(%error, "no password to delete from the keyring");
-        }
     }
 }

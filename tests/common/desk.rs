@@ -15,7 +15,10 @@ pub const DONE: Duration = Duration::from_secs(120);
 
 pub fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_opcua-configurator"));
-    command.env_remove("OPCUA_CONFIGURATOR_CONNECTION_PASSWORD_FILE").env_remove("RUST_LOG");
+    for variable in ["CONNECTION_PASSWORD_FILE", "CONNECTION_PASSWORD_LIST", "VAULT_PASSPHRASE_FILE"] {
+        command.env_remove(format!("OPCUA_CONFIGURATOR_{variable}"));
+    }
+    command.env_remove("RUST_LOG");
     // No keyring of the person who runs the tests.
     command.env_remove("DBUS_SESSION_BUS_ADDRESS").env("RUST_BACKTRACE", "0");
     command

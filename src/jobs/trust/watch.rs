@@ -114,6 +114,7 @@ const fn is_final(code: ErrorCode) -> bool {
         code,
         WrongPassword
             | PasswordMissing
+            | VaultLocked
             | LockedOut
             | FingerprintChanged
             | FingerprintUnknown

@@ -3,6 +3,7 @@
 mod authority;
 mod tokio_backend;
 mod trust_files;
+mod vault;
 
 use std::collections::VecDeque;
 use std::path::PathBuf;
@@ -12,6 +13,7 @@ use secrecy::SecretString;
 
 pub use authority::{AuthorityDone, AuthorityWork};
 pub use tokio_backend::{BackendOptions, TokioBackend};
+pub use vault::VaultWork;
 
 use super::model::trust::ReadTrustFile;
 use super::model::{DroppedFile, ExportFound, JobId, Task};
@@ -19,7 +21,7 @@ use super::picker::FileKind;
 use crate::jobs::{Enrolled, JobController, JobEvent, Summary, WatchEvent};
 use crate::model::{Address, ControllerInfo, Problem};
 use crate::pki::Fingerprint;
-use crate::workspace::{Configuration, ControllerEntry};
+use crate::workspace::{Configuration, ControllerEntry, StoreStatus};
 
 /// Work to be done.
 #[derive(Debug, Clone)]
@@ -57,6 +59,8 @@ pub enum Command {
     },
     /// Stops a job after the step in hand.
     Cancel(JobId),
+    /// Creating, opening and changing the passphrase end with [`Event::VaultDone`].
+    Vault(VaultWork),
     /// Forgets the passwords of deleted controllers.
     Forget(Vec<Fingerprint>),
     /// Lets a person choose a file; ends with [`Event::FilePicked`].
@@ -157,6 +161,9 @@ pub enum Event {
         result: Result<AuthorityDone, Problem>,
     },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
+    VaultDone(Result<(), Problem>),
+    /// What the store of passwords is like has changed.
+    PasswordStore(StoreStatus),
     /// A password works, but only until the program ends.
     PasswordNotKept(Problem),
     SaveFailed(Problem),

@@ -4,10 +4,12 @@ use std::sync::{Arc, mpsc};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
+use parking_lot::Mutex;
 use secrecy::SecretString;
 use tokio::runtime::Runtime;
 use tokio_util::sync::CancellationToken;
 
+use super::vault::StoreReporter;
 use super::{Backend, Command, Event, FileContents, VirtualFleetStarter, trust_files};
 use crate::jobs::{self, JobContext, JobController};
 use crate::model::{ControllerInfo, ErrorCode, Problem};
@@ -44,6 +46,7 @@ pub struct TokioBackend {
     starter: Option<Arc<dyn VirtualFleetStarter>>,
     picker: Arc<dyn FilePicker>,
     emit: Emit,
+    store: Arc<StoreReporter>,
     events: mpsc::Receiver<Event>,
     running: HashMap<JobId, CancellationToken>,
     runtime: Option<Runtime>,
@@ -77,7 +80,12 @@ impl TokioBackend {
         });
         let requests = listen_for_starts(&options, &runtime, &emit);
         let saver = Saver::start(options.workspace.clone(), options.lock, emit.clone())?;
+        let store = StoreReporter { passwords: options.passwords.clone(), emit: emit.clone(), last: Mutex::new(None) };
+        let store = Arc::new(store);
+        let first = store.clone();
+        runtime.spawn_blocking(move || first.report());
         Ok(Self {
+            store,
             workspace: options.workspace,
             context: JobContext::new(options.connector, options.passwords, 1),
             starter: options.starter,
@@ -116,7 +124,7 @@ impl TokioBackend {
         let operation = task.operation(&self.workspace);
         let mut context = self.context.clone();
         context.parallelism = parallelism.max(1);
-        let emit = self.emit.clone();
+        let (emit, store) = (self.emit.clone(), self.store.clone());
         self.spawn(async move {
             if let Some(password) = password {
                 let of = controllers.iter().filter_map(|c| c.fingerprint).collect();
@@ -129,6 +137,7 @@ impl TokioBackend {
                 move |event| emit(Event::Job { job, event })
             };
             let summary = jobs::run(controllers, operation, context, cancel, on_event).await;
+            report(store).await;
             emit(Event::JobEnded { job, summary });
         });
     }
@@ -170,16 +179,16 @@ async fn remember(
     controllers: Vec<crate::pki::Fingerprint>,
     password: SecretString,
 ) -> Result<(), Problem> {
-    tokio::task::spawn_blocking(move || {
-        let mut result = Ok(());
-        for controller in controllers {
-            // One that cannot be kept must not keep the others out.
-            result = passwords.set(controller, password.clone()).and(result);
-        }
-        result
-    })
-    .await
-    .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?
+    tokio::task::spawn_blocking(move || passwords.set_for(&controllers, &password))
+        .await
+        .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?
+}
+
+/// What the store is like, before the event of the work that may have changed it.
+async fn report(store: Arc<StoreReporter>) {
+    if let Err(error) = tokio::task::spawn_blocking(move || store.report()).await {
+        tracing::error!(%error, "the state of the password store is not reported");
+    }
 }
 
 /// What can be said of an export without its passphrase; whatever would keep it from being imported is a problem now.
@@ -207,10 +216,11 @@ impl Backend for TokioBackend {
                 });
             }
             Command::Enroll { job, address, fingerprint, password } => {
-                let cancel = self.token(job);
+                let (cancel, store) = (self.token(job), self.store.clone());
                 self.spawn(async move {
                     let enrolling = jobs::enroll(&address, fingerprint, password, &context);
                     if let Some(result) = cancel.run_until_cancelled(enrolling).await {
+                        report(store).await;
                         emit(Event::Enrolled { job, result: result.map(Box::new) });
                     }
                 });
@@ -235,9 +245,25 @@ impl Backend for TokioBackend {
                     token.cancel();
                 }
             }
-            Command::Forget(fingerprints) => {
+            Command::Vault(work) => {
+                let store = self.store.clone();
                 if let Some(runtime) = &self.runtime {
-                    runtime.spawn_blocking(move || fingerprints.into_iter().for_each(|f| context.passwords.forget(f)));
+                    runtime.spawn_blocking(move || {
+                        let result = work.run(context.passwords.store());
+                        store.report();
+                        if let Some(result) = result {
+                            emit(Event::VaultDone(result));
+                        }
+                    });
+                }
+            }
+            Command::Forget(fingerprints) => {
+                let store = self.store.clone();
+                if let Some(runtime) = &self.runtime {
+                    runtime.spawn_blocking(move || {
+                        fingerprints.into_iter().for_each(|f| context.passwords.forget(f));
+                        store.report();
+                    });
                 }
             }
             Command::PickFile { job, kind, title } => {

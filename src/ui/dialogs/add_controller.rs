@@ -1,4 +1,4 @@
-use egui::{ComboBox, Frame, Label, RichText, Stroke, Ui};
+use egui::{Button, ComboBox, Frame, Label, RichText, Stroke, Ui};
 
 use crate::model::ControllerSeries;
 use crate::pki::Fingerprint;
@@ -25,7 +25,7 @@ pub fn show(ui: &Ui, form: &mut AddController, focus: bool, model: &Model, messa
     let buttons = Buttons { submit: Some((text(submit), why.map(text))), close: Some(text(T::Cancel)) };
     dialog(ui, "add controller", text(title), theme::DIALOG, buttons, |ui| match form.stage {
         AddStage::Form | AddStage::Probing => {
-            ui.add_enabled_ui(!waiting, |ui| fields(ui, form, focus, model));
+            ui.add_enabled_ui(!waiting, |ui| fields(ui, form, focus, model, messages));
         }
         AddStage::Compare(fingerprint) | AddStage::Enrolling(fingerprint) => compare(ui, form, fingerprint, model),
     })
@@ -103,9 +103,18 @@ fn password(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
     });
 }
 
-fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
+fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
     failure(ui, add, model);
+    if add.may_be_unconfirmed() {
+        let why = add.incomplete(model).map(text);
+        let response = ui.add_enabled(why.is_none(), Button::new(text(T::AddUnconfirmed)));
+        if response.on_disabled_hover_text(why.unwrap_or_default()).clicked() {
+            messages.push(Message::AddUnconfirmed);
+        }
+        fine_print(ui, text(T::AddUnconfirmedTip));
+        ui.add_space(theme::SPACE);
+    }
     let (name_error, address_error) = (add.name_error(model), add.address_error(model));
     form(ui, "controller", |ui| {
         labelled(ui, text(T::ColumnName), |ui| {

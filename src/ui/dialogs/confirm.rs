@@ -4,7 +4,8 @@ use crate::jobs::Confirmation;
 use crate::ui::model::{Model, Task};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, list, note};
+use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, list, note};
+use crate::workspace::VaultState;
 
 /// Says what an operation will do, and to which controllers.
 pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, model: &Model) -> Answer {
@@ -36,6 +37,9 @@ pub fn delete(ui: &Ui, names: &[String], model: &Model) -> Answer {
     let buttons = Buttons { submit: Some((text(T::Delete), None)), close: Some(text(T::Cancel)) };
     dialog(ui, "delete", &texts::title_for(model.language, T::DeleteTitle, names), theme::DIALOG, buttons, |ui| {
         ui.add(Label::new(text(T::DeleteText)).wrap());
+        if model.store.is_some_and(|store| matches!(store.vault, VaultState::Closed | VaultState::Declined)) {
+            fine_print(ui, text(T::DeleteVaultClosed));
+        }
         ui.add_space(theme::SPACE);
         self::names(ui, names);
     })

@@ -25,6 +25,7 @@ mod trust;
 mod type_select;
 mod user_specified;
 mod users;
+mod vault;
 mod verify;
 
 use egui::{Key, Modifiers, Ui};
@@ -96,6 +97,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, on_top: bool, focus: bool, model: &Model, m
         Dialog::Drop(form) => drop::show(ui, form, model),
         Dialog::Authority(view) => authority::show(ui, view, model, messages),
         Dialog::AuthorityForm(form) => authority_form::show(ui, form, focus, model, messages),
+        Dialog::Vault(form) => vault::show(ui, form, focus, model),
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),

@@ -49,6 +49,9 @@ pub fn options(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
                 }
                 None
             });
+            if let Some(store) = &model.store {
+                super::vault::options(ui, store, model, messages);
+            }
         });
     })
 }

@@ -5,7 +5,7 @@ use crate::model::ErrorCode;
 use crate::ui::model::{Model, PasswordForm};
 use crate::ui::texts::TextKey as T;
 use crate::ui::theme;
-use crate::ui::widgets::{Answer, Buttons, dialog, form, labelled, mistake, secret_field};
+use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, secret_field};
 
 /// Ask for the connection password of controllers whose password is not known.
 pub fn show(ui: &Ui, ask: &mut PasswordForm, focus: bool, model: &Model) -> Answer {
@@ -31,6 +31,9 @@ pub fn show(ui: &Ui, ask: &mut PasswordForm, focus: bool, model: &Model) -> Answ
                 }
                 if ask.wrong {
                     mistake(ui, ErrorCode::WrongPassword.explain(model.language).message);
+                }
+                if model.store.is_some_and(|store| !store.keeps()) {
+                    fine_print(ui, text(T::PasswordNotKept));
                 }
                 Some(response)
             });

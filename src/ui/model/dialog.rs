@@ -4,7 +4,7 @@ use super::trust::{AddTrustForm, DeleteTrust, DetailsView, MoveTrust, TrustForm}
 use super::{
     ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, DropForm,
     ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose, RestoreForm, RowId, Task, TransferForm,
-    TypeSelectForm, UserSpecifiedForm, VerifyView,
+    TypeSelectForm, UserSpecifiedForm, VaultForm, VerifyView,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -43,6 +43,7 @@ pub enum Dialog {
     Drop(DropForm),
     Authority(AuthorityView),
     AuthorityForm(AuthorityForm),
+    Vault(VaultForm),
     Backup { on: bool },
     Options,
     Error(Problem),

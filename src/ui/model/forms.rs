@@ -70,6 +70,12 @@ impl AddController {
         Ok((name, address))
     }
 
+    /// Whether it can be added without being reached: that was tried, and nothing answered.
+    pub fn may_be_unconfirmed(&self) -> bool {
+        let unreached = self.problem.as_ref().is_some_and(|problem| problem.code.is_unreached());
+        unreached && self.stage == AddStage::Form && self.identity.is_none()
+    }
+
     pub fn secret(&self) -> SecretString {
         SecretString::from(self.password.0.clone())
     }

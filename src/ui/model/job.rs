@@ -254,9 +254,10 @@ impl RowState {
         }
     }
 
-    /// The connection password is missing or no longer the right one.
+    /// The connection password is missing, in a closed vault, or no longer the right one.
     pub fn needs_password(&self) -> bool {
-        self.problem().is_some_and(|p| matches!(p.code, ErrorCode::PasswordMissing | ErrorCode::WrongPassword))
+        use ErrorCode::{PasswordMissing, VaultLocked, WrongPassword};
+        self.problem().is_some_and(|p| matches!(p.code, PasswordMissing | WrongPassword | VaultLocked))
     }
 }
 

@@ -17,6 +17,7 @@ mod rows;
 mod server_log;
 mod transfer;
 pub mod trust;
+mod vault;
 mod verify;
 
 #[cfg(test)]
@@ -47,13 +48,14 @@ pub use reduce::reduce;
 pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
 pub use server_log::LogView;
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
+pub use vault::{VaultAction, VaultForm, VaultRequest};
 pub use verify::VerifyView;
 
 use super::backend::Event;
 use super::command::UiCommand;
 use super::texts::Zone;
 use crate::model::{Language, Problem};
-use crate::workspace::{Configuration, Options, ThemeChoice, Workspace};
+use crate::workspace::{Configuration, Options, StoreStatus, ThemeChoice, Workspace};
 use trust::TrustAction;
 
 /// Everything the views draw from.
@@ -76,6 +78,10 @@ pub struct Model {
     pub hover: Option<Hover>,
     pub virtual_available: bool,
     pub virtual_starting: bool,
+    /// What the store of connection passwords is like; `None` where there is none, as in the demo.
+    pub store: Option<StoreStatus>,
+    /// Why a password that was entered is known only until the window is closed.
+    pub not_kept: Option<Problem>,
     /// Something the window remembers has changed since it was last saved.
     pub unsaved: bool,
     last_job: u64,
@@ -137,6 +143,10 @@ pub enum Message {
     Dropped(Vec<PathBuf>),
     /// Read the file whose path is typed into the dialog on top.
     ReadFile,
+    /// Put the controller into the list that cannot be reached now.
+    AddUnconfirmed,
+    /// About the vault for connection passwords.
+    Vault(VaultRequest),
     /// Leave the controller out whose identity is asked for.
     SkipIdentity,
     /// Open the dialog for a certificate signing request.
@@ -188,6 +198,8 @@ impl Model {
             hover: None,
             virtual_available: false,
             virtual_starting: false,
+            store: None,
+            not_kept: None,
             unsaved: false,
             last_job: 0,
             dropping: None,

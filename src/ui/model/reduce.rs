@@ -44,6 +44,8 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::Hovered(paths) => commands = model.hovered(paths),
         Message::Dropped(paths) => commands = model.drop_files(paths),
         Message::ReadFile => commands = model.read_typed(),
+        Message::AddUnconfirmed => commands = model.add_unconfirmed(),
+        Message::Vault(request) => commands = model.vault_request(request),
         Message::SkipIdentity => commands = model.skip_identity(),
         Message::NewCsr => commands = model.new_csr(),
         Message::RefreshLog => commands = model.refresh_log(),
@@ -237,7 +239,16 @@ impl Model {
             Event::AuthorityDone { job, result } => self.authority_done(job, result),
             Event::VirtualStarted(result) => self.virtual_started(result),
             Event::StartedAgain => vec![Command::ShowWindow],
-            Event::PasswordNotKept(problem) | Event::SaveFailed(problem) | Event::FolderNotOpened(problem) => {
+            Event::VaultDone(result) => self.vault_done(result),
+            Event::PasswordStore(store) => {
+                self.store_changed(store);
+                vec![]
+            }
+            Event::PasswordNotKept(problem) => {
+                self.password_not_kept(problem);
+                vec![]
+            }
+            Event::SaveFailed(problem) | Event::FolderNotOpened(problem) => {
                 // Once is enough for the same trouble.
                 let shown = self.dialogs.iter().any(|d| matches!(d, Dialog::Error(p) if p.code == problem.code));
                 if !shown {
@@ -362,10 +373,21 @@ impl Model {
         }
     }
 
+    /// Asks for the passphrase of a vault that was found closed, or else for the passwords that the job lacked.
     pub(super) fn ask_passwords(&mut self) {
-        let Some(job) = &self.job else { return };
+        let Some(job) = self.job.as_ref().filter(|job| job.summary.is_some()) else { return };
+        let failed = |code: ErrorCode| job.rows.iter().any(|row| row.state.problem().is_some_and(|p| p.code == code));
+        if failed(ErrorCode::VaultLocked) {
+            let (rows, task, purpose) = (job.without_password(), job.task.clone(), job.purpose);
+            return self.ask_vault_for(rows, task, purpose);
+        }
+        self.ask_connection_passwords();
+    }
+
+    pub(super) fn ask_connection_passwords(&mut self) {
+        let Some(job) = self.job.as_ref().filter(|job| job.summary.is_some()) else { return };
         let rows = job.without_password();
-        if rows.is_empty() || job.summary.is_none() {
+        if rows.is_empty() {
             return;
         }
         let wrong = job

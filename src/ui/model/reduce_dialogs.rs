@@ -98,11 +98,9 @@ impl Model {
             Dialog::Delete { rows, .. } => self.delete(&rows),
             Dialog::Password(form) => {
                 let password = SecretString::from(form.password.0.clone());
-                if form.purpose.is_shown() {
-                    self.end_processing();
-                }
-                self.start(form.task, form.rows, form.purpose, Some(password))
+                self.go_on(form.task, form.rows, form.purpose, Some(password))
             }
+            Dialog::Vault(form) => self.submit_vault(form),
             Dialog::Confirm { task, rows, .. } => {
                 // The form that asked for it has done its work.
                 if self.dialogs.last().is_some_and(Dialog::is_done_by_confirming) {
@@ -179,6 +177,20 @@ impl Model {
         }
     }
 
+    /// Tries a job again with controllers whose password is known by now.
+    pub(super) fn go_on(
+        &mut self,
+        task: Task,
+        rows: Vec<RowId>,
+        purpose: Purpose,
+        password: Option<SecretString>,
+    ) -> Vec<Command> {
+        if purpose.is_shown() {
+            self.end_processing();
+        }
+        self.start(task, rows, purpose, password)
+    }
+
     /// Keeps the form under the confirmation, so that Cancel leads back to it.
     fn ask(&mut self, form: Dialog, planned: Option<(Task, Vec<RowId>)>) -> Vec<Command> {
         self.dialogs.push(form);
@@ -193,6 +205,7 @@ impl Model {
         match self.dialogs.last_mut() {
             None => vec![],
             Some(Dialog::Processing(_)) => self.close_processing(),
+            Some(Dialog::Vault(_)) => self.close_vault(),
             Some(Dialog::AddController(form)) if form.identity.is_some() => {
                 let waiting = matches!(form.stage, AddStage::Probing | AddStage::Enrolling(_));
                 self.dialogs.pop();
@@ -321,6 +334,20 @@ impl Model {
         command.into_iter().collect()
     }
 
+    /// After it was not reached: it is added without a fingerprint, as those of a connection list.
+    pub(super) fn add_unconfirmed(&mut self) -> Vec<Command> {
+        let Some(Dialog::AddController(form)) = self.dialogs.last() else { return vec![] };
+        if !form.may_be_unconfirmed() {
+            return vec![];
+        }
+        let Ok((name, address)) = form.target(self) else { return vec![] };
+        let entry = ControllerEntry::unconfirmed(name, address, form.series);
+        self.dialogs.pop();
+        self.status = Some(texts::added(self.language, entry.name.as_str()));
+        self.rows.add(entry, self.now);
+        self.save()
+    }
+
     pub(super) fn cancel_last(&mut self) -> Vec<Command> {
         let job = JobId(self.last_job);
         self.next_job();
@@ -379,7 +406,7 @@ impl Model {
             let mut commands = self.save();
             commands.extend(self.next_identity());
             if let Some(problem) = password_not_kept {
-                self.show_problem(problem);
+                self.first_password_not_kept(problem);
             }
             return commands;
         }
@@ -387,7 +414,7 @@ impl Model {
         self.status = Some(texts::added(self.language, entry.name.as_str()));
         self.rows.add(entry, now);
         if let Some(problem) = password_not_kept {
-            self.show_problem(problem);
+            self.first_password_not_kept(problem);
         }
         self.save()
     }

@@ -3,6 +3,7 @@
 mod server_log;
 mod transfer;
 mod trust;
+mod vault;
 mod verify;
 
 use chrono::Duration;
@@ -13,6 +14,7 @@ use crate::model::{ControllerInfo, ErrorCode, ServerSettings};
 use crate::pki::Fingerprint;
 use crate::protocol::Revisioned;
 use crate::ui::backend::{Command, FileContents};
+use crate::ui::texts::TextKey;
 use crate::workspace::ControllerEntry;
 
 fn now() -> DateTime<Utc> {
@@ -394,7 +396,7 @@ fn a_form_is_filled_also_under_a_notice() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
-    reduce(&mut model, Message::Event(Event::PasswordNotKept(ErrorCode::KeyringUnavailable.into())));
+    reduce(&mut model, Message::Event(Event::SaveFailed(ErrorCode::WorkspaceFull.into())));
     let settings = Outcome::Settings(Revisioned { revision: 9, value: ServerSettings::default() });
     event(&mut model, id, finished(0, Ok(settings)));
     assert!(matches!(&model.dialogs[..], [Dialog::Settings(form), Dialog::Error(_)] if !form.reading));

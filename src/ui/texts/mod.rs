@@ -7,12 +7,14 @@ mod authority;
 mod files;
 mod sentences;
 mod trust;
+mod vault;
 mod verify;
 
 pub use authority::*;
 pub use files::*;
 pub use sentences::*;
 pub use trust::*;
+pub use vault::*;
 pub use verify::*;
 
 use crate::model::Language;
@@ -191,14 +193,45 @@ texts! {
     Skip: "Skip", "跳过";
     FingerprintMatches: "It matches, add", "一致，添加";
 
+    AddUnconfirmed: "Add without confirming its identity", "添加但暂不确认控制器";
+    AddUnconfirmedTip: "For a controller that is switched off. Nothing is sent to it until its fingerprint was compared; then its password is asked for.", "用于未开机的控制器。核对指纹之前不会向其发送任何数据；届时再输入密码。";
+
     // delete
     DeleteTitle: "Delete from the list", "从列表中删除";
     DeleteText: "They are removed from the list with their connection passwords. Nothing is changed in the controllers, and saved files stay.", "将从列表中删除以下控制器及其连接密码。控制器本身不受影响，已保存的文件保留。";
+
+    DeleteVaultClosed: "The vault for passwords is closed: open it first, or their passwords stay in it.", "密码库未打开：请先打开，否则其中的密码将保留。";
 
     // password
     PasswordTitle: "Connection password needed", "需要连接密码";
     PasswordText: "Enter the password for Ethernet connections that is set in these controllers", "请输入以下控制器中设置的以太网连接密码";
     PasswordUse: "Use for these controllers", "用于以下控制器";
+
+    PasswordNotKept: "The password is known until this window is closed. A vault keeps it without a keyring, see the options.", "该密码仅在本窗口关闭前有效。没有密钥环时可用密码库保存，请见[选项]。";
+
+    // the vault for connection passwords
+    PasswordsLabel: "Connection passwords", "连接密码";
+    PasswordsKeyring: "Keyring of this computer", "本机密钥环";
+    PasswordsVault: "Vault in the workspace", "工作区密码库";
+    PasswordsNotKept: "Passwords are not kept", "密码未保存";
+    PasswordsNotKeptTip: "A password that was entered is known until this window is closed. Click to do something about it.", "已输入的密码仅在本窗口关闭前有效。单击以处理。";
+    VaultOpen: "Open vault…", "打开密码库…";
+    VaultClose: "Close vault", "关闭密码库";
+    VaultChange: "Change passphrase…", "更改口令…";
+    VaultCreateTitle: "Create a vault for passwords", "创建密码库";
+    VaultCreateText: "The vault keeps connection passwords in the workspace, sealed under a passphrase. It is asked for once each time the program starts. Nobody can open the vault without it.", "密码库将连接密码以口令加密保存在工作区中。每次启动程序时输入一次口令。没有口令则无法打开密码库。";
+    VaultCreateNow: "Create", "创建";
+    VaultOpenTitle: "Open the vault for passwords", "打开密码库";
+    VaultOpenText: "The connection passwords are in the vault of this workspace. If it is not opened, they are asked for instead.", "连接密码保存在该工作区的密码库中。如不打开，将逐一询问密码。";
+    VaultOpenNow: "Open", "打开";
+    VaultChangeTitle: "Change the passphrase of the vault", "更改密码库口令";
+    VaultChangeText: "Copies of the vault that were made before still open with the old passphrase.", "此前复制的密码库文件仍可用旧口令打开。";
+    VaultChangeNow: "Change", "更改";
+    VaultNewPassphrase: "New passphrase", "新口令";
+    VaultPassphraseNeeded: "Enter the passphrase of the vault", "请输入密码库口令";
+    VaultCreated: "The vault was created: connection passwords are kept in it", "已创建密码库，连接密码将保存在其中";
+    VaultOpened: "The vault is open", "密码库已打开";
+    VaultPassphraseChanged: "The passphrase of the vault was changed", "密码库口令已更改";
 
     // confirmation
     ConfirmStops: "The OPC UA server is stopped for the change, and started again if it was running. Connected clients are cut off.", "更改期间将停止 OPC UA 服务器，若之前正在运行，完成后会重新启动。已连接的客户端将断开。";

@@ -18,7 +18,7 @@ pub fn window(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     let bar = |margin| Frame::new().fill(palette.panel).inner_margin(margin);
     Panel::top("menu").frame(bar(theme::MENU_MARGIN)).show(ui, |ui| main_menu::show(ui, model, messages));
     Panel::top("toolbar").frame(bar(theme::TOOLBAR_MARGIN)).show(ui, |ui| toolbar::show(ui, model, messages));
-    Panel::bottom("status").frame(bar(theme::STATUS_MARGIN)).show(ui, |ui| status_bar::show(ui, model));
+    Panel::bottom("status").frame(bar(theme::STATUS_MARGIN)).show(ui, |ui| status_bar::show(ui, model, messages));
     CentralPanel::default().frame(Frame::new().fill(palette.background)).show(ui, |ui| {
         if model.rows.is_empty() {
             welcome::show(ui, model, messages);

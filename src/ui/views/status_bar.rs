@@ -1,10 +1,10 @@
-use egui::{Align, Layout, RichText, Ui};
+use egui::{Align, Button, Layout, RichText, Ui};
 
-use crate::ui::model::Model;
+use crate::ui::model::{Message, Model, VaultRequest};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 
-pub fn show(ui: &mut Ui, model: &Model) {
+pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     let (language, rows, palette) = (model.language, &model.rows, palette(ui));
     let small = |text: String| RichText::new(text).size(theme::SMALL_TEXT);
     ui.horizontal(|ui| {
@@ -24,6 +24,13 @@ pub fn show(ui: &mut Ui, model: &Model) {
         }
         if rows.expiring_count() > 0 {
             ui.label(small(texts::expiring(language, rows.expiring_count())).color(palette.warning));
+        }
+        if model.not_kept.is_some() {
+            let text = small(T::PasswordsNotKept.text(language).to_owned()).color(palette.warning);
+            let response = ui.add(Button::new(text).frame(false)).on_hover_text(T::PasswordsNotKeptTip.text(language));
+            if response.clicked() {
+                messages.push(Message::Vault(VaultRequest::NotKept));
+            }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if model.virtual_starting {

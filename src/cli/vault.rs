@@ -1,0 +1,192 @@
+use std::path::PathBuf;
+
+use clap::Subcommand;
+use serde_json::json;
+
+use super::connection_passwords::read_password_list;
+use super::passwords::passphrase;
+use super::{Ending, Settled};
+use crate::model::{ErrorCode, Problem};
+use crate::pki::Fingerprint;
+use crate::workspace::{Configuration, PasswordPlace, PasswordStore, VaultState};
+
+#[derive(Debug, Subcommand)]
+pub enum VaultCommand {
+    /// Create the vault and use it from now on; passwords that the keyring has are taken over
+    ///
+    /// Its passphrase has at least 8 characters and is read from --vault-passphrase-file, or asked for. Nobody can open
+    /// the vault without it.
+    Init,
+    /// Say whether there is a vault and whether it is used; with --vault-passphrase-file, whose passwords are in it
+    Status,
+    /// Put the connection passwords of a list into the vault
+    Import {
+        /// CSV with the columns Name,Password; an empty password says that the controller has none
+        #[arg(value_name = "FILE.csv")]
+        file: PathBuf,
+    },
+    /// Take passwords out of the vault; the controllers stay in the list
+    Forget {
+        /// Names of controllers, or fingerprints of controllers that are not in the list any more
+        #[arg(required = true, value_name = "NAME")]
+        names: Vec<String>,
+    },
+    /// Change the passphrase of the vault; copies of its file still open with the old one
+    Passphrase {
+        /// File with the new passphrase, "-" for standard input; without it the passphrase is asked for
+        #[arg(long, value_name = "FILE")]
+        new_passphrase_file: Option<PathBuf>,
+    },
+    /// Keep connection passwords in the vault
+    On,
+    /// Keep connection passwords in the operating system's keyring; the vault stays as it is
+    Off,
+}
+
+pub fn run(settled: &Settled, command: VaultCommand) -> Result<Ending, Problem> {
+    match command {
+        VaultCommand::Init => init(settled),
+        VaultCommand::Status => status(settled),
+        VaultCommand::Import { file } => import(settled, &file),
+        VaultCommand::Forget { names } => forget(settled, &names),
+        VaultCommand::Passphrase { new_passphrase_file } => change_passphrase(settled, new_passphrase_file),
+        VaultCommand::On => use_place(settled, PasswordPlace::Vault),
+        VaultCommand::Off => use_place(settled, PasswordPlace::Keyring),
+    }
+}
+
+fn init(settled: &Settled) -> Result<Ending, Problem> {
+    let lock = settled.lock()?;
+    let mut configuration = settled.configuration()?;
+    let store = settled.store(&configuration);
+    if store.status().vault != VaultState::None {
+        return Err(Problem::with_detail(ErrorCode::VaultExists, path(settled)));
+    }
+    let passphrase = settled.vault_passphrase(true)?;
+    let known: Vec<Fingerprint> = configuration.controllers.iter().filter_map(|entry| entry.fingerprint).collect();
+    let passwords = store.create_vault(&passphrase, &known)?;
+    configuration.options.passwords = PasswordPlace::Vault;
+    settled.workspace.save(&configuration, &lock)?;
+    let text = format!("Created {}; passwords taken over from the keyring: {passwords}", path(settled));
+    settled.output.finished(&json!({ "vault": path(settled), "passwords": passwords }), &text);
+    Ok(Ending::AllDone)
+}
+
+fn status(settled: &Settled) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    let store = settled.store(&configuration);
+    if settled.vault_passphrase_file.is_some() {
+        store.open_vault(&settled.vault_passphrase(false)?)?;
+    }
+    let status = store.status();
+    let place = status.place;
+    let exists = status.vault != VaultState::None;
+    let mut result = json!({ "vault": path(settled), "exists": exists, "passwords_in": place });
+    let mut text = match (exists, place) {
+        (false, _) => format!("There is no vault at {}", path(settled)),
+        (true, PasswordPlace::Vault) => format!("The vault {} is used", path(settled)),
+        (true, PasswordPlace::Keyring) => {
+            format!("The vault {} is used where there is no keyring; see \"vault on\"", path(settled))
+        }
+    };
+    if let Some(controllers) = store.in_vault() {
+        let (names, unlisted) = named(&configuration, &controllers);
+        let all = names.iter().chain(&unlisted).map(|name| format!("\n  {name}"));
+        text.push_str(&format!("\nPasswords: {}{}", controllers.len(), all.collect::<String>()));
+        result["controllers"] = json!(names);
+        result["unlisted"] = json!(unlisted);
+    }
+    settled.output.finished(&result, &text);
+    Ok(Ending::AllDone)
+}
+
+/// The names of controllers in the list, and the fingerprints of the others.
+fn named(configuration: &Configuration, controllers: &[Fingerprint]) -> (Vec<String>, Vec<String>) {
+    let entry = |fingerprint| configuration.controllers.iter().find(|entry| entry.fingerprint == Some(fingerprint));
+    let (mut names, mut unlisted) = (Vec::new(), Vec::new());
+    for controller in controllers {
+        match entry(*controller) {
+            Some(entry) => names.push(entry.name.to_string()),
+            None => unlisted.push(controller.to_string()),
+        }
+    }
+    names.sort();
+    (names, unlisted)
+}
+
+fn import(settled: &Settled, file: &std::path::Path) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    let list = read_password_list(file)?;
+    let found: Vec<_> = list
+        .iter()
+        .map(|(name, password)| Ok((fingerprint(&configuration, name)?, password.clone())))
+        .collect::<Result<_, Problem>>()?;
+    let count = found.len();
+    opened(settled, &configuration)?.put_into_vault(found)?;
+    settled.output.finished(&json!({ "passwords": count }), &format!("Passwords put into the vault: {count}"));
+    Ok(Ending::AllDone)
+}
+
+fn forget(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
+    let configuration = settled.configuration()?;
+    let wanted: Vec<Fingerprint> = names
+        .iter()
+        .map(|name| match name.parse() {
+            Ok(unlisted) if configuration.find(name).is_none() => Ok(unlisted),
+            _ => fingerprint(&configuration, name),
+        })
+        .collect::<Result<_, _>>()?;
+    let store = opened(settled, &configuration)?;
+    let known = store.in_vault().unwrap_or_default();
+    store.forget_in_vault(&wanted)?;
+    for (name, controller) in names.iter().zip(&wanted) {
+        let forgotten = known.contains(controller);
+        if settled.output.is_json() {
+            settled.output.done(name, &json!({ "forgotten": forgotten }));
+        } else {
+            let text = if forgotten { "Forgot the password of" } else { "The vault has no password of" };
+            settled.output.text(&format!("{text} {name}"));
+        }
+    }
+    Ok(Ending::AllDone)
+}
+
+fn change_passphrase(settled: &Settled, file: Option<PathBuf>) -> Result<Ending, Problem> {
+    let store = settled.store(&settled.configuration()?);
+    let present = settled.vault_passphrase(false)?;
+    // Not after the new one was entered twice.
+    store.open_vault(&present)?;
+    let new = passphrase("New passphrase of the vault", file.as_deref(), true)?;
+    store.change_passphrase(&present, &new)?;
+    settled.output.finished(&json!({ "vault": path(settled) }), "The passphrase of the vault is changed");
+    Ok(Ending::AllDone)
+}
+
+fn use_place(settled: &Settled, place: PasswordPlace) -> Result<Ending, Problem> {
+    if place == PasswordPlace::Vault && !settled.workspace.vault().exists() {
+        return Err(Problem::with_detail(ErrorCode::VaultMissing, path(settled)));
+    }
+    let lock = settled.lock()?;
+    let mut configuration = settled.configuration()?;
+    configuration.options.passwords = place;
+    settled.workspace.save(&configuration, &lock)?;
+    status(settled)
+}
+
+fn opened(settled: &Settled, configuration: &Configuration) -> Result<PasswordStore, Problem> {
+    let store = settled.store(configuration);
+    if store.status().vault == VaultState::None {
+        return Err(Problem::with_detail(ErrorCode::VaultMissing, path(settled)));
+    }
+    store.open_vault(&settled.vault_passphrase(false)?)?;
+    Ok(store)
+}
+
+fn fingerprint(configuration: &Configuration, name: &str) -> Result<Fingerprint, Problem> {
+    let entry = configuration.find(name).ok_or_else(|| Problem::with_detail(ErrorCode::UnknownController, name))?;
+    entry.fingerprint.ok_or_else(|| Problem::with_detail(ErrorCode::FingerprintUnknown, name))
+}
+
+fn path(settled: &Settled) -> String {
+    settled.workspace.vault().path().display().to_string()
+}

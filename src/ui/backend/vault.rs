@@ -1,0 +1,74 @@
+use std::sync::Arc;
+
+use parking_lot::Mutex;
+use secrecy::SecretString;
+
+use super::Event;
+use crate::model::{ErrorCode, Problem};
+use crate::pki::Fingerprint;
+use crate::workspace::{PasswordPlace, PasswordStore, Passwords, StoreStatus};
+
+/// Something for the store of connection passwords to do.
+#[derive(Debug, Clone)]
+pub enum VaultWork {
+    /// Makes a vault; passwords of these controllers are taken over from the keyring.
+    Create {
+        passphrase: SecretString,
+        controllers: Vec<Fingerprint>,
+    },
+    Open {
+        passphrase: SecretString,
+    },
+    ChangePassphrase {
+        passphrase: SecretString,
+        new: SecretString,
+    },
+    Use(PasswordPlace),
+    /// The passphrase is not asked for again.
+    Decline,
+    Close,
+}
+
+impl VaultWork {
+    /// Blocks for as long as it takes. The result of what a dialog waits for; `None` for the rest.
+    pub(super) fn run(self, store: Option<&PasswordStore>) -> Option<Result<(), Problem>> {
+        let Some(store) = store else { return Some(Err(ErrorCode::VaultMissing.into())) };
+        match self {
+            Self::Create { passphrase, controllers } => Some(store.create_vault(&passphrase, &controllers).map(drop)),
+            Self::Open { passphrase } => Some(store.open_vault(&passphrase).map(drop)),
+            Self::ChangePassphrase { passphrase, new } => Some(store.change_passphrase(&passphrase, &new)),
+            Self::Use(place) => {
+                store.use_place(place);
+                None
+            }
+            Self::Decline => {
+                store.decline_vault();
+                None
+            }
+            Self::Close => {
+                store.close_vault();
+                None
+            }
+        }
+    }
+}
+
+/// Reports what the store is like whenever that has changed.
+pub(super) struct StoreReporter {
+    pub passwords: Arc<dyn Passwords>,
+    pub emit: Arc<dyn Fn(Event) + Send + Sync>,
+    pub last: Mutex<Option<StoreStatus>>,
+}
+
+impl StoreReporter {
+    /// May wait for a vault that is being opened: not for the window's thread.
+    pub fn report(&self) {
+        let Some(store) = self.passwords.store() else { return };
+        // Held until it is emitted, so that the last report is the newest.
+        let mut last = self.last.lock();
+        let status = store.status();
+        if last.replace(status) != Some(status) {
+            (self.emit)(Event::PasswordStore(status));
+        }
+    }
+}
