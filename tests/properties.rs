@@ -18,7 +18,7 @@ use opcua_configurator::model::{
 use opcua_configurator::pki::{Certificate, Fingerprint, PkiError, describe, read_bundle};
 use opcua_configurator::protocol::{ExportContent, ExportError, ExportedUser, SettingsExport};
 use opcua_configurator::workspace::{
-    Configuration, ConnectionList, ControllerEntry, Options, ThemeChoice, WindowState, Workspace,
+    Configuration, ConnectionList, ControllerEntry, Options, PasswordPlace, ThemeChoice, WindowState, Workspace,
 };
 use proptest::prelude::*;
 
@@ -261,7 +261,7 @@ proptest! {
         parallelism in 1_usize..=64,
         size in prop::option::of((points(), points())),
         columns in prop::collection::btree_map("[a-z]{1,8}", points(), 0..4),
-        (chinese, verify_after_changes) in any::<(bool, bool)>(),
+        (chinese, verify_after_changes, vault) in any::<(bool, bool, bool)>(),
     ) {
         let mut configuration = Configuration::default();
         configuration.controllers = entries
@@ -275,6 +275,7 @@ proptest! {
             backup,
             verify_after_changes,
             parallelism,
+            passwords: if vault { PasswordPlace::Vault } else { PasswordPlace::Keyring },
             language: chinese.then_some(Language::Zh),
             theme: ThemeChoice::Dark,
             window: WindowState { size, columns, sort: None },
