@@ -7,17 +7,13 @@ use std::time::Duration;
 use opcua::crypto::SecurityPolicy as WirePolicy;
 use opcua::server::ServerHandle;
 use opcua::types::StatusCode;
-use tokio::io::AsyncReadExt as _;
-use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
-use tokio::net::{TcpListener, TcpStream};
-use tokio::sync::watch;
+use tokio::net::TcpListener;
 use tokio::task::{JoinSet, spawn_blocking};
-use tokio::time::{Instant, sleep, sleep_until, timeout};
+use tokio::time::sleep;
 
 use super::super::certificate_store::PkiFolder;
 use super::super::endpoints::wire;
-use super::client_to_server::{ClientToServer, read_hello};
-use super::connections::{Connection, Connections, Identity, Stop, stop_asked};
+use super::connections::{Connection, Connections, Identity, Stop};
 use super::fault::Fault;
 use super::frame::Open;
 use super::inner_server::InnerServer;
@@ -25,7 +21,6 @@ use super::judge::{self, Judge, invalid, read_chain};
 use super::limits::Limits;
 use super::report::Reporter;
 use super::rewrap::{Own, SecuredClient};
-use super::server_to_client::{ServerToClient, say};
 use super::sessions::{SessionNumber, Sessions};
 use crate::model::SecurityPolicy;
 use crate::pki::{Certificate, CertificateFlaw, Rejection, TrustLists, check_application_uri};
@@ -38,13 +33,13 @@ use crate::virtual_controller::connection_limits::Standing;
 #[derive(Debug)]
 pub(in super::super) struct Gate {
     settings: Settings,
-    server: InnerServer,
+    pub(super) server: InnerServer,
     own: Arc<Own>,
     judge: Judge,
     pki: PkiFolder,
-    connections: Connections,
+    pub(super) connections: Connections,
     sessions: Sessions,
-    reporter: Reporter,
+    pub(super) reporter: Reporter,
 }
 
 /// What the gate of one server does not change.
@@ -131,108 +126,6 @@ impl Gate {
             }
         }
         cut
-    }
-
-    async fn serve(self: Arc<Self>, client: TcpStream, address: SocketAddr) {
-        let (stop, stopped) = watch::channel(None);
-        let Some(place) = self.connections.enter(address, stop) else {
-            self.reporter.too_many(address);
-            let fault = Fault::new(StatusCode::BadTcpNotEnoughResources, "too many connections");
-            let _ = client.try_write(&fault.to_message());
-            return;
-        };
-        self.reporter.connected(address);
-        // Both ends write whole messages.
-        let _ = client.set_nodelay(true);
-        let (mut from, mut to) = client.into_split();
-        if self.talk(place.connection(), &mut from, &mut to, stopped).await {
-            // Closing while there is something unread could keep the last words from arriving.
-            let _ = timeout(self.settings.limits.linger, unheard(&mut from)).await;
-        }
-        self.reporter.disconnected(address);
-    }
-
-    /// From the first byte to the last word. Whether the client should be given time to read that.
-    async fn talk(
-        self: &Arc<Self>,
-        connection: &Arc<Connection>,
-        from: &mut OwnedReadHalf,
-        to: &mut OwnedWriteHalf,
-        mut stopped: watch::Receiver<Option<Stop>>,
-    ) -> bool {
-        let limits = &self.settings.limits;
-        let start = Instant::now();
-        let greeting = tokio::select! {
-            greeting = self.greet(from, start + limits.open) => greeting,
-            stop = stop_asked(&mut stopped) => return say(to, &stop).await,
-        };
-        let (hello, server) = match greeting {
-            Ok(Some(greeting)) => greeting,
-            Ok(None) => return false,
-            Err(fault) => return say(to, &self.refuse(connection, fault)).await,
-        };
-        let _ = server.set_nodelay(true);
-        let (mut from_server, mut to_server) = server.into_split();
-        let mut up = ClientToServer::new(self, connection, hello);
-        let mut down = ServerToClient::new(self, connection);
-        let told = self
-            .pass_on(connection, (&mut up, from, &mut to_server), (&mut down, &mut from_server, to), stopped, start)
-            .await;
-        // The server may have to close sessions, or to answer first.
-        let left = async {
-            if up.leave(&mut to_server).await {
-                std::future::pending::<()>().await;
-            }
-        };
-        let _ = timeout(LEAVE, async {
-            tokio::select! {
-                () = left => {}
-                () = down.hear_out(&mut from_server) => {}
-            }
-        })
-        .await;
-        told
-    }
-
-    /// Passes on what client and server say until the connection has to end. Whether the client should be given time to
-    /// read its last words.
-    async fn pass_on(
-        self: &Arc<Self>,
-        connection: &Arc<Connection>,
-        (up, from, to_server): (&mut ClientToServer<'_>, &mut OwnedReadHalf, &mut OwnedWriteHalf),
-        (down, from_server, to): (&mut ServerToClient<'_>, &mut OwnedReadHalf, &mut OwnedWriteHalf),
-        stopped: watch::Receiver<Option<Stop>>,
-        start: Instant,
-    ) -> bool {
-        let limits = &self.settings.limits;
-        let up = async {
-            if let Err(stop) = up.run(from, to_server, start + limits.open).await {
-                connection.stop(stop);
-                std::future::pending::<()>().await;
-            }
-            // The client says no more; what the server still has to say gets some time.
-            sleep(limits.stall).await;
-        };
-        let in_vain = async {
-            sleep_until(start + limits.open + limits.session).await;
-            if !connection.activity.has_session() {
-                connection.stop(Stop::Told(Fault::new(StatusCode::BadTimeout, "no session in time")));
-            }
-            std::future::pending::<()>().await;
-        };
-        tokio::select! {
-            told = down.run(from_server, to, stopped) => told,
-            () = up => false,
-            () = in_vain => false,
-        }
-    }
-
-    /// Reads the client's Hello and finds the server. `None` if the client has gone.
-    async fn greet(&self, from: &mut OwnedReadHalf, by: Instant) -> Result<Option<(Vec<u8>, TcpStream)>, Fault> {
-        let Some(hello) = read_hello(from, by).await? else { return Ok(None) };
-        let server = self.server.connect().await;
-        let server = server.map_err(|_| Fault::new(StatusCode::BadServerHalted, "the server has stopped"))?;
-        Ok(Some((hello, server)))
     }
 
     pub(in super::super) fn pki(&self) -> &PkiFolder {
@@ -465,19 +358,11 @@ impl Drop for Attached {
     }
 }
 
-/// Reads on until the client has hung up.
-async fn unheard(from: &mut OwnedReadHalf) {
-    let mut bytes = [0; 4096];
-    while matches!(from.read(&mut bytes).await, Ok(1..)) {}
-}
-
 fn unproven(leaf: &Certificate) -> String {
     format!("no proof that the client has the key of its certificate ({})", leaf.subject())
 }
 
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
-/// What the server gets for the sessions of a client that has left.
-const LEAVE: Duration = Duration::from_secs(2);
 
 #[cfg(test)]
 #[path = "tests.rs"]

@@ -6,7 +6,8 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `gate` | every connection from its first byte to its last, and who is let in |
+//! | `gate` | who is let in |
+//! | `service` | one connection from its first byte to its last |
 //! | `judge` | the trust lists in force, and what a peer is told of its rejection |
 //! | `inner_server` | how the gate, and nothing else, reaches the crate's server |
 //! | `client_to_server` | whole chunks only, and requests for sessions and logins looked at |
@@ -60,6 +61,7 @@ mod properties;
 mod report;
 mod rewrap;
 mod server_to_client;
+mod service;
 mod sessions;
 
 pub use gate::CutConnection;

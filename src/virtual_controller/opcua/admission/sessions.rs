@@ -159,7 +159,7 @@ type Client = (Source, Option<Vec<u8>>);
 
 impl Held {
     fn is_activated(&self, find: FindSession<'_>) -> bool {
-        self.token.as_ref().and_then(|token| find(token)).is_some_and(|live| live.is_activated)
+        self.token.as_ref().and_then(find).is_some_and(|live| live.is_activated)
     }
 }
 

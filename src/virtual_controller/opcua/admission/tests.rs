@@ -6,8 +6,10 @@ use std::sync::LazyLock;
 use opcua::core::comms::tcp_types::ErrorMessage;
 use opcua::types::{DecodingOptions, SimpleBinaryDecodable as _};
 use tempfile::TempDir;
-use tokio::io::AsyncWriteExt as _;
+use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
+use tokio::net::TcpStream;
 use tokio::task::JoinHandle;
+use tokio::time::{Instant, timeout};
 
 use super::super::super::Events;
 use super::super::super::tests::identity::Identity;
