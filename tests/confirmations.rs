@@ -415,7 +415,13 @@ impl Watch {
         self.check("trust the configurator", TrustConfigurator { identity }, Undisturbed).await;
         let (other, own) = (Identity::new("other"), self.trusted.thumbprint());
         self.check("add", added("other.der", &[&other.certificate], &[]), Undisturbed).await;
-        let relist = |from, to, thumbprint| MoveClients { from, to, thumbprints: vec![thumbprint], based_on: None };
+        let relist = |from, to, thumbprint| MoveClients {
+            from,
+            to,
+            thumbprints: vec![thumbprint],
+            based_on: None,
+            accept_notes: true,
+        };
         let (trusted, rejected) = (ClientList::Trusted, ClientList::Rejected);
         self.check("reject another", relist(trusted, rejected, other.thumbprint()), Undisturbed).await;
         self.check("trust another", relist(rejected, trusted, other.thumbprint()), Undisturbed).await;
