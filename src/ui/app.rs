@@ -58,14 +58,10 @@ impl<B: Backend> App<B> {
 
     /// One frame: take in what happened, draw, change the model, hand out the work.
     pub fn frame(&mut self, ui: &mut egui::Ui) {
-        self.model.set_now((self.clock)());
-        let mut messages = Vec::new();
-        while let Some(event) = self.backend.poll() {
-            messages.push(Message::Event(event));
-        }
-        self.take_in(&mut messages, ui.ctx());
+        self.take_in_events(ui.ctx());
         self.apply_theme(ui.ctx());
 
+        let mut messages = Vec::new();
         drops::read(ui.ctx(), &self.model, &mut messages);
         keys::read(ui.ctx(), &self.model, &mut messages);
         views::window(ui, &self.model, &mut messages);
@@ -86,6 +82,16 @@ impl<B: Backend> App<B> {
         self.focus_when_due(ui.ctx());
         // The bench of the window counts these.
         tracing::trace!(frame = ui.ctx().cumulative_frame_nr(), "drawn");
+    }
+
+    /// What the backend did since; also while the window is minimised, when nothing is drawn.
+    fn take_in_events(&mut self, ctx: &egui::Context) {
+        self.model.set_now((self.clock)());
+        let mut messages = Vec::new();
+        while let Some(event) = self.backend.poll() {
+            messages.push(Message::Event(event));
+        }
+        self.take_in(&mut messages, ctx);
     }
 
     fn take_in(&mut self, messages: &mut Vec<Message>, ctx: &egui::Context) {
@@ -154,6 +160,10 @@ impl<B: Backend> App<B> {
 }
 
 impl<B: Backend> eframe::App for App<B> {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.take_in_events(ctx);
+    }
+
     fn ui(&mut self, ui: &mut egui::Ui, _frame: &mut eframe::Frame) {
         self.frame(ui);
     }
