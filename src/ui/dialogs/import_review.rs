@@ -18,8 +18,7 @@ pub fn show(ui: &Ui, review: &ImportReview, model: &Model) -> Answer {
     dialog(ui, "import review", &title, theme::DIALOG_WIDE, buttons, |ui| {
         if importable > 0 {
             note(ui, palette(ui).warning, |ui| {
-                let import = review.source.import(review.warns(), &model.workspace);
-                for remark in import.confirmation().map(texts::confirmation).unwrap_or_default() {
+                for remark in texts::confirmation(review.confirmation(&model.workspace)) {
                     ui.add(Label::new(text(remark)).wrap());
                 }
             });

@@ -9,8 +9,9 @@ use secrecy::SecretString;
 use super::files::first_path;
 use super::{Dialog, Model, Purpose, RowId, Task, Typed};
 use crate::jobs::{
-    CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, ImportCaCertificate,
-    ImportUserCertificate, Operation, Outcome, RestoreCertificate, UserCertificateFiles,
+    CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, Confirmation,
+    ImportCaCertificate, ImportUserCertificate, Operation, Outcome, RestoreCertificate, ServerEffect,
+    UserCertificateFiles,
 };
 use crate::model::{CertificateSummary, Problem};
 use crate::pki::{Finding, Issuers, Severity};
@@ -209,6 +210,17 @@ impl ImportReview {
     pub fn importable(&self) -> Vec<RowId> {
         let good = |found: &Result<Checked, Problem>| found.as_ref().is_ok_and(|checked| !checked.is_refused());
         self.found.iter().filter(|(_, _, found)| good(found)).map(|(row, ..)| *row).collect()
+    }
+
+    /// What is agreed to. Signing requests without certificates replace no certificate, and no server is started again
+    /// for them.
+    pub fn confirmation(&self, workspace: &Workspace) -> Confirmation {
+        let all = self.source.import(self.warns(), workspace).confirmation().unwrap_or_default();
+        let mut checked = self.found.iter().filter_map(|(_, _, found)| found.as_ref().ok());
+        if checked.any(|checked| checked.summary.is_some()) {
+            return all;
+        }
+        Confirmation { server: ServerEffect::GoesOn, replaces_certificate: false, ..all }
     }
 
     /// Whether clients may complain about something that is imported.

@@ -425,7 +425,7 @@ texts! {
 
     // backups of keys
     RestoreTitle: "Restore backup", "恢复备份";
-    RestoreText: "Puts a key back into the controller that was kept on this computer, under the type it had.", "将保存在本机的密钥以原有类型恢复到控制器。";
+    RestoreText: "A key that was kept on this computer is put back into the controller, under the type it had.", "将保存在本机的密钥以原有类型恢复到控制器。";
     RestoreKind: "Backup of", "备份内容";
     RestoreSelfSigned: "Self-signed certificate and its key (1_key.pfx)", "自签名证书及其密钥 (1_key.pfx)";
     RestoreCaSigned: "CSR, its key and the certificate from the CA (3_key.pfx)", "CSR、其密钥以及 CA 证书 (3_key.pfx)";
