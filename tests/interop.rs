@@ -19,7 +19,7 @@ use std::fs;
 use std::path::Path;
 
 use cell::Cell;
-use opcua_configurator::pki::{Certificate, PkiError, pkcs12_read, read_pair};
+use opcua_configurator::pki::{Certificate, FileContent, PkiError, Wanted, pkcs12_read, read_pair};
 use peers::{ClientCertificate, Node, OpenSsl, Python};
 use serde_json::Value;
 
@@ -354,10 +354,12 @@ fn whatever_openssl_writes_as_a_key_is_read_or_told_how_to_convert() {
             assert_eq!(wrong, Some(PkiError::WrongPasswordOrDamaged), "{variant:?} {form}");
         }
         let unknown = [&word[..], &["-v1", "PBE-MD5-DES"], &old].concat();
-        assert_eq!(read(&unknown, form).0, Err(PkiError::UnsupportedKeyEncryption), "{form}");
+        let named = PkiError::UnsupportedKeyEncryption("DES with MD2 or MD5 (PKCS#5 v1.5)".to_owned());
+        assert_eq!(read(&unknown, form).0, Err(named), "{form}");
     }
     let traditional = ["rsa", "-traditional", "-aes256", "-passout", "pass:Secret123"];
-    assert_eq!(read(&traditional, "PEM").0, Err(PkiError::TraditionalEncryption));
+    let told = PkiError::OtherContent { found: FileContent::TraditionalKey, wanted: Wanted::PrivateKey };
+    assert_eq!(read(&traditional, "PEM").0, Err(told));
 }
 
 #[test]

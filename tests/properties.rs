@@ -185,10 +185,14 @@ proptest! {
     #[test]
     fn an_activation_file_gives_each_controller_the_keys_of_its_line(
         lines in prop::collection::vec(line(), 0..20),
-        separator in prop::sample::select(vec![",", ";"]),
-        end in prop::sample::select(vec!["\n", "\r\n"]),
+        separator in prop::sample::select(vec![",", ";", "\t"]),
+        end in prop::sample::select(vec!["\n", "\r\n", "\r"]),
         bom in any::<bool>(),
+        quoted in any::<bool>(),
+        empty_fields in 0_usize..3,
     ) {
+        // As a spreadsheet pads its rows.
+        let end = &(separator.repeat(empty_fields) + end);
         let mut text = format!("{}{FIRST_LINE}{end}", if bom { "\u{feff}" } else { "" });
         let (mut good, mut mistakes) = (BTreeMap::<_, Vec<_>>::new(), Vec::new());
         for (number, line) in (2..).zip(&lines) {
@@ -196,6 +200,8 @@ proptest! {
                 Line::Good(serial, keys, blank) => {
                     good.entry(serial.clone()).or_default().push((number, keys.clone()));
                     let fields = [serial.to_string(), keys.licence.to_string(), keys.activation.to_string()];
+                    let fields = fields.map(|field| if quoted { format!("\"{field}\"") } else { field });
+                    let blank = if quoted || separator == "\t" { "" } else { blank };
                     format!("{blank}{}{blank}{end}", fields.join(&format!("{blank}{separator}{blank}")))
                 }
                 Line::Blank(blank) => format!("{blank}{end}"),
@@ -206,6 +212,11 @@ proptest! {
             };
         }
         let file = activation::parse(text.as_bytes()).expect("a file");
+        let wide: Vec<u8> = format!("\u{feff}{text}").encode_utf16().flat_map(u16::to_le_bytes).collect();
+        if !bom {
+            let read = activation::parse(&wide);
+            prop_assert_eq!(read.as_ref(), Ok(&file));
+        }
         let mut expected: Vec<_> = Vec::new();
         for (serial, places) in good {
             match places.as_slice() {
@@ -231,7 +242,7 @@ proptest! {
         let mut text = format!("Name,Type,Address{end}");
         let mut expected = Vec::new();
         for entry in &entries {
-            let line = text.matches('\n').count() as u64 + 1;
+            let line = text.matches('\n').count() + 1;
             if let Entry::Fields(name, kind, address) = entry {
                 expected.push((line, name.trim().to_owned(), address.trim().to_owned()));
                 text += &[quoted(name), quoted(kind), quoted(address)].join(",");
@@ -306,8 +317,10 @@ proptest! {
     fn text_around_a_certificate_does_not_matter(before in "([ -,.-~]{0,40}\n){0,4}", after in "([ -,.-~]{0,40}\n){0,4}") {
         let certificate = Certificate::from_any(&seed("certificate/seed-der")).expect("a certificate");
         let text = format!("{before}{}{after}", certificate.to_pem());
-        prop_assert_eq!(Certificate::from_any(text.as_bytes()), Ok(certificate.clone()));
-        prop_assert_eq!(read_bundle(text.as_bytes()).expect("a bundle").certificates, [certificate]);
+        for text in [text.clone(), text.replace('\n', "\r"), text.replace('\n', "\n   ")] {
+            prop_assert_eq!(Certificate::from_any(text.as_bytes()), Ok(certificate.clone()));
+            prop_assert_eq!(&read_bundle(text.as_bytes()).expect("a bundle").certificates, &[certificate.clone()]);
+        }
     }
 
     #[test]

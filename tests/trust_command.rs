@@ -187,9 +187,12 @@ fn a_file_that_is_no_good_makes_the_request_wrong() {
             assert!(!lines[0]["error"]["code"].as_str().unwrap().is_empty());
         }
     }
-    let (code, lines) = desk.json(&["crl", "add", &good, "--all", "--yes"]);
-    assert_eq!(code, Some(1));
-    assert_error(&lines, "bad-crl");
+    // Nothing is sent where nothing is of the kind.
+    for bad in [&good, &cut, &desk.file("password")] {
+        let (code, lines) = desk.json(&["crl", "add", bad, "--all", "--yes"]);
+        assert_eq!((code, lines.len()), (Some(2), 1), "{lines:?}");
+        assert_error(&lines, "bad-crl");
+    }
     let (code, lines) = desk.json(&["clients", "add", "--list", "issuers", &good, "--all"]);
     assert_eq!(code, Some(1));
     assert_eq!(

@@ -12,7 +12,7 @@ use crate::model::{ErrorCode, Problem};
 
 #[derive(Debug, Args)]
 pub struct ActivateArgs {
-    /// Activation file: UTF-8 CSV, first line OPCUA.Activation.Ver.1.0, then SERIAL,LICENCE,ACTIVATION a line
+    /// Activation file: CSV, first line OPCUA.Activation.Ver.1.0, then SERIAL,LICENCE,ACTIVATION a line
     #[arg(long, value_name = "FILE", required_unless_present = "license", conflicts_with_all = ["license", "activation"])]
     file: Option<PathBuf>,
     /// Licence key, xxxx-xxxx-xxxx-xxxx, for one controller

@@ -176,7 +176,7 @@ pub fn run(settled: &Settled, command: ClientsCommand) -> Result<Ending, Problem
                 Some(AddTo::Trusted) => Destination::Trusted,
                 Some(AddTo::Issuers) => Destination::Issuers,
             };
-            let files = read_trust_files(files.iter().map(Path::new))?;
+            let files = read_trust_files(files.iter().map(Path::new), destination)?;
             show_plan(settled, &files, destination, &chosen)?;
             let operation = AddTrust { files: files.into(), destination, based_on: None };
             settled.batch(&configuration, &chosen, operation, &CHANGE)

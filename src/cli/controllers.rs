@@ -26,7 +26,7 @@ pub enum ControllersCommand {
     },
     /// Add the controllers of a connection list; each has to be trusted before anything is sent to it
     Import {
-        /// UTF-8 CSV with the columns Name,Type,Address [default: connections.csv in the workspace]
+        /// CSV with the columns Name, Type and Address, as a spreadsheet saves it [default: connections.csv in the workspace]
         #[arg(value_name = "FILE.csv")]
         file: Option<PathBuf>,
         /// Series to show until a controller was reached: RC90, RC700, T/VT or RC800

@@ -66,7 +66,7 @@ pub fn run(settled: &Settled, command: CrlCommand) -> Result<Ending, Problem> {
         CrlCommand::Add(arguments) => {
             let (files, chosen) = arguments.resolve(&configuration)?;
             let destination = Destination::Crls;
-            let files = read_trust_files(files.iter().map(Path::new))?;
+            let files = read_trust_files(files.iter().map(Path::new), destination)?;
             show_plan(settled, &files, destination, &chosen)?;
             let operation = AddTrust { files: files.into(), destination, based_on: None };
             settled.batch(&configuration, &chosen, operation, &CHANGE)

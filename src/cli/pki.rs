@@ -176,7 +176,10 @@ fn unreadable(file: &Path, error: &PkiError) -> Rejection {
 
 /// Whether the file is something else than a certificate, rather than a damaged one.
 fn is_wrong_file(error: &PkiError) -> bool {
-    matches!(error, PkiError::PrivateKeyInside | PkiError::NoCertificate | PkiError::UnexpectedBlock(_))
+    matches!(
+        error,
+        PkiError::PrivateKeyInside | PkiError::NoCertificate | PkiError::OtherContent { .. } | PkiError::Text(_)
+    )
 }
 
 /// Everything in the files of a folder and of the folders in it; one that cannot be read is an error.

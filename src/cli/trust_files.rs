@@ -10,13 +10,21 @@ use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Language, ListLimi
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
 use crate::workspace::ControllerEntry;
 
-/// Reads them all; one that is no good makes the request wrong.
-pub fn read_trust_files<'a>(paths: impl Iterator<Item = &'a Path>) -> Result<Vec<TrustFile>, Problem> {
+/// Reads them all; one that is no good, or has no CRL where CRLs are asked for, makes the request wrong.
+pub fn read_trust_files<'a>(
+    paths: impl Iterator<Item = &'a Path>,
+    destination: Destination,
+) -> Result<Vec<TrustFile>, Problem> {
+    let crls_only = destination == Destination::Crls;
+    let code = if crls_only { ErrorCode::BadCrl } else { ErrorCode::BadCertificate };
     paths
         .map(|path| {
+            let bad = |why: String| Problem::with_detail(code, format!("{}: {why}", path.display()));
             let bytes = read_bounded(path, MAX_BUNDLE_BYTES)?;
-            let bundle = read_bundle(&bytes)
-                .map_err(|e| Problem::with_detail(ErrorCode::BadCertificate, format!("{}: {e}", path.display())))?;
+            let bundle = read_bundle(&bytes).map_err(|error| bad(error.to_string()))?;
+            if crls_only && bundle.crls.is_empty() {
+                return Err(bad("it holds certificates and no CRL".to_owned()));
+            }
             let file_name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
             Ok(TrustFile { file_name, bundle })
         })

@@ -8,7 +8,7 @@ use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, 
 use crate::model::{CertificateType, ErrorCode, FirmwareGeneration, Problem, SerialNumber};
 use crate::pki::{
     Certificate, MAX_CERTIFICATE_FILE_BYTES, MAX_KEY_FILE_BYTES, MAX_PKCS12_BYTES, PkiError, PrivateKey, pkcs12_read,
-    pkcs12_write, read_key_file,
+    pkcs12_write, read_bundle, read_key_file,
 };
 use crate::protocol::{Base64Bytes, ImportCertificate, WireSecret};
 use crate::workspace::{CertificateFiles, read_import_file};
@@ -57,13 +57,13 @@ impl UserCertificateFiles {
             Self::Pair { certificate, key } => {
                 let certificate_bytes = read_import_file(certificate, MAX_CERTIFICATE_FILE_BYTES)?;
                 let key_bytes = zeroize::Zeroizing::new(read_import_file(key, MAX_KEY_FILE_BYTES)?);
-                let read = Certificate::from_any(&certificate_bytes)
-                    .map_err(|e| Problem { code: ErrorCode::FileFormat, ..at(certificate, e) })?;
+                // The CA's chain may stand beside the certificate.
+                let certificates = read_bundle(&certificate_bytes)
+                    .map_err(|e| Problem { code: ErrorCode::FileFormat, ..at(certificate, e) })?
+                    .certificates;
                 let private_key = read_key_file(&key_bytes, password).map_err(|e| at(key, e))?;
-                if !private_key.matches(&read) {
-                    return Err(PkiError::NotAPair.into());
-                }
-                Ok((private_key, read))
+                let certificate = private_key.certificate_among(certificates)?;
+                Ok((private_key, certificate))
             }
         }
     }

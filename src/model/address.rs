@@ -27,6 +27,18 @@ pub enum AddressError {
     Host(String),
     #[error("\"{0}\" is not a port between 1 and 65535")]
     Port(String),
+    /// The address of an OPC UA server or of a web page names another port and protocol.
+    #[error("leave out \"{0}://\", and give the address, and perhaps the port, of the management protocol")]
+    Scheme(String),
+    #[error("leave out \"{0}\"")]
+    Path(String),
+    /// Some programs read them as octal numbers.
+    #[error("\"{found}\" has leading zeros; write {meant}")]
+    LeadingZeros { found: String, meant: String },
+    #[error("the zone \"{0}\" is not supported; give an address that needs none")]
+    Zone(String),
+    #[error("\"{0}\" has characters that are not ASCII; use half-width digits, and the \"xn--\" form of a host name")]
+    NotAscii(String),
 }
 
 impl Address {
@@ -65,7 +77,12 @@ impl FromStr for Address {
         if text.is_empty() {
             return Err(AddressError::Empty);
         }
+        if let Some(error) = other_form(text) {
+            return Err(error);
+        }
         let (host, port) = split_port(text)?;
+        // The root of all names (RFC 1034 §3.1) makes no difference.
+        let host = host.strip_suffix('.').filter(|host| !host.is_empty()).unwrap_or(host);
         let port = match port {
             None => DEFAULT_MANAGEMENT_PORT,
             Some(port) => port.parse().ok().filter(|p| *p != 0).ok_or_else(|| AddressError::Port(port.to_owned()))?,
@@ -77,6 +94,28 @@ impl FromStr for Address {
             Err(_) => Err(AddressError::Host(host.to_owned())),
         }
     }
+}
+
+/// What the text is, if it is an address in a form of something else.
+fn other_form(text: &str) -> Option<AddressError> {
+    if let Some((scheme, _)) = text.split_once("://") {
+        return Some(AddressError::Scheme(scheme.to_owned()));
+    }
+    if let Some(at) = text.find('/') {
+        return Some(AddressError::Path(text[at..].to_owned()));
+    }
+    if let Some((_, zone)) = text.split_once('%') {
+        let end = zone.find(']').unwrap_or(zone.len());
+        return Some(AddressError::Zone(format!("%{}", &zone[..end])));
+    }
+    if !text.is_ascii() {
+        return Some(AddressError::NotAscii(text.to_owned()));
+    }
+    let host = text.split(':').next().unwrap_or_default();
+    let numbers: Option<Vec<u8>> = host.split('.').map(|number| number.parse().ok()).collect();
+    let meant = <[u8; 4]>::try_from(numbers?).ok().map(|numbers| IpAddr::from(numbers).to_string())?;
+    let has_zeros = host.split('.').any(|number| number.len() > 1 && number.starts_with('0'));
+    has_zeros.then(|| AddressError::LeadingZeros { found: host.to_owned(), meant })
 }
 
 fn split_port(text: &str) -> Result<(&str, Option<&str>), AddressError> {
@@ -132,6 +171,7 @@ mod tests {
         assert_eq!(shown("192.168.10.1:7943"), "192.168.10.1");
         assert_eq!(shown("192.168.10.1:8000"), "192.168.10.1:8000");
         assert_eq!(shown("Robot-7.plant.local:8000"), "robot-7.plant.local:8000");
+        assert_eq!(shown("robot.plant.local."), "robot.plant.local");
         assert_eq!(shown("[::1]:8000"), "[::1]:8000");
         assert_eq!("::1".parse::<Address>().expect("v6").authority(), "[::1]:7943");
     }
@@ -151,6 +191,12 @@ mod tests {
         assert_eq!("10.0.0.999".parse::<Address>(), Err(AddressError::Host("10.0.0.999".into())));
         assert_eq!("robot:0".parse::<Address>(), Err(AddressError::Port("0".into())));
         assert_eq!("robot:70000".parse::<Address>(), Err(AddressError::Port("70000".into())));
+        assert_eq!("opc.tcp://robot:4840".parse::<Address>(), Err(AddressError::Scheme("opc.tcp".into())));
+        assert_eq!("10.0.0.1/24".parse::<Address>(), Err(AddressError::Path("/24".into())));
+        assert_eq!("[fe80::1%3]:7943".parse::<Address>(), Err(AddressError::Zone("%3".into())));
+        let zeros = AddressError::LeadingZeros { found: "10.000.00.010".into(), meant: "10.0.0.10".into() };
+        assert_eq!("10.000.00.010:7943".parse::<Address>(), Err(zeros));
+        assert_eq!("１０.0.0.1".parse::<Address>(), Err(AddressError::NotAscii("１０.0.0.1".into())));
         assert!("ro bot".parse::<Address>().is_err());
         assert!("机器人".parse::<Address>().is_err());
     }

@@ -20,6 +20,7 @@ mod info;
 mod language;
 mod problem;
 mod settings;
+pub mod table;
 pub mod text;
 mod user;
 

@@ -3,14 +3,14 @@ use std::net::IpAddr;
 use std::sync::Arc;
 
 use chrono::{DateTime, Utc};
-use rsa::pkcs8::PrivateKeyInfo;
 use sha1::{Digest as _, Sha1};
 use x509_parser::prelude::{FromDer, X509Certificate};
 
 use super::facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, Facts, KeyUsage};
+use super::parts::{Part, parts};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
 use super::signature::{PublicKey, Verdict};
-use super::{PkiError, tlv};
+use super::{Bundle, FileContent, PkiError, Wanted, tlv};
 use crate::model::CertificateSummary;
 
 /// The largest certificate that is read, in bytes of DER.
@@ -39,19 +39,19 @@ impl Certificate {
         if tlv::is_signed_object(der) { Ok(Self { der: der.into(), facts }) } else { Err(PkiError::NotACertificate) }
     }
 
-    /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one certificate, in DER or PEM.
+    /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one certificate: in DER, PEM, base64, or
+    /// a PKCS#7.
     ///
     /// In PEM, other text may stand around it. A file that also holds a private key is refused: certificates are handed
     /// around, keys are not.
     pub fn from_any(bytes: &[u8]) -> Result<Self, PkiError> {
         check_size(bytes, MAX_CERTIFICATE_FILE_BYTES)?;
-        if pem::is_pem(bytes) {
-            return Self::from_der(&pem::single_certificate(bytes)?);
+        let mut certificates = certificates_in(parts(bytes)?)?;
+        match certificates.len() {
+            1 => Ok(certificates.remove(0)),
+            0 => Err(PkiError::NoCertificate),
+            several => Err(PkiError::SeveralCertificates(several)),
         }
-        if PrivateKeyInfo::try_from(bytes).is_ok() {
-            return Err(PkiError::PrivateKeyInside);
-        }
-        Self::from_der(bytes)
     }
 
     /// The certificate itself, as it was read.
@@ -210,6 +210,25 @@ impl Certificate {
 impl fmt::Debug for Certificate {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Certificate({:?}, {})", self.facts.issued_to, self.thumbprint_sha1())
+    }
+}
+
+/// Every certificate; other public things are passed over, unless there is nothing else.
+fn certificates_in(parts: Vec<Part>) -> Result<Vec<Certificate>, PkiError> {
+    let mut certificates = Vec::new();
+    let mut other = None;
+    for part in parts {
+        match part.content {
+            content if content.is_private_key() => return Err(PkiError::PrivateKeyInside),
+            FileContent::Certificate => certificates.push(Certificate::from_der(&part.der)?),
+            FileContent::Pkcs7 => certificates.extend(Bundle::of_pkcs7(&part.der)?.certificates),
+            FileContent::Unknown => return Certificate::from_der(&part.der).map(|certificate| vec![certificate]),
+            found => other = other.or(Some(found)),
+        }
+    }
+    match other {
+        Some(found) if certificates.is_empty() => Err(PkiError::OtherContent { found, wanted: Wanted::Certificate }),
+        _ => Ok(certificates),
     }
 }
 

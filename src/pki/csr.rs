@@ -3,13 +3,15 @@ use std::fmt;
 use rcgen::{CertificateParams, ExtendedKeyUsagePurpose, IsCa, KeyUsagePurpose};
 use sha2::{Digest as _, Sha256};
 use x509_parser::certification_request::X509CertificationRequest;
-use x509_parser::prelude::FromDer;
+use x509_parser::cri_attributes::ExtensionRequest;
+use x509_parser::prelude::{FromDer, X509Extension};
 
 use super::certificate::check_size;
+use super::parts::{Part, parts};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
 use super::self_signed::{alternative_names, distinguished_name};
 use super::signature::{PublicKey, SignatureAlgorithm, Verdict};
-use super::{Certificate, MAX_CERTIFICATE_BYTES, PkiError, PrivateKey, ServerNames, name};
+use super::{Certificate, FileContent, MAX_CERTIFICATE_BYTES, PkiError, PrivateKey, ServerNames, Wanted, name, tlv};
 use crate::model::CsrRequest;
 
 /// A certificate signing request (PKCS#10) for an RSA key, found whole, with a signature that proves that whoever made
@@ -44,10 +46,20 @@ impl Csr {
         Ok(Self { der: der.to_vec(), common_name: name::common_name(&info.subject), key_bits, public_key })
     }
 
-    /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one request, in DER or PEM.
+    /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one request, in DER, PEM or base64;
+    /// other things beside it are passed over.
     pub fn from_any(bytes: &[u8]) -> Result<Self, PkiError> {
         check_size(bytes, MAX_CERTIFICATE_FILE_BYTES)?;
-        if pem::is_pem(bytes) { Self::from_der(&pem::single_csr(bytes)?) } else { Self::from_der(bytes) }
+        let mut parts = parts(bytes)?;
+        let requests = parts.iter().filter(|part| part.content == FileContent::Csr).count();
+        match (parts.iter().position(|part| part.content == FileContent::Csr), requests) {
+            (Some(at), 1) => Self::from_der(&parts.remove(at).der),
+            (Some(_), several) => Err(PkiError::SeveralCsrs(several)),
+            (None, _) => match parts.remove(0) {
+                Part { content: FileContent::Unknown, der } => Self::from_der(&der),
+                Part { content: found, .. } => Err(PkiError::OtherContent { found, wanted: Wanted::Csr }),
+            },
+        }
     }
 
     /// The request itself, as it was read.
@@ -91,6 +103,36 @@ impl fmt::Debug for Csr {
         write!(f, "Csr({:?}, {} bits)", self.common_name.as_deref().unwrap_or_default(), self.key_bits)
     }
 }
+
+/// The extensions a request asks for: those of the attribute `extensionRequest` (RFC 2985 §5.4.2), or of Microsoft's
+/// older `szOID_CERT_EXTENSIONS`, which holds the same (MS-WCCE §3.1.1.4.3.1.1).
+pub(super) fn requested_extensions<'a>(
+    request: &X509CertificationRequest<'a>,
+) -> Result<Vec<X509Extension<'a>>, PkiError> {
+    let damaged = || PkiError::CsrRefused("has a damaged attribute");
+    let info = tlv::sole(request.certification_request_info.raw).and_then(|info| tlv::all(info.content));
+    let parts = info.ok_or_else(damaged)?;
+    let Some(attributes) = parts.iter().find(|part| part.tag == tlv::CONTEXT_0) else { return Ok(Vec::new()) };
+    let attributes = tlv::all(attributes.content).ok_or_else(damaged)?;
+    let values = |wanted: &[u8]| {
+        attributes.iter().find_map(|attribute| match tlv::all(attribute.content)?.as_slice() {
+            [kind, values] if kind.content == wanted => Some(values.content),
+            _ => None,
+        })
+    };
+    match values(EXTENSION_REQUEST).or_else(|| values(CERT_EXTENSIONS)) {
+        Some(values) => {
+            let (rest, request) = ExtensionRequest::from_der(values).map_err(|_| damaged())?;
+            if rest.is_empty() { Ok(request.extensions) } else { Err(damaged()) }
+        }
+        None => Ok(Vec::new()),
+    }
+}
+
+/// 1.2.840.113549.1.9.14
+const EXTENSION_REQUEST: &[u8] = &[0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 9, 14];
+/// 1.3.6.1.4.1.311.2.1.14
+const CERT_EXTENSIONS: &[u8] = &[0x2b, 6, 1, 4, 1, 0x82, 0x37, 2, 1, 14];
 
 /// Makes the request for the certificate of an OPC UA server (manual 2.7.1.5; OPC 10000-6 §6.2.2), signed with SHA-256
 /// whatever the length of the key.
@@ -144,8 +186,8 @@ mod tests {
                 "C=JP, ST=Nagano, L=Suwa, O=Example & Sons, CN=EpsonRC.SN0000123.192.168.010.001"
             );
             let (mut names, mut usage, mut extended, mut constraints) = (0, 0, false, true);
-            for extension in parsed.requested_extensions().unwrap() {
-                match extension {
+            for extension in requested_extensions(&parsed).unwrap() {
+                match extension.parsed_extension() {
                     ParsedExtension::SubjectAlternativeName(san) => names = san.general_names.len(),
                     ParsedExtension::KeyUsage(asked) => usage = asked.flags,
                     ParsedExtension::ExtendedKeyUsage(asked) => extended = asked.server_auth && asked.client_auth,
@@ -171,8 +213,10 @@ mod tests {
         assert_eq!(Csr::from_any(csr.der()).as_ref(), Ok(&csr));
         assert_eq!(Csr::from_any(csr.to_pem().as_bytes()).as_ref(), Ok(&csr));
         assert_eq!(Csr::from_any((csr.to_pem() + &csr.to_pem()).as_bytes()), Err(PkiError::SeveralCsrs(2)));
-        assert_eq!(Csr::from_any(samples::certificate().to_pem().as_bytes()), Err(PkiError::NotACsr));
-        assert_eq!(Csr::from_any(samples::certificate().der()), Err(PkiError::NotACsr));
+        let other = PkiError::OtherContent { found: FileContent::Certificate, wanted: Wanted::Csr };
+        assert_eq!(Csr::from_any(samples::certificate().to_pem().as_bytes()), Err(other.clone()));
+        assert_eq!(Csr::from_any(samples::certificate().der()), Err(other));
+        assert_eq!(Csr::from_any(b"hello, robot"), Err(PkiError::NotACsr));
         assert_eq!(Csr::from_any(b""), Err(PkiError::Empty));
         assert_eq!(Csr::from_der(&[csr.der(), b"\0"].concat()), Err(PkiError::TrailingBytes(1)));
     }

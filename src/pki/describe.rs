@@ -9,14 +9,16 @@ use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::prelude::{FromDer as _, SubjectPublicKeyInfo};
 
 use super::certificate::check_size;
+use super::csr::requested_extensions;
 use super::facts::Extensions;
 use super::general_name::{NameConstraints, Subtree};
+use super::parts::{Part, parts};
 use super::signature::{Curve, PublicKey, SignatureAlgorithm, Verdict};
 use super::signers::{Signed, Signers};
 use super::trust::checks;
 use super::{
-    AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, KeyUsage, MAX_BUNDLE_BYTES,
-    PkiError, RevocationReason, key_file, name, pem, pkcs12, read_bundle, read_key_file, tlv,
+    AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, FileContent, KeyUsage,
+    MAX_BUNDLE_BYTES, PkiError, RevocationReason, Wanted, key_file, name, pkcs12, tlv,
 };
 use crate::model::Language;
 
@@ -141,18 +143,14 @@ pub struct KeyDescription {
 pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>, PkiError> {
     check_size(bytes, MAX_BUNDLE_BYTES)?;
     let mut found = Found::default();
-    if pem::is_pem(bytes) {
-        for block in pem::all_blocks(bytes)? {
-            found.block(&block, password)?;
-            if found.things.len() > MAX_THINGS {
-                return Err(PkiError::TooMany(MAX_THINGS));
-            }
+    for part in parts(bytes)? {
+        found.part(part, password)?;
+        if found.things.len() > MAX_THINGS {
+            return Err(PkiError::TooMany(MAX_THINGS));
         }
-        if found.things.is_empty() {
-            return Err(PkiError::NoCertificate);
-        }
-    } else {
-        found.der(bytes, password)?;
+    }
+    if found.things.is_empty() {
+        return Err(PkiError::NoCertificate);
     }
     found.described()
 }
@@ -176,54 +174,37 @@ struct Found {
 }
 
 impl Found {
-    fn block(&mut self, block: &pem::Block, password: Option<&str>) -> Result<(), PkiError> {
-        match block.label.as_str() {
-            "CERTIFICATE REQUEST" | "NEW CERTIFICATE REQUEST" => {
-                self.other(Description::Csr(Box::new(request(&block.der)?)))
-            }
-            "PUBLIC KEY" => {
-                let (_, info) = SubjectPublicKeyInfo::from_der(&block.der).map_err(|_| PkiError::BadPem)?;
+    fn part(&mut self, part: Part, password: Option<&str>) -> Result<(), PkiError> {
+        match part.content {
+            FileContent::Csr => self.other(Description::Csr(Box::new(request(&part.der)?))),
+            FileContent::PublicKey => {
+                let (_, info) = SubjectPublicKeyInfo::from_der(&part.der).map_err(|_| PkiError::BadPem)?;
                 self.other(Description::PublicKey(PublicKey::of(&info).map_err(|_| PkiError::BadPem)?.describe()));
             }
-            "PRIVATE KEY" => self.other(Description::PrivateKey(pkcs8(&block.der)?)),
-            _ if block.encrypted => return Err(PkiError::TraditionalEncryption),
-            "RSA PRIVATE KEY" => self.other(Description::PrivateKey(pkcs1(&block.der)?)),
-            "EC PRIVATE KEY" => {
-                self.other(Description::PrivateKey(sec1(&block.der, None).ok_or(PkiError::NotAPrivateKey)?));
-            }
-            _ if block.is_private_key() => {
+            FileContent::PrivateKey => self.other(Description::PrivateKey(plain_key(&part.der)?)),
+            FileContent::EncryptedKey => {
                 self.hashed += 1;
                 if self.hashed > MAX_HASHED {
                     return Err(PkiError::TooMany(MAX_HASHED));
                 }
-                let key = read_key_file(pem::armour(&block.label, &block.der).as_bytes(), password)?;
+                let key = key_file::read_key(&part, password)?;
                 self.other(Description::PrivateKey(rsa_key(key.public_key())));
             }
-            _ => self.bundle(read_bundle(pem::armour(&block.label, &block.der).as_bytes())?),
-        }
-        Ok(())
-    }
-
-    fn der(&mut self, der: &[u8], password: Option<&str>) -> Result<(), PkiError> {
-        if pkcs12::is_pkcs12(der) {
-            let pkcs12::Contents { keys, certificates } =
-                pkcs12::contents(der, password.ok_or(PkiError::PasswordNeeded)?)?;
-            for key in keys {
-                self.other(Description::PrivateKey(pkcs8(&key)?));
+            content if content.is_private_key() => {
+                return Err(PkiError::OtherContent { found: content, wanted: Wanted::PrivateKey });
             }
-            self.bundle(Bundle { certificates, crls: Vec::new() });
-        } else if PrivateKeyInfo::try_from(der).is_ok() {
-            self.other(Description::PrivateKey(pkcs8(der)?));
-        } else if rsa::pkcs1::RsaPrivateKey::try_from(der).is_ok() {
-            self.other(Description::PrivateKey(pkcs1(der)?));
-        } else if let Some(key) = sec1(der, None) {
-            self.other(Description::PrivateKey(key));
-        } else if key_file::is_encrypted(der) {
-            self.other(Description::PrivateKey(rsa_key(read_key_file(der, password)?.public_key())));
-        } else {
-            match read_bundle(der) {
-                Ok(bundle) => self.bundle(bundle),
-                Err(error) => self.other(Description::Csr(Box::new(request(der).map_err(|_| error)?))),
+            FileContent::Pkcs12 => {
+                let pkcs12::Contents { keys, certificates } =
+                    pkcs12::contents(&part.der, password.ok_or(PkiError::PasswordNeeded)?)?;
+                for key in keys {
+                    self.other(Description::PrivateKey(plain_key(&key)?));
+                }
+                self.bundle(Bundle { certificates, crls: Vec::new() });
+            }
+            _ => {
+                let mut bundle = Bundle::default();
+                bundle.add(part)?;
+                self.bundle(bundle);
             }
         }
         Ok(())
@@ -344,8 +325,8 @@ fn request(der: &[u8]) -> Result<CsrDescription, PkiError> {
     let key = PublicKey::of(&info.subject_pki).map_err(|_| PkiError::NotACsr)?;
     let algorithm = SignatureAlgorithm::of(&parsed.signature_algorithm);
     let mut extensions = Extensions::default();
-    for extension in parsed.requested_extensions().into_iter().flatten() {
-        extensions.read(extension);
+    for extension in requested_extensions(&parsed)? {
+        extensions.read(extension.parsed_extension());
     }
     Ok(CsrDescription {
         subject: name::full(&info.subject),
@@ -358,6 +339,17 @@ fn request(der: &[u8]) -> Result<CsrDescription, PkiError> {
         signature_is_right: algorithm.verify(&key, info.raw, &parsed.signature_value.data) == Verdict::Right,
         sha1: hex::encode_upper(Sha1::digest(der)),
     })
+}
+
+/// The public half of a private key in PKCS#8, PKCS#1 or SEC 1.
+fn plain_key(der: &[u8]) -> Result<KeyDescription, PkiError> {
+    if PrivateKeyInfo::try_from(der).is_ok() {
+        pkcs8(der)
+    } else if let Some(key) = sec1(der, None) {
+        Ok(key)
+    } else {
+        pkcs1(der)
+    }
 }
 
 /// The public half of an unencrypted PKCS#8.

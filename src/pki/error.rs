@@ -1,6 +1,8 @@
 use chrono::{DateTime, Utc};
 use thiserror::Error;
 
+use super::{FileContent, Wanted};
+use crate::model::text::TextError;
 use crate::model::{ErrorCode, Problem, SubjectError};
 
 /// Everything that can be wrong with a key, a certificate, or the wish for one. Holds no secret.
@@ -22,6 +24,11 @@ pub enum PkiError {
     RepeatedExtension,
     #[error("the PEM text is damaged")]
     BadPem,
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The file holds something else, which may be what was wanted in another form.
+    #[error("it is {found}, not {wanted}{}", found.remedy(*wanted).map(|remedy| format!("; {remedy}")).unwrap_or_default())]
+    OtherContent { found: FileContent, wanted: Wanted },
     #[error("there is no certificate in it")]
     NoCertificate,
     #[error("there are {0} certificates in it; exactly one is expected")]
@@ -37,8 +44,6 @@ pub enum PkiError {
     NotPkcs7(&'static str),
     #[error("neither a certificate nor a revocation list nor a PKCS#7, or a damaged one")]
     NotTrustMaterial,
-    #[error("there is something else in it, \"{0}\", than certificates and revocation lists")]
-    UnexpectedBlock(String),
     #[error("it holds more than {0} certificates and revocation lists, or encrypted keys")]
     TooMany(usize),
     #[error("too many certificates in it have the same name to find out who signed what")]
@@ -83,7 +88,7 @@ pub enum PkiError {
     #[error("not a PKCS#12 file")]
     NotPkcs12,
     #[error("this kind of PKCS#12 is not supported: {0}")]
-    UnsupportedPkcs12(&'static str),
+    UnsupportedPkcs12(String),
     /// The format cannot always tell the two apart.
     #[error("the password is wrong, or the file is damaged")]
     WrongPasswordOrDamaged,
@@ -101,15 +106,12 @@ pub enum PkiError {
     // a key file
     #[error("the private key is encrypted, and no password was given")]
     PasswordNeeded,
+    /// How the key is encrypted.
     #[error(
-        "the private key is encrypted in the old PEM way (\"DEK-Info\"), which is not supported; convert it with \
-         `openssl pkcs8 -topk8 -in old.key -out new.key`"
+        "the encryption of the private key, {0}, is not supported; encrypt it anew with \
+         `openssl pkcs8 -topk8 -in FILE -out new.key`"
     )]
-    TraditionalEncryption,
-    #[error("the private key is in {0}; convert it to PKCS#8 with `{1}`")]
-    UnsupportedKeyFile(&'static str, &'static str),
-    #[error("this kind of encryption of a private key is not supported; encrypt it again with `openssl pkcs8 -topk8`")]
-    UnsupportedKeyEncryption,
+    UnsupportedKeyEncryption(String),
 
     // a certificate to be used
     #[error("the certificate was valid until {0}")]
@@ -163,9 +165,9 @@ impl From<PkiError> for Problem {
             | PkiError::NoKey
             | PkiError::SeveralKeys(_)
             | PkiError::Damaged
-            | PkiError::TraditionalEncryption
-            | PkiError::UnsupportedKeyFile(..)
-            | PkiError::UnsupportedKeyEncryption => ErrorCode::FileFormat,
+            | PkiError::Text(_)
+            | PkiError::OtherContent { wanted: Wanted::Csr | Wanted::PrivateKey | Wanted::Pkcs12, .. }
+            | PkiError::UnsupportedKeyEncryption(_) => ErrorCode::FileFormat,
             PkiError::KeyGeneration
             | PkiError::KeyEncoding
             | PkiError::Pkcs12Encoding
@@ -185,7 +187,7 @@ impl From<PkiError> for Problem {
             | PkiError::NotACrl(_)
             | PkiError::NotPkcs7(_)
             | PkiError::NotTrustMaterial
-            | PkiError::UnexpectedBlock(_)
+            | PkiError::OtherContent { .. }
             | PkiError::TooMany(_)
             | PkiError::TooManySigners
             | PkiError::PrivateKeyInside => ErrorCode::BadCertificate,

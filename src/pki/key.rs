@@ -87,6 +87,11 @@ impl PrivateKey {
         certificate.rsa_public_key() == Some(self.public_key.as_slice())
     }
 
+    /// The certificate for this key, of a file that may hold its chain; [`PkiError::NotAPair`] if there is none.
+    pub fn certificate_among(&self, certificates: Vec<Certificate>) -> Result<Certificate, PkiError> {
+        certificates.into_iter().find(|certificate| self.matches(certificate)).ok_or(PkiError::NotAPair)
+    }
+
     /// The public key in PKCS#1.
     pub(super) fn public_key(&self) -> &[u8] {
         &self.public_key

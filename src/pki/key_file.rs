@@ -6,71 +6,57 @@ use rsa::pkcs8::{AlgorithmIdentifierRef, PrivateKeyInfo};
 use zeroize::Zeroizing;
 
 use super::certificate::check_size;
-use super::pem::{self, Block};
-use super::{Certificate, PkiError, PrivateKey, pkcs12, tlv};
+use super::parts::{Part, parts};
+use super::password_encryption::{self, DecryptError, Password};
+use super::{Certificate, FileContent, PkiError, PrivateKey, Wanted, read_bundle, tlv};
 
 /// The largest file a private key is looked for in. Certificates may stand around its PEM.
 pub const MAX_KEY_FILE_BYTES: usize = 256 * 1024;
 
-/// Reads the only RSA private key of a file: PKCS#8, plain or under a password, or PKCS#1; in PEM or DER, whatever the
-/// name of the file says.
+/// Reads the only RSA private key of a file: PKCS#8, plain or under a password, or PKCS#1; in PEM, DER or base64,
+/// whatever the name of the file says. Certificates beside it are passed over.
 ///
-/// Under a password: PBES2 with AES or 3DES, and the 3DES and RC2-40 of PKCS#12. The password is looked at only if it is
-/// needed. Not read, but told how to convert: the encryption of traditional PEM, OpenSSH's own format, Microsoft's PVK.
-/// Blocks while it hashes the password, a million times at most.
+/// Under a password: PBES2 with AES or 3DES, and the 3DES and RC2 of PKCS#12. The password is looked at only if it is
+/// needed. Not read, but told how to convert: the encryption of traditional PEM, OpenSSH's own format, Microsoft's PVK,
+/// PuTTY's PPK. Blocks while it hashes the password, a million times at most.
 pub fn read_key_file(bytes: &[u8], password: Option<&str>) -> Result<PrivateKey, PkiError> {
     check_size(bytes, MAX_KEY_FILE_BYTES)?;
-    if bytes.starts_with(PVK) {
-        return Err(PkiError::UnsupportedKeyFile(
-            "Microsoft's PVK format",
-            "openssl rsa -inform PVK -in old.pvk -out new.key",
-        ));
-    }
-    if !pem::is_pem(bytes) {
-        return from_der(bytes, password);
-    }
-    let blocks = pem::private_keys(bytes)?;
-    let Block { label, encrypted, der } = match blocks.as_slice() {
-        [] => return Err(PkiError::NoKey),
-        [block] => block,
-        several => return Err(PkiError::SeveralKeys(several.len())),
-    };
-    match label.as_str() {
-        _ if *encrypted => Err(PkiError::TraditionalEncryption),
-        "PRIVATE KEY" => PrivateKey::from_pkcs8_der(der),
-        "RSA PRIVATE KEY" => from_pkcs1(der),
-        "ENCRYPTED PRIVATE KEY" => decrypt(der, password),
-        "OPENSSH PRIVATE KEY" => {
-            Err(PkiError::UnsupportedKeyFile("OpenSSH's own format", "ssh-keygen -p -m PKCS8 -f copy-of-the-key"))
-        }
-        _ => Err(PkiError::NotAPrivateKey),
+    let parts = parts(bytes)?;
+    let keys: Vec<&Part> = parts.iter().filter(|part| part.is_private_key()).collect();
+    match keys.as_slice() {
+        [key] => read_key(key, password),
+        [] => Err(match &parts[0].content {
+            FileContent::Unknown => PkiError::NotAPrivateKey,
+            FileContent::Certificate => PkiError::NoKey,
+            found => PkiError::OtherContent { found: found.clone(), wanted: Wanted::PrivateKey },
+        }),
+        several => Err(PkiError::SeveralKeys(several.len())),
     }
 }
 
-/// Reads a certificate and its private key from two files; the certificate in DER or PEM, the key as
-/// [`read_key_file`] does.
+/// Reads one key of a file.
+pub(super) fn read_key(key: &Part, password: Option<&str>) -> Result<PrivateKey, PkiError> {
+    match &key.content {
+        FileContent::PrivateKey if PrivateKeyInfo::try_from(key.der.as_slice()).is_ok() => {
+            PrivateKey::from_pkcs8_der(&key.der)
+        }
+        FileContent::PrivateKey => from_pkcs1(&key.der),
+        FileContent::EncryptedKey => decrypt(&key.der, password),
+        found => Err(PkiError::OtherContent { found: found.clone(), wanted: Wanted::PrivateKey }),
+    }
+}
+
+/// Reads a certificate and its private key from two files; the certificate as [`read_bundle`] does, with the chain or
+/// other certificates beside it, of which the one for the key is taken; the key as [`read_key_file`] does.
 pub fn read_pair(
     certificate: &[u8],
     key: &[u8],
     password: Option<&str>,
 ) -> Result<(PrivateKey, Certificate), PkiError> {
-    let certificate = Certificate::from_any(certificate)?;
+    let certificates = read_bundle(certificate)?.certificates;
     let key = read_key_file(key, password)?;
-    if key.matches(&certificate) { Ok((key, certificate)) } else { Err(PkiError::NotAPair) }
-}
-
-fn from_der(der: &[u8], password: Option<&str>) -> Result<PrivateKey, PkiError> {
-    if PrivateKeyInfo::try_from(der).is_ok() {
-        PrivateKey::from_pkcs8_der(der)
-    } else if Pkcs1::try_from(der).is_ok() {
-        from_pkcs1(der)
-    } else if is_encrypted(der) {
-        decrypt(der, password)
-    } else if Certificate::from_der(der).is_ok() {
-        Err(PkiError::NoKey)
-    } else {
-        Err(PkiError::NotAPrivateKey)
-    }
+    let certificate = key.certificate_among(certificates)?;
+    Ok((key, certificate))
 }
 
 fn from_pkcs1(der: &[u8]) -> Result<PrivateKey, PkiError> {
@@ -80,29 +66,24 @@ fn from_pkcs1(der: &[u8]) -> Result<PrivateKey, PkiError> {
     PrivateKey::from_pkcs8_der(&Zeroizing::new(pkcs8))
 }
 
-/// An EncryptedPrivateKeyInfo: a sequence of an algorithm and an octet string, and nothing else.
-pub(super) fn is_encrypted(der: &[u8]) -> bool {
-    let parts = match tlv::all(der).as_deref() {
-        Some([whole]) if whole.tag == tlv::SEQUENCE => tlv::all(whole.content),
-        _ => None,
-    };
-    matches!(parts.as_deref(), Some([algorithm, data])
-        if algorithm.tag == tlv::SEQUENCE && data.tag == tlv::OCTET_STRING)
-}
-
+/// Decrypts an EncryptedPrivateKeyInfo (RFC 5958 §3).
 fn decrypt(der: &[u8], password: Option<&str>) -> Result<PrivateKey, PkiError> {
-    if !is_encrypted(der) {
-        return Err(PkiError::NotAPrivateKey);
-    }
+    let parts = tlv::sole(der).and_then(|whole| tlv::elements(whole.content));
+    let Some([algorithm, data]) = parts.as_deref() else { return Err(PkiError::NotAPrivateKey) };
+    let data = tlv::sole(data).ok_or(PkiError::NotAPrivateKey)?.content;
     let password = password.ok_or(PkiError::PasswordNeeded)?;
-    // A PKCS#12 holds keys in this very form, and its reader knows every encryption.
-    pkcs12::pkcs12_read_key(&pkcs12::around(der), password).map_err(|error| match error {
-        PkiError::UnsupportedPkcs12(_) => PkiError::UnsupportedKeyEncryption,
-        error => error,
-    })
+    for form in Password::forms(password) {
+        match password_encryption::decrypt(algorithm, data, &form) {
+            Ok(key) if PrivateKeyInfo::try_from(key.as_slice()).is_ok() => return PrivateKey::from_pkcs8_der(&key),
+            Ok(_) | Err(DecryptError::Failed) => {}
+            Err(DecryptError::Unsupported(name)) => return Err(PkiError::UnsupportedKeyEncryption(name)),
+            Err(DecryptError::TooExpensive) => {
+                return Err(PkiError::UnsupportedKeyEncryption("which hashes the password too often".to_owned()));
+            }
+        }
+    }
+    Err(PkiError::WrongPasswordOrDamaged)
 }
-
-pub(super) const PVK: &[u8] = &[0x1e, 0xf1, 0xb5, 0xb0];
 
 #[cfg(test)]
 mod tests {
@@ -111,7 +92,7 @@ mod tests {
     use p12_keystore::EncryptionAlgorithm;
     use rsa::pkcs8::DecodePrivateKey as _;
 
-    use crate::pki::samples;
+    use crate::pki::{pkcs12, samples};
 
     const PASSWORD: &str = "Größe 1";
 
@@ -197,8 +178,11 @@ mod tests {
             (samples::certificate().to_pem().into_bytes(), PkiError::NoKey),
             (elliptic.to_vec(), PkiError::NotAPrivateKey),
             (armoured("EC PRIVATE KEY", "", &elliptic), PkiError::NotAPrivateKey),
-            (armoured("RSA PRIVATE KEY", headers, &key), PkiError::TraditionalEncryption),
-            (armoured("ENCRYPTED PRIVATE KEY", "", &key), PkiError::NotAPrivateKey),
+            (
+                armoured("RSA PRIVATE KEY", headers, &key),
+                PkiError::OtherContent { found: FileContent::TraditionalKey, wanted: Wanted::PrivateKey },
+            ),
+            (armoured("ENCRYPTED PRIVATE KEY", "", b"x"), PkiError::NotAPrivateKey),
             (twice, PkiError::SeveralKeys(2)),
             (unclosed[..unclosed.len() - 5].to_vec(), PkiError::BadPem),
             (armoured("PRIVATE KEY", "!", &key), PkiError::BadPem),
@@ -210,8 +194,21 @@ mod tests {
             assert_eq!(read_key_file(&bytes, Some(PASSWORD)).err(), Some(expected));
         }
         for converted in [armoured("OPENSSH PRIVATE KEY", "", b"x"), b"\x1e\xf1\xb5\xb0....".to_vec()] {
-            assert!(matches!(read_key_file(&converted, None), Err(PkiError::UnsupportedKeyFile(..))));
+            let told = read_key_file(&converted, None).unwrap_err().to_string();
+            assert!(told.contains("; convert"), "{told}");
         }
+    }
+
+    /// The algorithm is the reason, and not the password.
+    #[test]
+    fn an_encryption_that_is_not_read_is_named() {
+        let key = include_bytes!("../../tests/cases/08-pfx/rc2.key");
+        for password in ["secret", "wrong"] {
+            let read = read_key_file(key, Some(password)).err();
+            assert_eq!(read, Some(PkiError::UnsupportedKeyEncryption("RC2 in PBES2".to_owned())));
+        }
+        let told = PkiError::UnsupportedKeyEncryption("RC2 in PBES2".to_owned()).to_string();
+        assert!(told.contains("RC2 in PBES2") && told.contains("openssl pkcs8 -topk8"), "{told}");
     }
 
     #[test]

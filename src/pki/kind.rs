@@ -1,14 +1,14 @@
 //! What a file with keys or certificates is, seen from outside.
 
-use super::tlv::{self, CONTEXT_0, OCTET_STRING, SEQUENCE, Tlv};
-use super::{key_file, pem};
+use super::parts::parts;
+use super::{FileContent, PkiError, pem};
 
 /// What a file is by its content. Whether it is whole and good shows when it is used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PkiKind {
     /// One certificate, DER or PEM.
     Certificate,
-    /// PEM with several certificates: usually one and its issuers.
+    /// Several certificates: usually one and its issuers.
     Chain,
     /// Public things of several kinds: PKCS#7 (`.p7b`), or PEM with certificates and revocation lists.
     Bundle,
@@ -24,72 +24,22 @@ pub enum PkiKind {
     Pkcs12,
 }
 
-/// What the bytes are, if they are anything of the kind. The name of the file is not asked for.
+/// What the bytes are, if they are anything of the kind. The name of the file is not asked for, nor are the labels of a
+/// PEM text that can be decoded.
 ///
-/// Looks at the outside only, so a damaged certificate is still a certificate: whoever opens it says what is wrong.
+/// Looks at the outside only, so a damaged certificate is still a certificate: its reader says what is wrong.
 pub fn recognise(bytes: &[u8]) -> Option<PkiKind> {
-    if pem::is_pem(bytes) {
-        return in_pem(bytes);
-    }
-    if bytes.starts_with(key_file::PVK) {
-        return Some(PkiKind::Key);
-    }
-    // Some tools write these two in BER, without lengths.
-    match bytes {
-        [SEQUENCE, 0x80, rest @ ..] if rest.starts_with(VERSION_3) => return Some(PkiKind::Pkcs12),
-        [SEQUENCE, 0x80, rest @ ..] if rest.starts_with(SIGNED_DATA) => return Some(PkiKind::Bundle),
-        _ => {}
-    }
-    let (whole, rest) = tlv::first(bytes)?;
-    if whole.tag != SEQUENCE || !rest.is_empty() {
-        return None;
-    }
-    in_der(whole.content, &tlv::all(whole.content)?)
-}
-
-fn in_der(content: &[u8], parts: &[Tlv<'_>]) -> Option<PkiKind> {
-    let tags: Vec<u8> = parts.iter().map(|part| part.tag).collect();
-    match tags[..] {
-        [INTEGER, SEQUENCE, ..] if content.starts_with(VERSION_3) => Some(PkiKind::Pkcs12),
-        [OBJECT_IDENTIFIER, CONTEXT_0] if content.starts_with(SIGNED_DATA) => Some(PkiKind::Bundle),
-        [SEQUENCE, SEQUENCE, BIT_STRING] => signed(&tlv::all(parts[0].content)?),
-        // PKCS#8, plain and encrypted; PKCS#1; SEC 1.
-        [INTEGER, SEQUENCE, OCTET_STRING, ..] | [SEQUENCE, OCTET_STRING] | [INTEGER, OCTET_STRING, ..] => {
-            Some(PkiKind::Key)
-        }
-        [INTEGER, INTEGER, ..] if tags.len() >= 9 => Some(PkiKind::Key),
-        _ => None,
-    }
-}
-
-/// What was signed: the fields of a certificate, a request or a revocation list (RFC 5280 §4.1, §5.1; RFC 2986 §4.1).
-fn signed(parts: &[Tlv<'_>]) -> Option<PkiKind> {
-    let tags: Vec<u8> = parts.iter().map(|part| part.tag).collect();
-    match tags[..] {
-        [CONTEXT_0, INTEGER, SEQUENCE, SEQUENCE, SEQUENCE, SEQUENCE, SEQUENCE, ..]
-        | [INTEGER, SEQUENCE, SEQUENCE, SEQUENCE, SEQUENCE, SEQUENCE, ..] => Some(PkiKind::Certificate),
-        [INTEGER, SEQUENCE, SEQUENCE, UTC_TIME | GENERALIZED_TIME, ..]
-        | [SEQUENCE, SEQUENCE, UTC_TIME | GENERALIZED_TIME, ..] => Some(PkiKind::Crl),
-        [INTEGER, SEQUENCE, SEQUENCE, CONTEXT_0] | [INTEGER, SEQUENCE, SEQUENCE] => Some(PkiKind::Csr),
-        _ => None,
-    }
-}
-
-fn in_pem(text: &[u8]) -> Option<PkiKind> {
-    let (mut certificates, mut bundles, mut crls, mut csrs, mut keys) = (0, 0, 0, 0, 0);
-    for label in pem::labels(text) {
-        match label {
-            b"CERTIFICATE" | b"X509 CERTIFICATE" | b"TRUSTED CERTIFICATE" => certificates += 1,
-            b"PKCS7" | b"CMS" => bundles += 1,
-            b"X509 CRL" => crls += 1,
-            b"CERTIFICATE REQUEST" | b"NEW CERTIFICATE REQUEST" => csrs += 1,
-            label if label.ends_with(pem::PRIVATE_KEY) => keys += 1,
-            // Such as the parameters OpenSSL puts before a key.
-            _ => {}
-        }
-    }
+    let contents: Vec<FileContent> = match parts(bytes) {
+        Ok(parts) => parts.into_iter().map(|part| part.content).collect(),
+        Err(PkiError::BadPem) => pem::labels(bytes).map(|label| FileContent::labelled(&label)).collect(),
+        Err(_) => return None,
+    };
+    let count = |wanted: FileContent| contents.iter().filter(|content| **content == wanted).count();
+    let keys = contents.iter().filter(|content| content.is_private_key()).count();
+    let (certificates, bundles, crls, csrs) =
+        (count(FileContent::Certificate), count(FileContent::Pkcs7), count(FileContent::Crl), count(FileContent::Csr));
     match (certificates, bundles, crls, csrs, keys) {
-        (0, 0, 0, 0, 0) => None,
+        (0, 0, 0, 0, 0) => (count(FileContent::Pkcs12) > 0).then_some(PkiKind::Pkcs12),
         (0, 0, 0, 0, _) => Some(PkiKind::Key),
         (_, _, _, _, 1..) => Some(PkiKind::KeyAndCertificate),
         (1, 0, 0, 0, 0) => Some(PkiKind::Certificate),
@@ -100,23 +50,19 @@ fn in_pem(text: &[u8]) -> Option<PkiKind> {
     }
 }
 
-const INTEGER: u8 = 0x02;
-const BIT_STRING: u8 = 0x03;
-const OBJECT_IDENTIFIER: u8 = 0x06;
-const UTC_TIME: u8 = 0x17;
-const GENERALIZED_TIME: u8 = 0x18;
-/// A PKCS#12 starts with its version (RFC 7292 §4).
-const VERSION_3: &[u8] = &[INTEGER, 1, 3];
-/// 1.2.840.113549.1.7.2.
-const SIGNED_DATA: &[u8] = &[OBJECT_IDENTIFIER, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 0x01, 0x07, 0x02];
-
 #[cfg(test)]
 mod tests {
     use rcgen::{CertificateParams, CertificateRevocationListParams, Issuer, KeyIdMethod, KeyPair, SerialNumber};
     use time::OffsetDateTime;
 
     use super::*;
+    use crate::pki::tlv::{self, CONTEXT_0, SEQUENCE};
     use crate::pki::{pkcs12_write, samples};
+
+    const INTEGER: u8 = 0x02;
+    const OBJECT_IDENTIFIER: u8 = 0x06;
+    /// 1.2.840.113549.1.7.2.
+    const SIGNED_DATA: &[u8] = &[OBJECT_IDENTIFIER, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 0x01, 0x07, 0x02];
 
     fn crl() -> rcgen::CertificateRevocationList {
         let issuer = Issuer::new(CertificateParams::default(), KeyPair::generate().unwrap());

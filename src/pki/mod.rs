@@ -13,9 +13,13 @@
 //! | `trust` | [`TrustLists`]: whether a certificate may be trusted (OPC 10000-4 §6.1.3) |
 //! | `describe` | [`describe`]: everything public inside a file, to be read |
 //! | `signers` | which certificate of a file signed what else is in it |
+//! | `parts` | what is in a file, by its content: where every reader starts |
+//! | `file_content` | [`FileContent`]: the names of what files hold, and how one is made of another |
 //! | `pem` | the text armour around DER, both ways |
+//! | `ber` | the looser encoding of PKCS#7 and PKCS#12, made into DER |
 //! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
+//! | `password_encryption` | what a password encrypts, in keys and in PKCS#12 |
 //! | `key_encryption` | [`encrypt_key`]: a private key under a passphrase, for any tool to read |
 //! | `self_signed` | [`self_signed`]: an OPC UA server certificate, signed with its own key |
 //! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
@@ -39,6 +43,7 @@
 //! [`MAX_BUNDLE_BYTES`]. Text taken from a certificate holds no control characters.
 
 mod authority;
+mod ber;
 mod bundle;
 mod ca;
 mod certificate;
@@ -48,6 +53,7 @@ mod csr;
 mod describe;
 mod error;
 mod facts;
+mod file_content;
 mod fingerprint;
 mod flaw;
 mod general_name;
@@ -58,6 +64,8 @@ mod key_encryption;
 mod key_file;
 mod kind;
 mod name;
+mod parts;
+mod password_encryption;
 mod pem;
 mod pkcs12;
 mod preflight;
@@ -84,6 +92,7 @@ pub use describe::{
 };
 pub use error::PkiError;
 pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
+pub use file_content::{FileContent, Wanted};
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use flaw::{CertificateFlaw, RefusalCause, explain_refusal};
 pub use identity::{TlsIdentity, tls_identity};

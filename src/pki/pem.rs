@@ -1,12 +1,12 @@
-//! The text armour around DER.
+//! The text armour around DER (RFC 7468, RFC 1421).
 //!
-//! The only place that reads PEM: certificates and requests with `rustls-pemfile`, private keys by hand. That crate is
-//! archived (RUSTSEC-2025-0134: unmaintained, no known defect); it is a thin wrapper over the maintained parser in
-//! `rustls-pki-types`, and should it ever have to go, only this file changes.
+//! Written by hand: parsers for this format follow the strict form of RFC 7468, or pass over what they do not know, and
+//! files from practice are indented, wrapped otherwise, or on one line.
 
 use base64::Engine as _;
-use base64::engine::general_purpose::STANDARD;
-use rustls_pemfile::Item;
+use base64::alphabet;
+use base64::engine::DecodePaddingMode;
+use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig, STANDARD};
 use zeroize::Zeroizing;
 
 use super::PkiError;
@@ -14,107 +14,100 @@ use super::PkiError;
 /// The largest file a certificate is looked for in. A certificate's printed form may stand around its PEM.
 pub const MAX_CERTIFICATE_FILE_BYTES: usize = 256 * 1024;
 
+/// Base64 with or without its padding.
+pub(super) const BASE64: GeneralPurpose = GeneralPurpose::new(
+    &alphabet::STANDARD,
+    GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent),
+);
+
 /// Whether these bytes are PEM text rather than DER.
 pub(super) fn is_pem(bytes: &[u8]) -> bool {
     // A certificate in DER starts with a SEQUENCE of more than 127 bytes, which no text can start with.
-    !matches!(bytes, [0x30, 0x80..=0x84, ..]) && bytes.windows(BEGIN.len()).any(|window| window == BEGIN)
-}
-
-/// The DER of the only certificate in a PEM text. Other text around it is passed over, a private key is not.
-pub(super) fn single_certificate(text: &[u8]) -> Result<Vec<u8>, PkiError> {
-    match certificates(text)?.as_slice() {
-        [] => Err(PkiError::NoCertificate),
-        [der] => Ok(der.to_vec()),
-        several => Err(PkiError::SeveralCertificates(several.len())),
-    }
-}
-
-/// The DER of every certificate in a PEM text, in order; otherwise as [`single_certificate`].
-pub(super) fn certificates(text: &[u8]) -> Result<Vec<Vec<u8>>, PkiError> {
-    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
-    if has_private_key(text) {
-        return Err(PkiError::PrivateKeyInside);
-    }
-    let mut certificates = Vec::new();
-    let mut rest = text;
-    while let Some((item, after)) = rustls_pemfile::read_one_from_slice(rest).map_err(|_| PkiError::BadPem)? {
-        if let Item::X509Certificate(der) = item {
-            certificates.push(der.to_vec());
-        }
-        rest = after;
-    }
-    Ok(certificates)
-}
-
-/// The DER of the only certificate signing request in a PEM text.
-pub(super) fn single_csr(text: &[u8]) -> Result<Vec<u8>, PkiError> {
-    let mut requests = Vec::new();
-    let mut rest = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
-    while let Some((item, after)) = rustls_pemfile::read_one_from_slice(rest).map_err(|_| PkiError::BadPem)? {
-        if let Item::Csr(der) = item {
-            requests.push(der);
-        }
-        rest = after;
-    }
-    match requests.as_slice() {
-        [] => Err(PkiError::NotACsr),
-        [der] => Ok(der.to_vec()),
-        several => Err(PkiError::SeveralCsrs(several.len())),
-    }
+    !matches!(bytes, [0x30, 0x80..=0x84, ..]) && position(bytes, BEGIN).is_some()
 }
 
 /// One block of a PEM text.
 pub(super) struct Block {
     /// What stands after `BEGIN`.
     pub label: String,
-    /// In the traditional way, outside of the DER.
+    /// In the traditional way, outside of the DER (RFC 1421 §4.6.1.1).
     pub encrypted: bool,
     pub der: Zeroizing<Vec<u8>>,
 }
 
-impl Block {
-    pub fn is_private_key(&self) -> bool {
-        self.label.ends_with("PRIVATE KEY")
-    }
-}
-
-/// Every private key in a PEM text, of whatever kind. Other text and other blocks are passed over.
-pub(super) fn private_keys(text: &[u8]) -> Result<Vec<Block>, PkiError> {
-    blocks(text, |label| label.ends_with(PRIVATE_KEY))
-}
-
-/// Every block of a PEM text, of whatever kind. Only text between the blocks is passed over.
-pub(super) fn all_blocks(text: &[u8]) -> Result<Vec<Block>, PkiError> {
-    blocks(text, |_| true)
-}
-
-/// Written by hand, because the parser does not know encrypted keys, and passes over what it does not know.
-fn blocks(text: &[u8], is_wanted: impl Fn(&[u8]) -> bool) -> Result<Vec<Block>, PkiError> {
+/// Every block of a PEM text, of whatever kind. What stands around the blocks is passed over.
+///
+/// Takes lines of any length and indentation, ended by LF, CRLF or CR, and a block on one line. A block that has no end,
+/// or no base64 in it, is [`PkiError::BadPem`].
+pub(super) fn blocks(text: &[u8]) -> Result<Vec<Block>, PkiError> {
     let mut blocks = Vec::new();
-    let mut lines = text.split(|byte| matches!(byte, b'\n' | b'\r')).map(<[u8]>::trim_ascii);
-    while let Some(line) = lines.next() {
-        let line = line.strip_prefix(BYTE_ORDER_MARK).unwrap_or(line);
-        let Some(label) = line.strip_prefix(BEGIN).and_then(|rest| rest.strip_suffix(b"-----")) else { continue };
-        if !is_wanted(label) {
-            continue;
-        }
-        let label = String::from_utf8_lossy(label).into_owned();
+    let mut rest = text;
+    while let Some((label, body)) = next_begin(rest) {
         let end = format!("-----END {label}-----");
-        let (mut encrypted, mut body) = (false, Zeroizing::new(Vec::new()));
-        loop {
-            let line = lines.next().ok_or(PkiError::BadPem)?;
-            if line == end.as_bytes() {
-                break;
-            } else if line.contains(&b':') {
-                encrypted |= line.starts_with(b"Proc-Type:") && line.ends_with(b"ENCRYPTED");
-            } else {
-                body.extend_from_slice(line);
-            }
+        let length = position(body, end.as_bytes()).ok_or(PkiError::BadPem)?;
+        let (body, after) = body.split_at(length);
+        if position(body, BEGIN).is_some() {
+            return Err(PkiError::BadPem);
         }
-        let der = Zeroizing::new(STANDARD.decode(&*body).map_err(|_| PkiError::BadPem)?);
-        blocks.push(Block { label, encrypted, der });
+        blocks.push(block(label, body)?);
+        rest = &after[end.len()..];
     }
     Ok(blocks)
+}
+
+/// The label of the next `BEGIN` at the start of a line, and what follows it.
+fn next_begin(mut text: &[u8]) -> Option<(String, &[u8])> {
+    loop {
+        let at = position(text, BEGIN)?;
+        let (before, after) = (&text[..at], &text[at + BEGIN.len()..]);
+        let starts_line = before.iter().rev().find(|byte| !matches!(byte, b' ' | b'\t'));
+        let is_start = matches!(starts_line, None | Some(b'\n' | b'\r' | b'-' | 0xbf));
+        let label_end = position(&after[..after.len().min(MAX_LABEL + DASHES.len())], DASHES);
+        if let Some(label) = label_end.map(|end| &after[..end])
+            && is_start
+            && !label.iter().any(|byte| matches!(byte, b'\n' | b'\r'))
+        {
+            let label_text = String::from_utf8_lossy(label).into_owned();
+            return Some((label_text, &after[label.len() + DASHES.len()..]));
+        }
+        text = after;
+    }
+}
+
+fn block(label: String, body: &[u8]) -> Result<Block, PkiError> {
+    let mut encrypted = false;
+    let mut digits = Zeroizing::new(Vec::with_capacity(body.len()));
+    for line in body.split(|byte| matches!(byte, b'\n' | b'\r')) {
+        if line.contains(&b':') {
+            let line = line.trim_ascii();
+            encrypted |= line.starts_with(b"Proc-Type:") && line.ends_with(b"ENCRYPTED");
+        } else {
+            digits.extend(line.iter().filter(|byte| !byte.is_ascii_whitespace()));
+        }
+    }
+    let der = Zeroizing::new(BASE64.decode(&*digits).map_err(|_| PkiError::BadPem)?);
+    Ok(Block { label, encrypted, der })
+}
+
+/// What stands after each `BEGIN`, in order, whether the blocks are whole or not.
+pub(super) fn labels(mut text: &[u8]) -> impl Iterator<Item = String> {
+    std::iter::from_fn(move || {
+        let (label, rest) = next_begin(text)?;
+        text = rest;
+        Some(label)
+    })
+}
+
+fn position(bytes: &[u8], word: &[u8]) -> Option<usize> {
+    // The first byte is found fast, which matters for large revocation lists.
+    let mut from = 0;
+    while let Some(at) = bytes[from..].iter().position(|byte| *byte == word[0]) {
+        if bytes[from + at..].starts_with(word) {
+            return Some(from + at);
+        }
+        from += at + 1;
+    }
+    None
 }
 
 /// The PEM form of a certificate.
@@ -137,7 +130,7 @@ pub(super) fn encrypted_key(der: &[u8]) -> String {
     armour("ENCRYPTED PRIVATE KEY", der)
 }
 
-/// The PEM form of an unencrypted PKCS#8. A secret, to be wiped by whoever asked for it.
+/// The PEM form of an unencrypted PKCS#8. A secret: the caller wipes it.
 pub(super) fn private_key(der: &[u8]) -> String {
     armour("PRIVATE KEY", der)
 }
@@ -159,23 +152,10 @@ pub(super) fn armour(label: &str, der: &[u8]) -> String {
     text
 }
 
-/// What stands after each `BEGIN`, in order.
-pub(super) fn labels(text: &[u8]) -> impl Iterator<Item = &[u8]> {
-    let text = text.strip_prefix(BYTE_ORDER_MARK).unwrap_or(text);
-    text.split(|byte| matches!(byte, b'\n' | b'\r'))
-        .filter_map(|line| line.trim_ascii().strip_prefix(BEGIN)?.strip_suffix(b"-----"))
-}
-
-/// Of any kind, also those the parser does not know, such as encrypted ones.
-fn has_private_key(text: &[u8]) -> bool {
-    text.split(|byte| matches!(byte, b'\n' | b'\r'))
-        .filter(|line| line.starts_with(BEGIN))
-        .any(|line| line.windows(PRIVATE_KEY.len()).any(|window| window == PRIVATE_KEY))
-}
-
 const BEGIN: &[u8] = b"-----BEGIN ";
-pub(super) const PRIVATE_KEY: &[u8] = b"PRIVATE KEY";
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+const DASHES: &[u8] = b"-----";
+/// No label in use is longer.
+const MAX_LABEL: usize = 64;
 
 #[cfg(test)]
 mod tests {
@@ -202,6 +182,13 @@ mod tests {
             format!("0 s:CN=robot\n{pem}"),
             format!("\u{feff}{pem}"),
             pem.replace('\n', "\r\n"),
+            pem.replace('\n', "\r"),
+            pem.replace('\n', "\n\n"),
+            pem.lines().map(|line| format!("\t  {line}  \n")).collect(),
+            pem.replace('\n', " "),
+            pem.replace("=\n-", "\n-"),
+            format!("Bag Attributes\n    friendlyName: Gr\u{f6}\u{df}e\nsubject=CN = robot\n{pem}"),
+            format!("paste it from -----BEGIN to -----END\n{pem}"),
         ] {
             assert_eq!(Certificate::from_any(text.as_bytes()).as_ref(), Ok(samples::certificate()));
         }
@@ -211,8 +198,6 @@ mod tests {
     fn exactly_one_certificate_is_taken() {
         let two = pem() + &pem();
         assert_eq!(Certificate::from_any(two.as_bytes()), Err(PkiError::SeveralCertificates(2)));
-        let request = pem().replace("CERTIFICATE", "CERTIFICATE REQUEST");
-        assert_eq!(Certificate::from_any(request.as_bytes()), Err(PkiError::NoCertificate));
     }
 
     #[test]
@@ -226,6 +211,8 @@ mod tests {
     #[test]
     fn damaged_text_is_said_to_be_damaged() {
         let pem = pem();
+        let nested = pem.replacen("\nMII", &format!("\n{pem}MII"), 1);
+        assert_eq!(Certificate::from_any(nested.as_bytes()), Err(PkiError::BadPem));
         let without_end = pem.split("-----END").next().unwrap();
         assert_eq!(Certificate::from_any(without_end.as_bytes()), Err(PkiError::BadPem));
         let not_base64 = pem.replacen("MII", "M*I", 1);

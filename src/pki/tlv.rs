@@ -17,11 +17,17 @@ pub(super) struct Tlv<'a> {
 
 /// The first element, and what follows it; `None` if it is not whole or not in DER.
 pub(super) fn first(bytes: &[u8]) -> Option<(Tlv<'_>, &[u8])> {
+    // Longer than anything read here.
+    if bytes.get(1).is_some_and(|length| *length > 0x83) { None } else { first_lax(bytes) }
+}
+
+/// As [`first`], with a length of up to four bytes that need not be the shortest form (X.690 §8.1.3.5).
+pub(super) fn first_lax(bytes: &[u8]) -> Option<(Tlv<'_>, &[u8])> {
     let (&tag, rest) = bytes.split_first()?;
     let (&length, rest) = rest.split_first()?;
     let (length, rest) = match length {
         0..=0x7f => (usize::from(length), rest),
-        0x81..=0x83 => {
+        0x81..=0x84 => {
             let (digits, rest) = rest.split_at_checked(usize::from(length & 0x7f))?;
             (digits.iter().fold(0, |number, digit| number << 8 | usize::from(*digit)), rest)
         }
@@ -29,6 +35,22 @@ pub(super) fn first(bytes: &[u8]) -> Option<(Tlv<'_>, &[u8])> {
     };
     let (content, rest) = rest.split_at_checked(length)?;
     Some((Tlv { tag, content }, rest))
+}
+
+/// The whole of every element, with its head, if they are whole to the last byte.
+pub(super) fn elements(mut bytes: &[u8]) -> Option<Vec<&[u8]>> {
+    let mut elements = Vec::new();
+    while !bytes.is_empty() {
+        let (_, rest) = first(bytes)?;
+        elements.push(&bytes[..bytes.len() - rest.len()]);
+        bytes = rest;
+    }
+    Some(elements)
+}
+
+/// The only element, with nothing behind it.
+pub(super) fn sole(bytes: &[u8]) -> Option<Tlv<'_>> {
+    first(bytes).and_then(|(element, rest)| rest.is_empty().then_some(element))
 }
 
 /// Every element, if they are whole to the last byte.
@@ -60,18 +82,21 @@ pub(super) fn is_signed_object(der: &[u8]) -> bool {
 
 /// The element as DER.
 pub(super) fn write(tag: u8, parts: &[&[u8]]) -> Vec<u8> {
-    let content = parts.concat();
+    let mut der = Vec::new();
+    write_to(&mut der, tag, &parts.concat());
+    der
+}
+
+/// Appends the element as DER.
+pub(super) fn write_to(der: &mut Vec<u8>, tag: u8, content: &[u8]) {
     let length = content.len().to_be_bytes();
     let digits = &length[length.iter().take_while(|digit| **digit == 0).count().min(length.len() - 1)..];
-    let mut der = vec![tag];
-    if content.len() < 0x80 {
-        der.extend_from_slice(digits);
-    } else {
+    der.push(tag);
+    if content.len() >= 0x80 {
         der.push(0x80 | digits.len() as u8);
-        der.extend_from_slice(digits);
     }
-    der.extend_from_slice(&content);
-    der
+    der.extend_from_slice(digits);
+    der.extend_from_slice(content);
 }
 
 pub(super) fn null() -> AnyRef<'static> {

@@ -3,6 +3,8 @@
 use thiserror::Error;
 
 use super::{Configuration, ControllerEntry};
+use crate::model::table::{Table, TableRow};
+use crate::model::text::{self, TextError};
 use crate::model::{Address, AddressError, ControllerName, ControllerSeries, ErrorCode, NameError, Problem};
 
 /// The columns, as the first line names them.
@@ -17,13 +19,18 @@ pub const MAX_CONNECTIONS: usize = 10_000;
 /// A connection list, line by line, nothing decided yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConnectionList {
-    rows: Vec<Row>,
+    rows: Vec<TableRow>,
+    columns: Columns,
 }
 
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Row {
-    line: u64,
-    fields: Vec<String>,
+/// Where name, type and address stand, counted from 0: the order is free, and there may be other columns.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Columns {
+    name: usize,
+    kind: usize,
+    address: usize,
+    /// How many the first line names.
+    count: usize,
 }
 
 /// Why the bytes are no connection list at all.
@@ -31,12 +38,18 @@ struct Row {
 pub enum ConnectionListError {
     #[error("the file has {0} bytes; at most {MAX_CONNECTION_LIST_BYTES} are read")]
     TooLarge(usize),
-    #[error("line {line} is not UTF-8 text")]
-    NotUtf8 { line: u64 },
-    #[error("the first line is not \"Name,Type,Address\"")]
-    Columns,
+    #[error(transparent)]
+    Text(#[from] TextError),
+    /// The names that stand there, if one of them is right; otherwise nothing, since it may be a secret of some other
+    /// file.
+    #[error("the first line does not name the columns Name, Type and Address{found}", found = found(.0))]
+    Columns(String),
     #[error("it has more than {MAX_CONNECTIONS} entries")]
     TooMany,
+}
+
+fn found(columns: &str) -> String {
+    if columns.is_empty() { String::new() } else { format!(" but \"{columns}\"") }
 }
 
 impl From<ConnectionListError> for Problem {
@@ -49,7 +62,7 @@ impl From<ConnectionListError> for Problem {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlannedConnection {
     /// Counted from 1, the first line of the file included.
-    pub line: u64,
+    pub line: usize,
     /// As it stands in the file.
     pub name: String,
     /// As it stands in the file.
@@ -81,6 +94,8 @@ pub enum Skipped {
     AddressRegistered(ControllerName),
     #[error("it has {0} field{s}; name, type and address are required", s = if *.0 == 1 { "" } else { "s" })]
     Fields(usize),
+    #[error("a quotation mark is not closed, or a field has a line end in it")]
+    Quotes,
     #[error("\"{0}\" is not a type of connection; known are Ethernet, USB and Virtual")]
     Type(String),
     #[error("{0}")]
@@ -88,17 +103,17 @@ pub enum Skipped {
     #[error("{0}")]
     Address(AddressError),
     #[error("the name also stands in line {0}")]
-    NameTwice(u64),
+    NameTwice(usize),
     #[error("the address also stands in line {0}")]
-    AddressTwice(u64),
+    AddressTwice(usize),
 }
 
 impl Skipped {
     /// The mistake to be told about; `None` where leaving the line out is what was wanted.
-    pub fn problem(&self, line: u64) -> Option<Problem> {
+    pub fn problem(&self, line: usize) -> Option<Problem> {
         let code = match self {
             Self::Usb | Self::Virtual | Self::NameRegistered | Self::AddressRegistered(_) => return None,
-            Self::Fields(_) | Self::Type(_) => ErrorCode::BadConnectionList,
+            Self::Fields(_) | Self::Quotes | Self::Type(_) => ErrorCode::BadConnectionList,
             Self::Name(_) => ErrorCode::BadName,
             Self::Address(_) => ErrorCode::BadAddress,
             Self::NameTwice(_) => ErrorCode::NameTaken,
@@ -116,49 +131,35 @@ impl NewConnection {
 }
 
 impl ConnectionList {
-    /// Reads UTF-8 with or without BOM, fields separated by commas and quoted where needed. Case and blanks around
-    /// the names of the columns do not matter, nor do empty lines.
+    /// Reads text as [`text::decode`] takes it, and a table as [`Table::read`] does. Case and order of the columns do not
+    /// matter, nor do other columns and empty lines.
     pub fn parse(bytes: &[u8]) -> Result<Self, ConnectionListError> {
         if bytes.len() > MAX_CONNECTION_LIST_BYTES {
             return Err(ConnectionListError::TooLarge(bytes.len()));
         }
-        let text = std::str::from_utf8(bytes).map_err(|error| {
-            let before = bytes.iter().take(error.valid_up_to()).filter(|byte| **byte == b'\n').count();
-            ConnectionListError::NotUtf8 { line: before as u64 + 1 }
-        })?;
-        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut reader = csv::ReaderBuilder::new()
-            .has_headers(false)
-            .flexible(true)
-            .trim(csv::Trim::All)
-            .from_reader(text.as_bytes());
-        // Text that is UTF-8 cannot fail to be a list of records of any length.
-        let mut records = reader.records().filter_map(Result::ok);
-        let is_header = |record: &csv::StringRecord| {
-            record.len() == CONNECTION_LIST_COLUMNS.len()
-                && record.iter().zip(CONNECTION_LIST_COLUMNS).all(|(found, wanted)| found.eq_ignore_ascii_case(wanted))
-        };
-        if !records.next().as_ref().is_some_and(is_header) {
-            return Err(ConnectionListError::Columns);
+        let mut rows = Table::read(&text::decode(bytes)?, MAX_CONNECTIONS + 2).rows;
+        if rows.is_empty() {
+            return Err(ConnectionListError::Columns(String::new()));
         }
-        let mut rows = Vec::new();
-        let mut lines = LineCounter { bytes: text.as_bytes(), counted: 0, line: 1 };
-        for record in records.filter(|record| record.iter().any(|field| !field.is_empty())) {
-            if rows.len() == MAX_CONNECTIONS {
-                return Err(ConnectionListError::TooMany);
-            }
-            let from = record.position().map_or(0, csv::Position::byte);
-            rows.push(Row { line: lines.line_from(from), fields: record.iter().map(str::to_owned).collect() });
+        let first = rows.remove(0);
+        let columns = Columns::of(&first).ok_or_else(|| ConnectionListError::Columns(shown(&first)))?;
+        if rows.len() > MAX_CONNECTIONS {
+            return Err(ConnectionListError::TooMany);
         }
-        Ok(Self { rows })
+        Ok(Self { rows, columns })
+    }
+
+    /// Whether text begins as a connection list.
+    pub fn begins(text: &str) -> bool {
+        Table::read(text, 1).rows.first().is_some_and(|first| Columns::of(first).is_some())
     }
 
     /// What an import would add to the list of controllers and what it would leave out, in the file's order.
     pub fn plan(&self, configuration: &Configuration) -> Vec<PlannedConnection> {
         let mut names = std::collections::HashMap::new();
         let mut addresses = std::collections::HashMap::new();
-        let plan_one = |row: &Row| {
-            let verdict = row.read(configuration).and_then(|new| {
+        let plan_one = |row: &TableRow| {
+            let verdict = self.columns.read(row, configuration).and_then(|new| {
                 if let Some(line) = names.get(&new.name) {
                     return Err(Skipped::NameTwice(*line));
                 }
@@ -169,49 +170,55 @@ impl ConnectionList {
                 addresses.insert(new.address.clone(), row.line);
                 Ok(new)
             });
-            PlannedConnection { line: row.line, name: row.field(0), address: row.field(2), verdict }
+            let text = |column: usize| row.fields.get(column).cloned().unwrap_or_default();
+            let (name, address) = (text(self.columns.name), text(self.columns.address));
+            PlannedConnection { line: row.line, name, address, verdict }
         };
         self.rows.iter().map(plan_one).collect()
     }
 }
 
-/// Numbers records by the lines they stand in. The reader's own count is late by the line ends and empty lines before a
-/// record.
-struct LineCounter<'a> {
-    bytes: &'a [u8],
-    counted: usize,
-    line: u64,
+/// The names of a first line with at least one of the columns, short enough for a message.
+fn shown(first: &TableRow) -> String {
+    let is_column = |field: &String| CONNECTION_LIST_COLUMNS.iter().any(|name| field.eq_ignore_ascii_case(name));
+    if !first.fields.iter().any(is_column) {
+        return String::new();
+    }
+    let names = first.fields.join(", ");
+    let mut shown: String = names.chars().filter(|c| !c.is_control()).take(MAX_SHOWN).collect();
+    if names.chars().nth(MAX_SHOWN).is_some() {
+        shown.push('…');
+    }
+    shown
 }
 
-impl LineCounter<'_> {
-    /// The line of the first character at `from` or after it that ends no line. Asked for ascending places only.
-    fn line_from(&mut self, from: u64) -> u64 {
-        let from = usize::try_from(from).unwrap_or(usize::MAX);
-        for byte in self.bytes.iter().skip(self.counted) {
-            if self.counted >= from && !matches!(byte, b'\r' | b'\n') {
-                break;
-            }
-            self.counted += 1;
-            self.line += u64::from(*byte == b'\n');
+const MAX_SHOWN: usize = 80;
+
+impl Columns {
+    fn of(first: &TableRow) -> Option<Self> {
+        let column = |wanted: &str| first.fields.iter().position(|found| found.eq_ignore_ascii_case(wanted));
+        let [name, kind, address] = CONNECTION_LIST_COLUMNS;
+        Some(Self { name: column(name)?, kind: column(kind)?, address: column(address)?, count: first.fields.len() })
+    }
+
+    fn read(self, row: &TableRow, configuration: &Configuration) -> Result<NewConnection, Skipped> {
+        if row.is_broken {
+            return Err(Skipped::Quotes);
         }
-        self.line
-    }
-}
-
-impl Row {
-    fn field(&self, index: usize) -> String {
-        self.fields.get(index).cloned().unwrap_or_default()
-    }
-
-    fn read(&self, configuration: &Configuration) -> Result<NewConnection, Skipped> {
-        let [name, kind, address] = &self.fields[..] else {
-            return Err(Skipped::Fields(self.fields.len()));
-        };
-        match kind.to_ascii_lowercase().as_str() {
-            "ethernet" => {}
-            "usb" => return Err(Skipped::Usb),
-            "virtual" => return Err(Skipped::Virtual),
-            _ => return Err(Skipped::Type(kind.clone())),
+        if row.fields.len() > self.count {
+            return Err(Skipped::Fields(row.fields.len()));
+        }
+        let text = |column: usize| row.fields.get(column).ok_or(Skipped::Fields(row.fields.len()));
+        let kind = text(self.kind)?;
+        if kind.eq_ignore_ascii_case("usb") {
+            return Err(Skipped::Usb);
+        }
+        if kind.eq_ignore_ascii_case("virtual") {
+            return Err(Skipped::Virtual);
+        }
+        let (name, address) = (text(self.name)?, text(self.address)?);
+        if !kind.eq_ignore_ascii_case("ethernet") {
+            return Err(Skipped::Type(kind.clone()));
         }
         let name: ControllerName = name.parse().map_err(Skipped::Name)?;
         let address: Address = address.parse().map_err(Skipped::Address)?;
@@ -241,7 +248,7 @@ mod tests {
         configuration
     }
 
-    fn verdicts(text: &str, list: &[(&str, &str)]) -> Vec<(u64, Result<String, Skipped>)> {
+    fn verdicts(text: &str, list: &[(&str, &str)]) -> Vec<(usize, Result<String, Skipped>)> {
         let plan = ConnectionList::parse(text.as_bytes()).unwrap().plan(&registered(list));
         plan.into_iter().map(|p| (p.line, p.verdict.map(|new| new.name.to_string()))).collect()
     }
@@ -293,12 +300,79 @@ mod tests {
         assert_eq!(told, Problem::with_detail(ErrorCode::NameTaken, "line 4: the name also stands in line 2"));
     }
 
+    /// Cases 03 and 05: the same list after "Save" in Excel, LibreOffice and PowerShell.
+    #[test]
+    fn lists_as_spreadsheets_save_them_give_the_same_controllers() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+        for (name, first) in [
+            ("03-csv/con-columns-reordered.csv", 2),
+            ("03-csv/con-excel-trailing.csv", 2),
+            ("03-csv/con-semicolon.csv", 2),
+            ("03-csv/con-sep.csv", 3),
+            ("05-utf16/con-utf16.csv", 2),
+        ] {
+            let list = ConnectionList::parse(&std::fs::read(folder.join(name)).unwrap());
+            let plan = list.unwrap_or_else(|e| panic!("{name}: {e}")).plan(&Configuration::default());
+            let found: Vec<_> = plan
+                .into_iter()
+                .map(|planned| {
+                    (planned.line, planned.verdict.map(|new| (new.name.to_string(), new.address.to_string())))
+                })
+                .collect();
+            let controller = |name: &str, address: &str| Ok((name.to_owned(), address.to_owned()));
+            let expected = [
+                (first, controller("Zelle 1", "192.168.10.1")),
+                (first + 1, controller("Zelle für 2", "192.168.10.2")),
+                (first + 2, controller("装配线 4", "192.168.10.4")),
+            ];
+            assert_eq!(found, expected, "{name}");
+        }
+        let typed = "#TYPE System.Management.Automation.PSCustomObject\r\n\"Name\",\"Note\",\"Type\",\"Address\"\r\n\
+                     \"Cell 1\",\"\",\"Ethernet\",\"10.0.0.1\"\r\n\"Cell 2\",\"x\",\"USB\"\r\n";
+        assert_eq!(verdicts(typed, &[]), [(3, Ok("Cell 1".into())), (4, Err(Skipped::Usb))]);
+    }
+
+    #[test]
+    fn addresses_from_practice_are_taken_or_named() {
+        let text = include_str!("../../tests/cases/03-csv/con-urls.csv");
+        let told: Vec<_> =
+            verdicts(text, &[]).into_iter().map(|(_, verdict)| verdict.map_err(|e| e.to_string())).collect();
+        for (row, part) in [
+            (0, "leave out \"opc.tcp://\""),
+            (1, "leave out \"https://\""),
+            (2, "leading zeros; write 192.168.10.1"),
+            (4, "zone \"%eth0\""),
+            (5, "zone \"%eth0\""),
+            (7, "characters that are not ASCII"),
+            (8, "leave out \"/24\""),
+            (9, "6 fields"),
+            (10, "characters that are not ASCII"),
+            (11, "is not a port"),
+            (13, "not a type of connection"),
+            (14, "not a type of connection"),
+            (16, "not an IP address or a host name"),
+            (17, "not an IP address or a host name"),
+        ] {
+            let told = told[row].as_ref().unwrap_err();
+            assert!(told.contains(part), "row {row}: {told}");
+        }
+        for (row, name) in [(3, "d"), (6, "g"), (12, "m"), (15, "p")] {
+            assert_eq!(told[row].as_deref(), Ok(name), "row {row}");
+        }
+    }
+
     #[test]
     fn what_is_no_connection_list_is_refused() {
         let refused = |bytes: &[u8]| ConnectionList::parse(bytes).unwrap_err();
-        assert_eq!(refused(b""), ConnectionListError::Columns);
-        assert_eq!(refused(b"Name;Type;Address\n"), ConnectionListError::Columns);
-        assert_eq!(refused(b"Name,Type,Address\n\xff"), ConnectionListError::NotUtf8 { line: 2 });
+        let columns = |names: &str| ConnectionListError::Columns(names.to_owned());
+        assert_eq!(refused(b""), columns(""));
+        assert_eq!(refused(b"Name;Adresse;Typ\n"), columns("Name, Adresse, Typ"));
+        assert_eq!(refused(b"Passw0rd1\n"), columns(""));
+        let long = format!("name,{}", "x".repeat(100));
+        assert_eq!(refused(long.as_bytes()), columns(&format!("name, {}…", "x".repeat(MAX_SHOWN - 6))));
+        let told = refused(b"Name;Adresse;Typ\n").to_string();
+        assert_eq!(told, "the first line does not name the columns Name, Type and Address but \"Name, Adresse, Typ\"");
+        assert_eq!(refused(b"Name,Type,Address\n\xff"), ConnectionListError::Text(TextError::NotUtf8 { line: 2 }));
         let large = vec![b'\n'; MAX_CONNECTION_LIST_BYTES + 1];
         assert_eq!(refused(&large), ConnectionListError::TooLarge(large.len()));
         let many = format!("Name,Type,Address\n{}", "a,USB,\n".repeat(MAX_CONNECTIONS + 1));

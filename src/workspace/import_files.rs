@@ -63,7 +63,7 @@ pub(super) fn certificate_files_in(folder: &Path) -> Vec<PathBuf> {
     files
 }
 
-const CERTIFICATE_EXTENSIONS: [&str; 4] = ["der", "cer", "crt", "pem"];
+const CERTIFICATE_EXTENSIONS: [&str; 6] = ["der", "cer", "crt", "pem", "p7b", "p7c"];
 const MAX_BESIDE: usize = 50;
 /// A folder such as that of downloads may hold any number of other files.
 const MAX_LISTED: usize = 10_000;

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::{ConnectionList, MAX_CONNECTION_LIST_BYTES, read_import_file};
 use crate::model::activation::{self, MAX_ACTIVATION_FILE_BYTES};
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, text};
 use crate::pki::{self, PkiKind};
 use crate::protocol::{EXPORT_FORMAT, MAX_EXPORT_BYTES};
 
@@ -27,20 +27,18 @@ pub enum Recognised {
 
 /// What the bytes are. The name of the file is not asked for.
 pub fn recognise(bytes: &[u8]) -> Option<Recognised> {
-    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
-    let first_line = text.split(|byte| matches!(byte, b'\n' | b'\r')).next().unwrap_or_default().trim_ascii();
-    // A file of another version is one as well: what is wrong with it is for its reader to say.
-    if first_line.starts_with(ACTIVATION) && bytes.len() <= MAX_ACTIVATION_FILE_BYTES {
-        return Some(Recognised::Activation);
-    }
-    if first_line.len() < MAX_COLUMNS_BYTES
-        && ConnectionList::parse(first_line).is_ok()
-        && bytes.len() <= MAX_CONNECTION_LIST_BYTES
-    {
-        return Some(Recognised::ConnectionList);
-    }
-    if is_export(text) {
-        return Some(Recognised::SettingsExport);
+    if let Ok(text) = text::decode(bytes) {
+        // What is wrong with a file is for its reader to say.
+        let head = &text[..text.floor_char_boundary(MAX_HEAD_BYTES)];
+        if activation::begins(head) && bytes.len() <= MAX_ACTIVATION_FILE_BYTES {
+            return Some(Recognised::Activation);
+        }
+        if ConnectionList::begins(head) && bytes.len() <= MAX_CONNECTION_LIST_BYTES {
+            return Some(Recognised::ConnectionList);
+        }
+        if is_export(&text) {
+            return Some(Recognised::SettingsExport);
+        }
     }
     pki::recognise(bytes).map(Recognised::Pki)
 }
@@ -55,17 +53,14 @@ pub fn recognise_file(path: &Path) -> Result<Recognised, Problem> {
     recognise(&bytes).ok_or_else(|| Problem::with_detail(ErrorCode::FileNotRecognised, path.display()))
 }
 
-fn is_export(text: &[u8]) -> bool {
+fn is_export(text: &str) -> bool {
     text.len() <= MAX_EXPORT_BYTES
-        && text.trim_ascii_start().starts_with(b"{")
-        && serde_json::from_slice::<Value>(text).is_ok_and(|json| json.get("format") == Some(&EXPORT_FORMAT.into()))
+        && text.trim_ascii_start().starts_with('{')
+        && serde_json::from_str::<Value>(text).is_ok_and(|json| json.get("format") == Some(&EXPORT_FORMAT.into()))
 }
 
-/// What the first line says before the version.
-const ACTIVATION: &[u8] = activation::FIRST_LINE_START.as_bytes();
-/// The first line of a connection list is not longer.
-const MAX_COLUMNS_BYTES: usize = 200;
-const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
+/// The first line of a list, and what stands before it, is not longer.
+const MAX_HEAD_BYTES: usize = 1024;
 
 #[cfg(test)]
 mod tests {
@@ -79,10 +74,14 @@ mod tests {
             ("\u{feff}OPCUA.Activation.Ver.9.0\n", Recognised::Activation),
             ("Name,Type,Address\nweld,Ethernet,10.0.0.1\n", Recognised::ConnectionList),
             ("\u{feff}name, type, address", Recognised::ConnectionList),
+            ("sep=;\r\n\"Type\";\"Address\";\"Name\"\r\n", Recognised::ConnectionList),
+            ("\n\"OPCUA.Activation.Ver.1.0\",,\r\n", Recognised::Activation),
             ("{\"format\": \"opcua-controller-settings\", \"version\": 7}", Recognised::SettingsExport),
             (certificate, Recognised::Pki(PkiKind::Certificate)),
         ] {
             assert_eq!(recognise(text.as_bytes()), Some(kind), "{text}");
+            let wide: Vec<u8> = text.encode_utf16().flat_map(u16::to_le_bytes).collect();
+            assert_eq!(recognise(&wide), Some(kind), "{text} in UTF-16");
         }
         for text in ["", "{}", "{\"format\": \"x\"}", "[1]", "Name,Address\n", "hello", "\u{feff}"] {
             assert_eq!(recognise(text.as_bytes()), None, "{text}");

@@ -41,8 +41,35 @@ pub fn write(corpus: &Path) {
     seeds.trust();
     seeds.messages();
     seeds.controller_state();
+    seeds.practice();
     seeds.everything();
 }
+
+/// Targets, and files below `tests/cases`.
+pub const PRACTICE: [(&str, &str); 22] = [
+    ("activation_file", "03-csv/act-excel-comma.csv"),
+    ("activation_file", "03-csv/act-quoted-fields-only.csv"),
+    ("activation_file", "05-utf16/act-excel-unicode-text-tab-utf16.txt"),
+    ("connection_list", "03-csv/con-columns-reordered.csv"),
+    ("connection_list", "03-csv/con-sep.csv"),
+    ("connection_list", "03-csv/con-urls.csv"),
+    ("connection_list", "05-utf16/con-utf16.csv"),
+    ("certificate", "05-utf16/utf16le-bom.pem"),
+    ("certificate", "06-wrong-or-no-pem-label/bare-base64.cer"),
+    ("certificate", "06-wrong-or-no-pem-label/trusted-certificate.pem"),
+    ("certificate", "13-pem-readers/c-p7.pem"),
+    ("certificate", "14-der-trailing/der-nul-padded.der"),
+    ("certificate_request", "02-new-certificate-request/certreq-old-oid.csr"),
+    ("certificate_request", "06-wrong-or-no-pem-label/certutil-encode.csr"),
+    ("bundle", "06-wrong-or-no-pem-label/certutil-encode-crl.b64"),
+    ("bundle", "08-pfx/p7b-ber.p7b"),
+    ("bundle", "13-pem-readers/c-chain.pem"),
+    ("pkcs12", "08-pfx/ber-inner.pfx"),
+    ("pkcs12", "08-pfx/pbmac1-sha256.pfx"),
+    ("pkcs12", "08-pfx/pbmac1-sha512-prf-sha1.pfx"),
+    ("pkcs12", "08-pfx/rc2-128.pfx"),
+    ("description", "08-pfx/p7b-ber.p7b"),
+];
 
 struct Seeds<'a> {
     corpus: &'a Path,
@@ -108,6 +135,15 @@ impl Seeds<'_> {
         let odd = "Name,Type,Address\n\"Cell, 9\",ethernet,\"[fe80::1]:8000\"\n,Ethernet,10.0.0.999\nx,Bluetooth\n\
                    \"two\nlines\",USB,\nCell 9,Ethernet,robot.plant.example:7943\n";
         self.seed("connection_list", "odd", odd);
+    }
+
+    /// Files of other tools, which the tests read too.
+    fn practice(&self) {
+        let cases = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+        for (target, file) in PRACTICE {
+            let name = file.rsplit('/').next().expect("a name");
+            self.seed(target, &format!("practice-{name}"), fs::read(cases.join(file)).expect("a file in the tree"));
+        }
     }
 
     fn names(&self) {

@@ -2,12 +2,14 @@ use thiserror::Error;
 
 use super::{ActivationKeys, KeyError};
 use crate::model::SerialNumber;
+use crate::model::table::{SEPARATORS, Table, TableRow};
+use crate::model::text::{self, TextError};
 
 /// What the first line of an activation file says, and nothing else.
 pub const FIRST_LINE: &str = "OPCUA.Activation.Ver.1.0";
 
 /// What it starts with in every version.
-pub const FIRST_LINE_START: &str = "OPCUA.Activation.";
+const FIRST_LINE_START: &str = "OPCUA.Activation.";
 
 /// A larger file is not one: ten thousand controllers take half of it.
 pub const MAX_ACTIVATION_FILE_BYTES: usize = 1024 * 1024;
@@ -46,8 +48,10 @@ pub struct LineMistake {
 pub enum Mistake {
     #[error("it has {0} field{s}; serial number, licence key and activation key are required", s = if *.0 == 1 { "" } else { "s" })]
     Fields(usize),
-    #[error("its fields are separated by \"{found}\", those of the lines before by \"{expected}\"")]
+    #[error("its fields are separated by {found:?}, those of the lines before by {expected:?}")]
     Separator { found: char, expected: char },
+    #[error("a quotation mark is not closed, or a field has a line end in it")]
+    Quotes,
     #[error("the serial number is not one: 1 to 32 letters, digits, \"-\" or \"_\"")]
     Serial,
     #[error("licence key: {0}")]
@@ -64,10 +68,29 @@ pub enum Mistake {
 pub enum ActivationFileError {
     #[error("the file has {0} bytes; at most {MAX_ACTIVATION_FILE_BYTES} are read")]
     TooLarge(usize),
-    #[error("line {line} is not UTF-8 text")]
-    NotUtf8 { line: usize },
-    #[error("the first line is not \"{FIRST_LINE}\"")]
-    FirstLine,
+    #[error(transparent)]
+    Text(#[from] TextError),
+    #[error("it is empty; the first line has to be \"{FIRST_LINE}\"")]
+    Empty,
+    /// What stands there instead, if it is like it; otherwise nothing, since it may be a secret of some other file.
+    #[error("the first line is not \"{FIRST_LINE}\"{difference}", difference = difference(.0))]
+    FirstLine(String),
+}
+
+fn difference(found: &str) -> String {
+    let starts = |word: &str| found.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word));
+    let what = if found.is_empty() {
+        return "; it is something else".to_owned();
+    } else if found.eq_ignore_ascii_case(FIRST_LINE) {
+        "; upper and lower case differ"
+    } else if starts(FIRST_LINE) {
+        "; other text follows it"
+    } else if starts(FIRST_LINE_START) {
+        "; it is of another version"
+    } else {
+        ""
+    };
+    format!(" but \"{found}\"{what}")
 }
 
 /// What an activation file says about one controller.
@@ -89,37 +112,34 @@ impl ActivationFile {
         &self.mistakes
     }
 
+    /// What the file says about a controller. Upper and lower case of its serial number do not matter.
     pub fn find(&self, serial: &SerialNumber) -> Entry<'_> {
-        if let Some(line) = self.lines.iter().find(|line| line.serial == *serial) {
+        let is_it = |found: &SerialNumber| found.as_str().eq_ignore_ascii_case(serial.as_str());
+        if let Some(line) = self.lines.iter().find(|line| is_it(&line.serial)) {
             return Entry::Line(line);
         }
-        match self.mistakes.iter().find(|mistake| mistake.serial.as_ref() == Some(serial)) {
+        match self.mistakes.iter().find(|mistake| mistake.serial.as_ref().is_some_and(is_it)) {
             Some(mistake) => Entry::Mistake(mistake),
             None => Entry::Missing,
         }
     }
 }
 
-/// Reads an activation file: UTF-8 with or without BOM, lines ending in LF or CRLF, first line exactly
-/// [`FIRST_LINE`], then `serial,licence,activation`, one controller a line. Every line is separated by "," or every
-/// line by ";". Empty lines and blanks around fields do not matter.
+/// Reads an activation file: text as [`text::decode`] takes it, first line [`FIRST_LINE`], then
+/// `serial,licence,activation`, one controller a line. What spreadsheets add when they save it does not matter, see
+/// [`Table::read`]: other separators, quotation marks, empty lines, and empty fields at the end.
 pub fn parse(bytes: &[u8]) -> Result<ActivationFile, ActivationFileError> {
     if bytes.len() > MAX_ACTIVATION_FILE_BYTES {
         return Err(ActivationFileError::TooLarge(bytes.len()));
     }
-    let text = std::str::from_utf8(bytes).map_err(|error| {
-        let before = bytes.iter().take(error.valid_up_to()).filter(|byte| **byte == b'\n').count();
-        ActivationFileError::NotUtf8 { line: before + 1 }
-    })?;
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-    let mut numbered = (1..).zip(text.lines());
-    if numbered.next().map(|(_, line)| line) != Some(FIRST_LINE) {
-        return Err(ActivationFileError::FirstLine);
+    let table = Table::read(&text::decode(bytes)?, usize::MAX);
+    let (first, rows) = table.rows.split_first().ok_or(ActivationFileError::Empty)?;
+    if first.fields != [FIRST_LINE] {
+        return Err(ActivationFileError::FirstLine(shown(first)));
     }
     let mut file = ActivationFile { lines: Vec::new(), mistakes: Vec::new() };
-    let mut separator = None;
-    for (number, line) in numbered.filter(|(_, line)| !line.trim().is_empty()) {
-        match one(number, line, &mut separator) {
+    for row in rows {
+        match one(row, table.separator) {
             Ok(line) => file.lines.push(line),
             Err(mistake) => file.mistakes.push(mistake),
         }
@@ -128,19 +148,46 @@ pub fn parse(bytes: &[u8]) -> Result<ActivationFile, ActivationFileError> {
     Ok(file)
 }
 
-fn one(line: usize, text: &str, separator: &mut Option<char>) -> Result<ActivationLine, LineMistake> {
-    let found = text.chars().find(|c| *c == ',' || *c == ';').unwrap_or(',');
-    let fields: Vec<&str> = text.split(found).map(str::trim).collect();
+/// Whether text begins as an activation file, of whatever version and case.
+pub fn begins(text: &str) -> bool {
+    let first = Table::read(text, 1).rows.into_iter().next().and_then(|row| row.fields.into_iter().next());
+    first.is_some_and(|field| {
+        field.get(..FIRST_LINE_START.len()).is_some_and(|start| start.eq_ignore_ascii_case(FIRST_LINE_START))
+    })
+}
+
+/// The first field of a first line that is another but like it, short enough for a message.
+fn shown(first: &TableRow) -> String {
+    let field = first.fields.first().map_or("", String::as_str);
+    let folded = field.to_ascii_lowercase();
+    if !folded.contains("opcua") && !folded.contains("activation") {
+        return String::new();
+    }
+    let mut shown: String = field.chars().filter(|c| !c.is_control()).take(MAX_SHOWN).collect();
+    if field.chars().nth(MAX_SHOWN).is_some() || first.fields.len() > 1 {
+        shown.push('…');
+    }
+    shown
+}
+
+/// Where the end of the first line is missing, the serial number follows it, and then the keys.
+const MAX_SHOWN: usize = FIRST_LINE.len() + 8;
+
+fn one(row: &TableRow, separator: char) -> Result<ActivationLine, LineMistake> {
+    let (line, fields) = (row.line, &row.fields);
     // With a separator missing, a key could be part of the first field.
     let serial = fields.first().filter(|_| fields.len() >= 3).and_then(|serial| serial.parse::<SerialNumber>().ok());
     let wrong = |mistake| LineMistake { line, serial: serial.clone(), mistake };
-    let [_, licence, activation] = fields[..] else {
-        return Err(wrong(Mistake::Fields(fields.len())));
-    };
-    let expected = *separator.get_or_insert(found);
-    if found != expected {
-        return Err(wrong(Mistake::Separator { found, expected }));
+    if row.is_broken {
+        return Err(wrong(Mistake::Quotes));
     }
+    let [_, licence, activation] = &fields[..] else {
+        let other = |found: &char| *found != separator && fields.len() == 1 && fields[0].contains(*found);
+        return Err(wrong(match SEPARATORS.into_iter().find(other) {
+            Some(found) => Mistake::Separator { found, expected: separator },
+            None => Mistake::Fields(fields.len()),
+        }));
+    };
     let Some(serial) = serial.clone() else {
         return Err(wrong(Mistake::Serial));
     };
@@ -150,16 +197,17 @@ fn one(line: usize, text: &str, separator: &mut Option<char>) -> Result<Activati
 }
 
 impl ActivationFile {
-    /// A serial number that stands in several good lines has none.
+    /// A serial number that stands in several good lines, in whichever case, has none.
     fn refuse_duplicates(&mut self) {
-        let mut by_serial: std::collections::HashMap<SerialNumber, Vec<usize>> = std::collections::HashMap::new();
+        let folded = |serial: &SerialNumber| serial.as_str().to_ascii_uppercase();
+        let mut by_serial: std::collections::HashMap<String, Vec<usize>> = std::collections::HashMap::new();
         for line in &self.lines {
-            by_serial.entry(line.serial.clone()).or_default().push(line.line);
+            by_serial.entry(folded(&line.serial)).or_default().push(line.line);
         }
         let mut duplicates = Vec::new();
         self.lines.retain(|line| {
             let elsewhere =
-                by_serial.get(&line.serial).and_then(|lines| lines.iter().find(|other| **other != line.line));
+                by_serial.get(&folded(&line.serial)).and_then(|lines| lines.iter().find(|other| **other != line.line));
             if let Some(other) = elsewhere {
                 let mistake = Mistake::Duplicate(*other);
                 duplicates.push(LineMistake { line: line.line, serial: Some(line.serial.clone()), mistake });
@@ -197,26 +245,73 @@ mod tests {
             SAMPLE.replace(',', " , "),
             SAMPLE.trim_end().to_owned(),
             format!("{SAMPLE}\n \r\n"),
+            SAMPLE.replace(',', "\t"),
+            SAMPLE.replace('\n', "\r"),
+            SAMPLE.replace('\n', ",\n"),
+            SAMPLE.replace(',', "\",\"").replace('\n', "\"\n\"").trim_end_matches('"').replacen("OP", "\"OP", 1),
+            SAMPLE.replace("1.0\n", "1.0 ,,\n"),
         ] {
             assert_eq!(parse(spelling.as_bytes()).unwrap(), plain, "{spelling:?}");
+        }
+    }
+
+    /// Cases 03 and 05: the same file after "Save" in Excel, LibreOffice and others.
+    #[test]
+    fn files_as_spreadsheets_save_them_give_the_same_keys() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases");
+        let read = |name: &str| {
+            let file = parse(&std::fs::read(folder.join(name)).unwrap()).unwrap_or_else(|e| panic!("{name}: {e}"));
+            assert_eq!(file.mistakes(), [], "{name}");
+            file
+        };
+        let expected = read("03-csv/act-cr-only.csv");
+        assert_eq!(expected.lines().len(), 4);
+        for name in [
+            "03-csv/act-excel-comma.csv",
+            "03-csv/act-excel-semicolon.csv",
+            "03-csv/act-first-line-trailing-space.csv",
+            "03-csv/act-leading-blank-line.csv",
+            "03-csv/act-lowercase-serial.csv",
+            "03-csv/act-quoted-fields-only.csv",
+            "03-csv/act-trailing-comma-rows.csv",
+            "05-utf16/act-excel-unicode-text-tab-utf16.txt",
+        ] {
+            let file = read(name);
+            assert_eq!(file.lines().len(), 4, "{name}");
+            for line in expected.lines() {
+                let Entry::Line(found) = file.find(&line.serial) else { panic!("{name}: {}", line.serial) };
+                assert_eq!(found.keys, line.keys, "{name}");
+            }
         }
     }
 
     #[test]
     fn what_is_no_activation_file_is_refused() {
         let refused = |bytes: &[u8]| parse(bytes).unwrap_err();
-        assert_eq!(refused(b""), ActivationFileError::FirstLine);
-        for first in ["OPCUA.Activation.Ver.2.0", "opcua.activation.ver.1.0", " OPCUA.Activation.Ver.1.0", ""] {
-            assert_eq!(refused(SAMPLE.replace(FIRST_LINE, first).as_bytes()), ActivationFileError::FirstLine);
-        }
-        let mut wide: Vec<u8> = vec![0xff, 0xfe];
-        wide.extend(SAMPLE.encode_utf16().flat_map(u16::to_le_bytes));
-        assert_eq!(refused(&wide), ActivationFileError::NotUtf8 { line: 1 });
+        assert_eq!(refused(b""), ActivationFileError::Empty);
+        assert_eq!(refused(b"\n,,\n"), ActivationFileError::Empty);
         let mut broken = SAMPLE.as_bytes().to_vec();
         broken.push(0xe7);
-        assert_eq!(refused(&broken), ActivationFileError::NotUtf8 { line: 4 });
+        assert_eq!(refused(&broken), ActivationFileError::Text(TextError::NotUtf8 { line: 4 }));
         let large = vec![b' '; MAX_ACTIVATION_FILE_BYTES + 1];
         assert_eq!(refused(&large), ActivationFileError::TooLarge(MAX_ACTIVATION_FILE_BYTES + 1));
+    }
+
+    #[test]
+    fn a_refused_first_line_shows_what_differs_and_no_key() {
+        let told = |first: &str| parse(SAMPLE.replacen(FIRST_LINE, first, 1).as_bytes()).unwrap_err().to_string();
+        for (first, shown) in [
+            ("OPCUA.Activation.Ver.2.0", " but \"OPCUA.Activation.Ver.2.0\"; it is of another version"),
+            ("opcua.activation.ver.1.0", " but \"opcua.activation.ver.1.0\"; upper and lower case differ"),
+            ("OPCUA.Activation.Ver.1.0!", " but \"OPCUA.Activation.Ver.1.0!\"; other text follows it"),
+            ("OPCUA Activation,x", " but \"OPCUA Activation…\""),
+            ("Passw0rd1", "; it is something else"),
+            ("", "; it is something else"),
+            ("aaaa-aaaa-aaaa-aaaa", "; it is something else"),
+        ] {
+            let told = told(first);
+            assert_eq!(told, format!("the first line is not \"{FIRST_LINE}\"{shown}"));
+        }
     }
 
     #[test]
@@ -228,8 +323,10 @@ mod tests {
             R7A0000004,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXX！\n\
             R7A0000005;aaaa-aaaa-aaaa-aaaa;XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n\
             remember to order more\n\
-            R7A0000006,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX,\n\
-            R7A0000007,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n";
+            R7A0000006,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX,new\n\
+            R7A0000007,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX,\n\
+            \"R7A0000008,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n\
+            R7A0000009,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n";
         assert_eq!(
             mistakes(body),
             [
@@ -240,6 +337,7 @@ mod tests {
                 (7, Mistake::Separator { found: ';', expected: ',' }),
                 (8, Mistake::Fields(1)),
                 (9, Mistake::Fields(4)),
+                (11, Mistake::Quotes),
             ]
         );
         assert!(Mistake::Fields(1).to_string().starts_with("it has 1 field;"));
@@ -248,7 +346,7 @@ mod tests {
 
     #[test]
     fn a_serial_number_that_stands_twice_has_no_keys() {
-        let text = format!("{SAMPLE}R7A0000001,cccc-cccc-cccc-cccc,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n");
+        let text = format!("{SAMPLE}r7a0000001,cccc-cccc-cccc-cccc,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n");
         let file = parse(text.as_bytes()).unwrap();
         let serial = "R7A0000001".parse().unwrap();
         let Entry::Mistake(mistake) = file.find(&serial) else { panic!("{file:?}") };

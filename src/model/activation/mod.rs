@@ -12,8 +12,8 @@ mod keys;
 mod plan;
 
 pub use file::{
-    ActivationFile, ActivationFileError, ActivationLine, Entry, FIRST_LINE, FIRST_LINE_START, LineMistake,
-    MAX_ACTIVATION_FILE_BYTES, Mistake, parse,
+    ActivationFile, ActivationFileError, ActivationLine, Entry, FIRST_LINE, LineMistake, MAX_ACTIVATION_FILE_BYTES,
+    Mistake, begins, parse,
 };
 pub use keys::{ActivationKey, ActivationKeys, KeyError, LicenceKey};
 pub use plan::{Plan, PlannedActivation, Verdict, plan};

@@ -1,5 +1,9 @@
 use super::*;
+use crate::pki::pem;
 use crate::pki::samples::{self, TestCa};
+
+/// 1.2.840.113549.1.7
+const PKCS7: &[u8] = &[0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 7];
 
 struct Sample {
     ca: TestCa,
@@ -51,6 +55,8 @@ fn every_form_holds_the_same() {
             .into_bytes(),
         (application.to_pem() + &application.to_pem() + &ca.certificate.to_pem() + &pem_crl).into_bytes(),
         p7b.clone(),
+        [&[0x30, 0x80], &p7b[4..], &[0, 0]].concat(),
+        pem::armour("CERTIFICATE", &p7b).into_bytes(),
         pem::armour("PKCS7", &p7b).into_bytes(),
         ["\u{feff}".as_bytes(), pem::armour("CMS", &p7b).as_bytes()].concat(),
     ] {
@@ -64,20 +70,22 @@ fn what_does_not_belong_there_is_refused_by_its_name() {
     let key = samples::key().to_pkcs8_der().unwrap();
     let with = |label: &str, der: &[u8]| (application.to_pem() + &pem::armour(label, der)).into_bytes();
     let p7b = pkcs7(&[application.der()], &[]);
+    let other = |found| PkiError::OtherContent { found, wanted: Wanted::TrustMaterial };
     for (bytes, expected) in [
         (vec![], PkiError::Empty),
         (b"hello, robot".to_vec(), PkiError::NotTrustMaterial),
         (key.to_vec(), PkiError::PrivateKeyInside),
         (with("PRIVATE KEY", &key), PkiError::PrivateKeyInside),
         (with("ENCRYPTED PRIVATE KEY", b"x"), PkiError::PrivateKeyInside),
-        (with("CERTIFICATE REQUEST", b"x"), PkiError::UnexpectedBlock("CERTIFICATE REQUEST".to_owned())),
+        (with("CERTIFICATE REQUEST", b"x"), other(FileContent::Csr)),
+        (with("DOSSIER", b"x"), other(FileContent::Block("DOSSIER".to_owned()))),
         (with("CERTIFICATE", b"x"), PkiError::NotACertificate),
-        (with("X509 CRL", application.der()), PkiError::NotACrl(crl::UNREADABLE)),
-        (with("PKCS7", application.der()), PkiError::NotPkcs7("it cannot be read")),
-        ([application.der(), b"\0"].concat(), PkiError::TrailingBytes(1)),
+        (with("X509 CRL", b"x"), PkiError::NotACrl(crate::pki::crl::UNREADABLE)),
+        (with("PKCS7", b"x"), PkiError::NotPkcs7("it cannot be read")),
+        ([application.der(), b"x"].concat(), PkiError::TrailingBytes(1)),
         ([&crl[..], &[0x30, 0]].concat(), PkiError::NotTrustMaterial),
         (application.to_pem().replace("-----END", "-----TO").into_bytes(), PkiError::BadPem),
-        ([&[0x30, 0x80], &p7b[4..]].concat(), PkiError::NotPkcs7("it is in BER, not in DER")),
+        ([&[0x30, 0x80], &p7b[4..]].concat(), PkiError::NotTrustMaterial),
         (pkcs7(&[], &[]), PkiError::NoCertificate),
     ] {
         assert_eq!(read_bundle(&bytes), Err(expected));

@@ -10,6 +10,7 @@ use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::prelude::{FromDer as _, ParsedExtension};
 
 use super::encode;
+use crate::pki::csr::requested_extensions;
 use crate::pki::{Csr, PkiError, ServerNames};
 
 /// What of a signing request goes into the certificate.
@@ -49,8 +50,8 @@ impl Requested {
 fn names_of(parsed: &X509CertificationRequest<'_>) -> Result<ServerNames, PkiError> {
     use x509_parser::prelude::GeneralName;
     let (mut uris, mut ips, mut dns) = (Vec::new(), Vec::new(), Vec::new());
-    for extension in parsed.requested_extensions().into_iter().flatten() {
-        let san = match extension {
+    for extension in &requested_extensions(parsed)? {
+        let san = match extension.parsed_extension() {
             ParsedExtension::SubjectAlternativeName(san) => san,
             ParsedExtension::ParseError { .. } => return Err(PkiError::CsrRefused("has a damaged extension")),
             _ => continue,

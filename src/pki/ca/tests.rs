@@ -181,6 +181,22 @@ fn names_can_be_given_where_a_request_has_none() {
     assert_eq!(refused, Err(PkiError::ApplicationUri("no uri".into())));
 }
 
+/// Case 02: keytool, and Microsoft's certreq with its newer and its older attribute.
+#[test]
+fn requests_of_other_tools_are_signed_with_the_names_they_ask_for() {
+    for file in [
+        &include_bytes!("../../../tests/cases/02-new-certificate-request/keytool.csr")[..],
+        include_bytes!("../../../tests/cases/02-new-certificate-request/certreq-modern.csr"),
+        include_bytes!("../../../tests/cases/02-new-certificate-request/certreq-old-oid.csr"),
+    ] {
+        let csr = Csr::from_any(file).unwrap();
+        let issued = root().issue(&csr, &server(), now()).unwrap();
+        let names: Vec<String> = issued.alternative_names().iter().map(ToString::to_string).collect();
+        assert_eq!(names, ["URI:urn:scada:app", "DNS:scada", "IP:10.0.0.5"]);
+        assert!(csr.matches(&issued));
+    }
+}
+
 #[test]
 fn what_does_not_belong_into_a_certificate_is_refused_with_its_reason() {
     let refused = |names: Vec<GeneralName>| refusal(&foreign(named("robot"), names, vec![]));

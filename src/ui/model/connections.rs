@@ -24,14 +24,14 @@ pub struct ConnectionListForm {
 /// A line that can be imported.
 #[derive(Debug)]
 pub struct FoundConnection {
-    pub line: u64,
+    pub line: usize,
     pub connection: NewConnection,
     pub ticked: bool,
 }
 
 #[derive(Debug)]
 pub struct LeftOut {
-    pub line: u64,
+    pub line: usize,
     /// As it stands in the file.
     pub name: String,
     pub why: Skipped,

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::TextKey as T;
-use crate::model::Language;
 use crate::model::activation::{KeyError, LineMistake, Mistake};
+use crate::model::{AddressError, Language};
 use crate::pki::PkiKind;
 use crate::workspace::{Recognised, Skipped};
 
@@ -61,6 +61,7 @@ pub fn line_mistake(language: Language, mistake: &LineMistake) -> String {
             Mistake::Separator { found, expected } => {
                 format!("分隔符为“{found}”，与前面各行的“{expected}”不一致")
             }
+            Mistake::Quotes => "引号未闭合，或字段中有换行".to_owned(),
             Mistake::Serial => "序列号无效：应为 1 至 32 个字母、数字、“-”或“_”".to_owned(),
             Mistake::Licence(error) => format!("许可密钥：{}", key_error(language, *error)),
             Mistake::Activation(error) => format!("激活密钥：{}", key_error(language, *error)),
@@ -98,10 +99,28 @@ pub fn skipped(language: Language, why: &Skipped) -> String {
             Skipped::Fields(count) => format!("有 {count} 个字段，应为名称、类型和地址 3 个"),
             Skipped::Type(kind) => format!("“{kind}”不是已知的连接类型（Ethernet、USB、Virtual）"),
             Skipped::Name(_) => format!("名称无效：{}", super::TextKey::NameRule.text(language)),
-            Skipped::Address(_) => format!("地址无效：{}", super::TextKey::AddressRule.text(language)),
+            Skipped::Quotes => "引号未闭合，或字段中有换行".to_owned(),
+            Skipped::Address(error) => format!("地址无效：{}", address_error(language, error)),
             Skipped::NameTwice(line) => format!("名称与第 {line} 行重复"),
             Skipped::AddressTwice(line) => format!("地址与第 {line} 行重复"),
         },
+    }
+}
+
+/// Why a text is not the address of a controller.
+fn address_error(language: Language, error: &AddressError) -> String {
+    match (language, error) {
+        (Language::En, error) => error.to_string(),
+        (Language::Zh, AddressError::Scheme(scheme)) => {
+            format!("请去掉“{scheme}://”，输入管理协议的地址，可带端口")
+        }
+        (Language::Zh, AddressError::Path(path)) => format!("请去掉“{path}”"),
+        (Language::Zh, AddressError::LeadingZeros { found, meant }) => {
+            format!("“{found}”含有前导零，请输入 {meant}")
+        }
+        (Language::Zh, AddressError::Zone(zone)) => format!("不支持区域“{zone}”，请输入不带区域的地址"),
+        (Language::Zh, AddressError::NotAscii(_)) => "含有非 ASCII 字符，请使用半角字符".to_owned(),
+        (Language::Zh, _) => super::TextKey::AddressRule.text(language).to_owned(),
     }
 }
 

@@ -2,14 +2,14 @@ use std::collections::HashSet;
 
 use opcua_configurator::model::ControllerSeries;
 use opcua_configurator::model::activation::{self, Entry};
+use opcua_configurator::model::text::decode;
 use opcua_configurator::workspace::{Configuration, ConnectionList, NewConnection, Skipped};
 
 /// [`activation::parse`]: every serial number once, every line number that of its line, no key in a mistake; and what
 /// was understood is understood again from its own words.
 pub fn activation_file(bytes: &[u8]) {
     let Ok(file) = activation::parse(bytes) else { return };
-    let text = std::str::from_utf8(bytes).expect("what was taken is UTF-8");
-    let lines: Vec<&str> = text.lines().collect();
+    let lines = lines(bytes);
 
     let mut serials = HashSet::new();
     let mut canonical = format!("{}\n", activation::FIRST_LINE);
@@ -40,13 +40,19 @@ pub fn activation_file(bytes: &[u8]) {
     );
 }
 
+/// The lines of a text, without quotation marks.
+fn lines(bytes: &[u8]) -> Vec<String> {
+    let text = decode(bytes).expect("what was taken is text").replace("\r\n", "\n").replace('"', "");
+    text.split(['\r', '\n']).map(str::to_owned).collect()
+}
+
 /// [`ConnectionList`]: what is added is new and unique, and the list read once more adds nothing.
 pub fn connection_list(bytes: &[u8]) {
     let mut configuration = Configuration::default();
     let known = NewConnection { name: "Cell 2".parse().expect("name"), address: "10.0.0.1".parse().expect("address") };
     configuration.controllers.push(known.entry(ControllerSeries::Rc700));
     let Ok(list) = ConnectionList::parse(bytes) else { return };
-    let lines = bytes.iter().filter(|byte| **byte == b'\n').count() as u64 + 1;
+    let lines = lines(bytes).len();
     let plan = list.plan(&configuration);
     assert!(plan.is_sorted_by_key(|planned| planned.line));
     for planned in plan {

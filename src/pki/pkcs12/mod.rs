@@ -1,9 +1,24 @@
+//! PKCS#12: a key and its certificates under a password (RFC 7292).
+//!
+//! | file | its one idea |
+//! |---|---|
+//! | `archive` | every key and certificate inside, decrypted |
+//! | `mac` | what proves that the file is whole and the password right |
+//!
+//! Written with `p12-keystore`. Read here: that crate reads neither BER nor PBMAC1, no password that is missing rather
+//! than empty, and none with characters beyond the BMP.
+
+mod archive;
+mod mac;
+
 use p12_keystore::error::Error;
-use p12_keystore::{EncryptionAlgorithm, KeyStore, KeyStoreEntry, MacAlgorithm, Pkcs12Archive, PrivateKeyChain};
+use p12_keystore::{EncryptionAlgorithm, KeyStore, KeyStoreEntry, MacAlgorithm, PrivateKeyChain};
 use sha1::{Digest as _, Sha1};
 use zeroize::Zeroizing;
 
-use super::{Certificate, PkiError, PrivateKey, tlv};
+use self::archive::Archive;
+use super::parts::{Part, parts};
+use super::{Certificate, FileContent, PkiError, PrivateKey, Wanted};
 
 /// The largest PKCS#12 that is read.
 pub const MAX_PKCS12_BYTES: usize = 256 * 1024;
@@ -67,14 +82,14 @@ fn write(
 
 /// Reads a key and its certificates: first the one for the key, then the others in the order of the file.
 ///
-/// Takes the modern algorithms and the old ones of Windows and OpenSSL 1. Exactly one private key is expected. Blocks;
-/// how long is up to whoever wrote the file, within a million hashings of the password, or a gibibyte of scrypt, for
-/// each of its parts, and sixteen of these.
+/// Takes the modern algorithms and the old ones of Windows and OpenSSL 1; DER and BER, in PEM and base64 too. Exactly one
+/// private key is expected. An empty password also opens a file that was made without one. Blocks: at most for a million
+/// hashings of the password, or a gibibyte of scrypt, for each encrypted part of the file, of which sixteen are read.
 pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Certificate>), PkiError> {
     let archive = open(bytes, password)?;
     let key = single_key(&archive)?;
     let mut certificates: Vec<_> =
-        archive.certs.iter().map(|bag| Certificate::from_der(bag.cert.as_der())).collect::<Result<_, _>>()?;
+        archive.certificates.iter().map(|der| Certificate::from_der(der)).collect::<Result<_, _>>()?;
     if certificates.is_empty() {
         return Err(PkiError::NoCertificate);
     }
@@ -88,22 +103,6 @@ pub fn pkcs12_read_key(bytes: &[u8], password: &str) -> Result<PrivateKey, PkiEr
     single_key(&open(bytes, password)?)
 }
 
-/// Whether it looks like one from outside.
-pub(super) fn is_pkcs12(bytes: &[u8]) -> bool {
-    inside(bytes).is_some_and(|inside| inside.starts_with(VERSION_3))
-}
-
-/// What stands behind the head of the outermost sequence.
-fn inside(bytes: &[u8]) -> Option<&[u8]> {
-    match bytes {
-        [SEQUENCE, 0x00..=0x80, inside @ ..]
-        | [SEQUENCE, 0x81, _, inside @ ..]
-        | [SEQUENCE, 0x82, _, _, inside @ ..]
-        | [SEQUENCE, 0x83, _, _, _, inside @ ..] => Some(inside),
-        _ => None,
-    }
-}
-
 /// Every key and every certificate of a PKCS#12, whether they belong together or not.
 pub(super) struct Contents {
     /// Of whatever kind, in PKCS#8 without encryption.
@@ -111,98 +110,50 @@ pub(super) struct Contents {
     pub certificates: Vec<Certificate>,
 }
 
-pub(super) fn contents(bytes: &[u8], password: &str) -> Result<Contents, PkiError> {
-    let archive = open(bytes, password)?;
-    let keys = archive.keys.iter().map(|bag| Zeroizing::new(bag.key.as_der().to_vec())).collect();
-    let certificates: Result<_, _> = archive.certs.iter().map(|bag| Certificate::from_der(bag.cert.as_der())).collect();
-    Ok(Contents { keys, certificates: certificates? })
+/// Opens a PKCS#12 in DER.
+pub(super) fn contents(der: &[u8], password: &str) -> Result<Contents, PkiError> {
+    let Archive { keys, certificates } = Archive::open(der, password)?;
+    let certificates = certificates.iter().map(|der| Certificate::from_der(der)).collect::<Result<_, _>>()?;
+    Ok(Contents { keys, certificates })
 }
 
-fn open(bytes: &[u8], password: &str) -> Result<Pkcs12Archive, PkiError> {
-    let has_mac = check_outside(bytes)?;
-    Pkcs12Archive::from_pkcs12(bytes, password).map_err(|error| reading(&error, has_mac))
+fn open(bytes: &[u8], password: &str) -> Result<Archive, PkiError> {
+    if bytes.len() > MAX_PKCS12_BYTES {
+        return Err(PkiError::TooLarge { bytes: bytes.len(), max: MAX_PKCS12_BYTES });
+    }
+    let part = parts(bytes)?.remove(0);
+    match part {
+        Part { content: FileContent::Pkcs12, der } => Archive::open(&der, password),
+        // It looks like one from outside, so that it is damaged.
+        Part { content: FileContent::Unknown, .. } if is_pkcs12(bytes) => Err(PkiError::Damaged),
+        Part { content: FileContent::Unknown, .. } => Err(PkiError::NotPkcs12),
+        Part { content: found, .. } => Err(PkiError::OtherContent { found, wanted: Wanted::Pkcs12 }),
+    }
 }
 
-/// A PKCS#12 without a MAC around one encrypted private key (EncryptedPrivateKeyInfo).
-pub(super) fn around(encrypted_key: &[u8]) -> Vec<u8> {
-    let content = |inside: &[u8]| {
-        let octets = tlv::write(tlv::OCTET_STRING, &[inside]);
-        tlv::write(tlv::SEQUENCE, &[DATA, &tlv::write(tlv::CONTEXT_0, &[&octets])])
-    };
-    let bag = tlv::write(tlv::SEQUENCE, &[SHROUDED_KEY_BAG, &tlv::write(tlv::CONTEXT_0, &[encrypted_key])]);
-    let bags = tlv::write(tlv::SEQUENCE, &[&bag]);
-    let safes = tlv::write(tlv::SEQUENCE, &[&content(&bags)]);
-    tlv::write(tlv::SEQUENCE, &[VERSION_3, &content(&safes)])
-}
-
-fn single_key(archive: &Pkcs12Archive) -> Result<PrivateKey, PkiError> {
+fn single_key(archive: &Archive) -> Result<PrivateKey, PkiError> {
     match archive.keys.as_slice() {
         [] => Err(PkiError::NoKey),
-        [bag] => PrivateKey::from_pkcs8_der(bag.key.as_der()),
+        [key] => PrivateKey::from_pkcs8_der(key),
         several => Err(PkiError::SeveralKeys(several.len())),
     }
 }
 
-/// Whether this is a PKCS#12 at all, seen from outside, so that everything found wrong later is damage or a password;
-/// and whether it has a MAC, which tells the two apart but for damage within what the MAC is about.
-fn check_outside(bytes: &[u8]) -> Result<bool, PkiError> {
-    if bytes.is_empty() {
-        return Err(PkiError::Empty);
-    }
-    if bytes.len() > MAX_PKCS12_BYTES {
-        return Err(PkiError::TooLarge { bytes: bytes.len(), max: MAX_PKCS12_BYTES });
-    }
-    if bytes.starts_with(&[SEQUENCE, 0x80]) {
-        return Err(PkiError::UnsupportedPkcs12("it is in BER, not in DER"));
-    }
-    if !is_pkcs12(bytes) {
-        return Err(PkiError::NotPkcs12);
-    }
-    // Each is hashed for anew, and a small file has room for thousands.
-    if encrypted_parts(bytes) > MAX_ENCRYPTED_PARTS {
-        return Err(PkiError::UnsupportedPkcs12(TOO_OFTEN));
-    }
-    let parts = match tlv::all(bytes).as_deref() {
-        Some([whole]) => tlv::all(whole.content),
-        _ => None,
+/// Whether a damaged file begins as a PKCS#12: a SEQUENCE with the version.
+fn is_pkcs12(bytes: &[u8]) -> bool {
+    let inside = match bytes {
+        [0x30, 0x00..=0x80, inside @ ..]
+        | [0x30, 0x81, _, inside @ ..]
+        | [0x30, 0x82, _, _, inside @ ..]
+        | [0x30, 0x83, _, _, _, inside @ ..] => inside,
+        _ => return false,
     };
-    Ok(parts.ok_or(PkiError::Damaged)?.len() == 3)
-}
-
-/// How many parts, of those that can be seen from outside, say that they are encrypted under the password.
-fn encrypted_parts(bytes: &[u8]) -> usize {
-    let starts = |oid: &[u8]| bytes.windows(oid.len()).filter(|window| *window == oid).count();
-    starts(PBES2) + starts(PKCS12_PBE)
-}
-
-fn reading(error: &Error, has_mac: bool) -> PkiError {
-    match error {
-        Error::UnsupportedEncryptionScheme | Error::UnsupportedMacAlgorithm => {
-            PkiError::UnsupportedPkcs12("unknown encryption")
-        }
-        Error::UnsupportedContentType => PkiError::UnsupportedPkcs12("it is not protected by a password"),
-        Error::UnsupportedCertificateType => PkiError::UnsupportedPkcs12("it holds a certificate that is not X.509"),
-        Error::InvalidParameters => PkiError::UnsupportedPkcs12(TOO_OFTEN),
-        Error::MacError(_) => PkiError::WrongPasswordOrDamaged,
-        // The MAC was right, or not even reached.
-        _ if has_mac => PkiError::Damaged,
-        _ => PkiError::WrongPasswordOrDamaged,
-    }
+    inside.starts_with(&[0x02, 0x01, 0x03])
 }
 
 /// A key and its certificates are two; each further key is one.
 const MAX_ENCRYPTED_PARTS: usize = 16;
 const TOO_OFTEN: &str = "the password is to be hashed too often";
-/// 1.2.840.113549.1.5.13
-const PBES2: &[u8] = &[0x06, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 5, 13];
-/// 1.2.840.113549.1.12.1, under which the encryptions of PKCS#12 itself stand.
-const PKCS12_PBE: &[u8] = &[0x06, 10, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 12, 1];
-const SEQUENCE: u8 = tlv::SEQUENCE;
-const VERSION_3: &[u8] = &[0x02, 0x01, 0x03];
-/// 1.2.840.113549.1.7.1
-const DATA: &[u8] = &[0x06, 9, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 7, 1];
-/// 1.2.840.113549.1.12.10.1.2
-const SHROUDED_KEY_BAG: &[u8] = &[0x06, 11, 0x2a, 0x86, 0x48, 0x86, 0xf7, 0x0d, 1, 12, 10, 1, 2];
 
 #[cfg(test)]
 mod tests {
@@ -281,14 +232,22 @@ mod tests {
 
     #[test]
     fn what_is_no_pkcs12_is_not_blamed_on_the_password() {
-        for bytes in [b"hello, robot".as_slice(), &[0x30], samples::certificate().der()] {
+        for bytes in [b"hello, robot".as_slice(), &[0x30]] {
             assert_eq!(pkcs12_read(bytes, PASSWORD).err(), Some(PkiError::NotPkcs12));
+        }
+        for (bytes, found) in [
+            (samples::certificate().der(), FileContent::Certificate),
+            (b"\xfe\xed\xfe\xed\0\0\0\x02", FileContent::JavaKeystore),
+            (b"<!DOCTYPE html><html>", FileContent::WebPage),
+        ] {
+            let expected = PkiError::OtherContent { found, wanted: Wanted::Pkcs12 };
+            assert_eq!(pkcs12_read(bytes, PASSWORD).err(), Some(expected));
         }
         assert_eq!(pkcs12_read(b"", PASSWORD).err(), Some(PkiError::Empty));
         let large = vec![0x30; MAX_PKCS12_BYTES + 1];
         assert!(matches!(pkcs12_read(&large, PASSWORD), Err(PkiError::TooLarge { .. })));
-        let ber = [0x30, 0x80, 0x02, 0x01, 0x03];
-        assert!(matches!(pkcs12_read(&ber, PASSWORD), Err(PkiError::UnsupportedPkcs12(_))));
+        let cut_in_ber = [0x30, 0x80, 0x02, 0x01, 0x03];
+        assert_eq!(pkcs12_read(&cut_in_ber, PASSWORD).err(), Some(PkiError::Damaged));
     }
 
     #[test]
@@ -296,7 +255,52 @@ mod tests {
         let keys = |count: usize| vec![(samples::legacy_key(), &[][..]); count];
         let read = |count| pkcs12_read(&odd(&keys(count)), PASSWORD).err();
         assert_eq!(read(MAX_ENCRYPTED_PARTS - 1), Some(PkiError::SeveralKeys(MAX_ENCRYPTED_PARTS - 1)));
-        assert_eq!(read(MAX_ENCRYPTED_PARTS + 1), Some(PkiError::UnsupportedPkcs12(TOO_OFTEN)));
+        assert_eq!(read(MAX_ENCRYPTED_PARTS + 1), Some(PkiError::UnsupportedPkcs12(TOO_OFTEN.to_owned())));
+    }
+
+    /// Case 08, and others of its kind: OpenSSL 4.0 opens each of them.
+    #[test]
+    fn every_form_of_the_format_is_read() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/08-pfx");
+        for (file, password) in [
+            ("ber.pfx", "secret"),
+            ("ber-inner.pfx", "fuzz"),
+            ("emoji.pfx", "robot🤖"),
+            ("emoji-3des.pfx", "robot🤖"),
+            ("nullpw-dotnet.pfx", ""),
+            ("pbmac1-sha256.pfx", "fuzz"),
+            ("pbmac1-sha512-prf-sha1.pfx", "fuzz"),
+            ("rc2-128.pfx", "fuzz"),
+        ] {
+            let bytes = std::fs::read(folder.join(file)).unwrap();
+            let (key, certificates) = pkcs12_read(&bytes, password).unwrap_or_else(|error| panic!("{file}: {error}"));
+            assert!(key.matches(&certificates[0]), "{file}");
+            for wrong in ["Secret", "robot"] {
+                assert_eq!(pkcs12_read(&bytes, wrong).err(), Some(PkiError::WrongPasswordOrDamaged), "{file}");
+            }
+            for padding in ["\n", "\r\n", "\0\0\0"] {
+                assert!(pkcs12_read(&[&bytes, padding.as_bytes()].concat(), password).is_ok(), "{file}");
+            }
+            for at in (0..bytes.len()).step_by(61) {
+                let mut damaged = bytes.clone();
+                damaged[at] ^= 0x10;
+                let _ = pkcs12_read(&damaged, password);
+                assert!(pkcs12_read(&bytes[..at], password).is_err(), "{file}: first {at} bytes");
+            }
+        }
+        let keystore = std::fs::read(folder.join("store.jks")).unwrap();
+        let told = pkcs12_read(&keystore, "secret").unwrap_err().to_string();
+        assert!(told.contains("a Java keystore") && told.contains("keytool -importkeystore"), "{told}");
+    }
+
+    #[test]
+    fn a_trust_store_has_no_key() {
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases/08-pfx");
+        for (file, password) in [("truststore-keytool.p12", "secret"), ("truststore-openssl.p12", "secret")] {
+            let bytes = std::fs::read(folder.join(file)).unwrap();
+            assert_eq!(pkcs12_read(&bytes, password).err(), Some(PkiError::NoKey), "{file}");
+            assert_eq!(contents(&bytes, password).unwrap().certificates.len(), 1, "{file}");
+        }
     }
 
     #[test]
