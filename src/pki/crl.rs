@@ -1,15 +1,17 @@
+use std::cmp::Ordering;
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use chrono::{DateTime, Utc};
+use chrono::{DateTime, SecondsFormat, Utc};
 use serde::{Deserialize, Serialize};
 use sha1::{Digest as _, Sha1};
 use x509_parser::prelude::{
-    CertificateRevocationList, FromDer, ParsedExtension, ReasonCode, RevokedCertificate, X509Extension,
+    CertificateRevocationList, FromDer, ParsedExtension, ReasonCode, RevokedCertificate, X509Extension, X509Name,
 };
 
 use super::certificate::check_size;
+use super::distribution_point::{OutOfScope, Reasons, Scope};
 use super::facts::{date, range_within, significant};
 use super::signature::{SignatureAlgorithm, Verdict};
 use super::{Certificate, PkiError, name, pem, tlv};
@@ -42,8 +44,7 @@ struct Facts {
     /// Sorted by serial number.
     entries: Vec<Entry>,
     unusable: Option<String>,
-    /// Whether its entries may be about certificates of other authorities.
-    indirect: bool,
+    scope: Scope,
     signature_algorithm: SignatureAlgorithm,
     signed: Range<usize>,
     signature: Vec<u8>,
@@ -153,34 +154,75 @@ impl Crl {
         self.facts.number_text.as_deref()
     }
 
+    /// Its number, if there is one, and its date: `number 7 of 2026-11-26T15:16:44Z`.
+    pub fn number_and_date(&self) -> String {
+        let date = self.this_update().to_rfc3339_opts(SecondsFormat::Secs, true);
+        self.number().map_or_else(|| format!("of {date}"), |number| format!("number {number} of {date}"))
+    }
+
     /// The name of the algorithm it is signed with.
     pub fn signature_algorithm(&self) -> &str {
         self.facts.signature_algorithm.name()
     }
 
-    /// Why it cannot be used for a full check, if it cannot: it is a delta, indirect or partitioned list, or something
-    /// in it is critical and not understood (RFC 5280 §5.2).
+    /// Why it can say of no certificate by itself that it is not revoked, if it cannot: it is a delta or indirect list,
+    /// it is only about some reasons, or something in it is critical and not understood (RFC 5280 §5.2).
     pub fn unusable(&self) -> Option<&str> {
-        self.facts.unusable.as_deref()
+        self.facts.unusable.as_deref().or(self.facts.scope.unusable())
     }
 
-    /// Whether both are lists of the same authority: the same name and, where both say it, the same key.
-    pub fn is_of_same_issuer(&self, other: &Self) -> bool {
+    /// Which certificates of its authority it leaves out; `None` if none.
+    pub fn limits(&self) -> Option<OutOfScope> {
+        self.facts.scope.limits()
+    }
+
+    /// The reasons for which it would name the certificate if it were revoked for them; or why it would not. Says
+    /// nothing about dates and signatures.
+    pub(super) fn covers(&self, certificate: &Certificate) -> Result<Reasons, OutOfScope> {
+        self.facts.scope.covers(certificate)
+    }
+
+    /// Why nothing in it counts as a full list, even together with others.
+    pub(super) fn not_understood(&self) -> Option<&str> {
+        let scope = self.facts.scope.indirect.then(|| self.facts.scope.unusable()).flatten();
+        self.facts.unusable.as_deref().or(scope)
+    }
+
+    pub(super) fn is_only_about_authorities(&self) -> bool {
+        self.facts.scope.is_only_about_authorities()
+    }
+
+    /// Whether only the newer of both counts: they are of the same authority (the same name and, where both say it, the
+    /// same key) and about the same certificates.
+    pub fn has_same_scope_as(&self, other: &Self) -> bool {
         self.facts.issuer_folded == other.facts.issuer_folded
+            && self.facts.scope == other.facts.scope
             && match (self.authority_key_id(), other.authority_key_id()) {
                 (Some(one), Some(other)) => one == other,
                 _ => true,
             }
     }
 
-    /// Whether it is a later one than `other` of the same authority: by the CRL number where both have one, then by
-    /// the date. A list is not newer than itself.
+    /// Whether it is a later one than `other` of the same authority: by the date, then by the CRL number where both have
+    /// one. A list is not newer than itself.
+    ///
+    /// Numbers go up (RFC 5280 §5.2.3), but an authority that was set up anew starts again:
+    /// [`Crl::number_starts_again_after`].
     pub fn is_newer_than(&self, other: &Self) -> bool {
-        let numbers = match (&self.facts.number, &other.facts.number) {
+        self.facts.this_update.cmp(&other.facts.this_update).then(self.compare_numbers(other)).is_gt()
+    }
+
+    /// Whether it is newer than `other` of the same authority, but its number is lower: both numbers, its own first.
+    pub fn number_starts_again_after(&self, other: &Self) -> Option<(String, String)> {
+        let again = self.facts.this_update > other.facts.this_update && self.compare_numbers(other).is_lt();
+        again.then(|| Some((self.facts.number_text.clone()?, other.facts.number_text.clone()?))).flatten()
+    }
+
+    fn compare_numbers(&self, other: &Self) -> Ordering {
+        match (&self.facts.number, &other.facts.number) {
             (Some(one), Some(other)) => (one.len(), one).cmp(&(other.len(), other)),
-            _ => std::cmp::Ordering::Equal,
-        };
-        numbers.then(self.facts.this_update.cmp(&other.facts.this_update)).is_gt()
+            _ => Ordering::Equal,
+        }
     }
 
     /// Whether the authority may have issued the certificate: the same name. Keys are not looked at.
@@ -202,7 +244,7 @@ impl Crl {
     ///
     /// An indirect list never does: its entries may be about certificates of anybody.
     pub fn revoked(&self, certificate: &Certificate) -> Option<Revoked> {
-        if self.facts.indirect || !self.is_by_issuer_of(certificate) {
+        if self.facts.scope.indirect || !self.is_by_issuer_of(certificate) {
             return None;
         }
         let serial = certificate.facts().serial.as_slice();
@@ -288,13 +330,13 @@ impl Facts {
             next_update: parsed.next_update().map(date).transpose().map_err(damaged)?,
             entries: Vec::with_capacity(entries.len()),
             unusable: None,
-            indirect: false,
+            scope: Scope::default(),
             signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
             signed: range_within(der, list.as_ref()).ok_or(PkiError::NotACrl(UNREADABLE))?,
             signature: parsed.signature_value.data.to_vec(),
         };
         for extension in parsed.extensions() {
-            facts.read(extension)?;
+            facts.read(extension, parsed.issuer())?;
         }
         for entry in entries {
             facts.add(der, entry)?;
@@ -303,8 +345,12 @@ impl Facts {
         Ok(facts)
     }
 
-    fn read(&mut self, extension: &X509Extension<'_>) -> Result<(), PkiError> {
+    fn read(&mut self, extension: &X509Extension<'_>, issuer: &X509Name<'_>) -> Result<(), PkiError> {
+        let damaged = PkiError::NotACrl("one of its extensions is damaged");
         match extension.parsed_extension() {
+            _ if extension.oid.to_id_string() == ISSUING_DISTRIBUTION_POINT => {
+                self.scope = Scope::read(extension.value, issuer).ok_or(damaged)?;
+            }
             ParsedExtension::AuthorityKeyIdentifier(authority) => {
                 self.authority_key_id = authority.key_identifier.as_ref().map(|id| id.0.to_vec());
             }
@@ -316,22 +362,7 @@ impl Facts {
                 self.number_text = Some(number.to_string());
                 self.number = Some(bytes);
             }
-            ParsedExtension::IssuingDistributionPoint(point) => {
-                self.indirect |= point.indirect_crl;
-                self.unusable(if point.indirect_crl {
-                    "it is an indirect list, which speaks for other authorities".to_owned()
-                } else if point.only_contains_user_certs
-                    || point.only_contains_ca_certs
-                    || point.only_contains_attribute_certs
-                {
-                    "it is a partitioned list, only about some kinds of certificates".to_owned()
-                } else if point.only_some_reasons.is_some() {
-                    "it is a partitioned list, only about some reasons".to_owned()
-                } else {
-                    "it is a partitioned list, only about the certificates of one distribution point".to_owned()
-                });
-            }
-            ParsedExtension::ParseError { .. } => return Err(PkiError::NotACrl("one of its extensions is damaged")),
+            ParsedExtension::ParseError { .. } => return Err(damaged),
             _ if extension.oid.to_id_string() == DELTA_CRL_INDICATOR => {
                 self.unusable("it is a delta list, which says only what changed since another list".to_owned());
             }
@@ -353,8 +384,7 @@ impl Facts {
                 ParsedExtension::InvalidityDate(_) => {}
                 ParsedExtension::ParseError { .. } => return Err(damaged),
                 _ if extension.oid.to_id_string() == CERTIFICATE_ISSUER => {
-                    self.indirect = true;
-                    self.unusable("it is an indirect list, which speaks for other authorities".to_owned());
+                    self.scope.indirect = true;
                 }
                 _ if extension.critical => {
                     let oid = extension.oid.to_id_string();
@@ -435,6 +465,7 @@ const TIMES: [u8; 2] = [UTC_TIME, GENERALIZED_TIME];
 /// RFC 5280 §5.2.3.
 const MAX_NUMBER_BYTES: usize = 20;
 const DELTA_CRL_INDICATOR: &str = "2.5.29.27";
+const ISSUING_DISTRIBUTION_POINT: &str = "2.5.29.28";
 const CERTIFICATE_ISSUER: &str = "2.5.29.29";
 
 #[cfg(test)]

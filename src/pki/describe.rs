@@ -95,6 +95,8 @@ pub struct CrlDescription {
     pub signed_by: Option<String>,
     /// Why it cannot be used for a full check, if it cannot.
     pub unusable: Option<String>,
+    /// Which certificates it is only about, if not about all of its authority.
+    pub limits: Option<String>,
     pub sha1: String,
     pub entries: Vec<CrlEntry>,
 }
@@ -288,6 +290,7 @@ impl Crl {
             signature_algorithm: self.signature_algorithm().to_owned(),
             signed_by: signer.map(Certificate::thumbprint_sha1),
             unusable: self.unusable().map(str::to_owned),
+            limits: self.limits().map(|limits| limits.to_string()),
             sha1: self.id(),
             entries: self
                 .entries()

@@ -12,6 +12,7 @@ use x509_parser::prelude::{
 
 use super::flaw::quoted;
 use super::general_name::{GeneralName, NameConstraints};
+use super::distribution_point::DistributionPoint;
 use super::signature::{PublicKey, SignatureAlgorithm};
 use super::{CertificateFlaw, Fingerprint, PkiError, name};
 
@@ -146,6 +147,7 @@ pub(super) struct Facts {
     pub not_after: DateTime<Utc>,
     pub public_key: PublicKey,
     pub extensions: Extensions,
+    pub distribution_points: Vec<DistributionPoint>,
     pub signature_algorithm: SignatureAlgorithm,
     /// Where in the DER lies what is signed.
     pub signed: Range<usize>,
@@ -193,8 +195,15 @@ impl Facts {
         }
         parsed.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;
         let mut extensions = Extensions::default();
+        let mut distribution_points = Vec::new();
         for extension in parsed.extensions() {
             extensions.read_extension(extension);
+            if extension.oid.to_id_string() == CRL_DISTRIBUTION_POINTS {
+                match DistributionPoint::read_all(extension.value, parsed.issuer()) {
+                    Some(points) => distribution_points = points,
+                    None => extensions.damaged(extension_name(CRL_DISTRIBUTION_POINTS)),
+                }
+            }
         }
         Ok(Self {
             common_name: name::common_name(parsed.subject()),
@@ -213,6 +222,7 @@ impl Facts {
             not_after: date(parsed.validity().not_after)?,
             public_key: PublicKey::of(parsed.public_key())?,
             extensions,
+            distribution_points,
             signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
             signed: range_within(der, parsed.tbs_certificate.as_ref()).ok_or(PkiError::NotACertificate)?,
             signature: parsed.signature_value.data.to_vec(),
@@ -288,6 +298,13 @@ impl Extensions {
             }
             ParsedExtension::CertificatePolicies(policies) => {
                 self.policies.asserted = Some(policies.iter().map(|policy| policy.policy_id.to_id_string()).collect());
+            // Read with the issuer's name, which some of them are relative to.
+            ParsedExtension::CRLDistributionPoints(_) => {}
+            // No policy is ever asked for, so that none is too many.
+            ParsedExtension::CertificatePolicies(_) => {}
+            ParsedExtension::NameConstraints(_) => {
+                // Whoever wrote them wanted them to hold, critical or not.
+                self.not_understood("name constraints are not supported".to_owned());
             }
             ParsedExtension::PolicyMappings(mappings) => {
                 let pair = |one: &PolicyMapping<'_>| {
@@ -300,8 +317,6 @@ impl Extensions {
                 self.policies.inhibit_mapping = constraints.inhibit_policy_mapping;
             }
             ParsedExtension::InhibitAnyPolicy(inhibit) => self.policies.inhibit_any = Some(inhibit.skip_certs),
-            // Where revocation lists are fetched from: an OPC UA application is given its lists.
-            ParsedExtension::CRLDistributionPoints(_) => {}
             _ => return false,
         }
         true
@@ -320,7 +335,7 @@ fn extension_name(oid: &str) -> String {
         ALTERNATIVE_NAME => "subjectAltName",
         "2.5.29.19" => "basicConstraints",
         "2.5.29.30" => "nameConstraints",
-        "2.5.29.31" => "cRLDistributionPoints",
+        CRL_DISTRIBUTION_POINTS => "cRLDistributionPoints",
         "2.5.29.32" => "certificatePolicies",
         "2.5.29.33" => "policyMappings",
         "2.5.29.35" => "authorityKeyIdentifier",
@@ -348,6 +363,7 @@ const fn text_form(tag: u32) -> Option<&'static str> {
 fn not_utf8(tag: u32, bytes: &[u8]) -> String {
     format!("{}:{}", text_form(tag).unwrap_or("?"), String::from_utf8_lossy(bytes))
 }
+const CRL_DISTRIBUTION_POINTS: &str = "2.5.29.31";
 
 fn purposes(usage: &x509_parser::prelude::ExtendedKeyUsage<'_>) -> Vec<ExtendedKeyUsage> {
     let known = [

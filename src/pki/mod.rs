@@ -9,6 +9,7 @@
 //! | `signature` | which signatures there are, and whether one is right |
 //! | `crl` | [`Crl`]: one certificate revocation list, indexed |
 //! | `authority` | [`is_authority`]: whether a certificate is that of an authority or of an application |
+//! | `distribution_point` | which certificates a revocation list is about |
 //! | `bundle` | [`read_bundle`]: any file with certificates and revocation lists |
 //! | `trust` | [`TrustLists`]: whether a certificate may be trusted (OPC 10000-4 §6.1.3) |
 //! | `describe` | [`describe`]: everything public inside a file, to be read |
@@ -51,6 +52,7 @@ mod client_identity;
 mod crl;
 mod csr;
 mod describe;
+mod distribution_point;
 mod error;
 mod facts;
 mod file_content;
@@ -90,6 +92,7 @@ pub use describe::{
     CertificateDescription, CrlDescription, CrlEntry, CsrDescription, Description, KeyDescription,
     NameConstraintsDescription, describe,
 };
+pub use distribution_point::OutOfScope;
 pub use error::PkiError;
 pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use file_content::{FileContent, Wanted};
@@ -106,5 +109,5 @@ pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_k
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealCost, SealError, Sealed, SealingKey, open, seal};
 pub use self_signed::{ServerNames, self_signed};
-pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};
+pub use trust::{CrlFlaw, Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};
 pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

@@ -1,7 +1,8 @@
 use chrono::{DateTime, Utc};
 use serde::Serialize;
 
-use super::{Certificate, Crl, KeyUsage, is_authority};
+use super::signature::Verdict;
+use super::{Certificate, Crl, KeyUsage, TrustLists, is_authority};
 
 /// What is wrong with CRLs and the authorities they are for, before a client is refused because of it.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
@@ -52,42 +53,70 @@ impl CrlHealth {
 }
 
 impl TrustHealth {
-    /// Says the same as [`TrustLists`](super::TrustLists) by default. Reads every CRL: blocks for large ones.
-    ///
-    /// `authorities`: those in the trusted and issuers lists; other certificates among them are passed over.
-    pub fn of<'a>(crls: impl IntoIterator<Item = &'a Crl>, authorities: &[&Certificate], now: DateTime<Utc>) -> Self {
-        let crls: Vec<CrlHealth> = crls
-            .into_iter()
-            .map(|crl| CrlHealth { issuer: issuer(crl, authorities), dates: dates(crl, now) })
-            .collect();
-        let without_crl = authorities
+    /// Says the same as [`TrustLists::validate`] by default. Checks signatures of every CRL: blocks for large ones.
+    pub fn of(lists: &TrustLists, now: DateTime<Utc>) -> Self {
+        let signers: Vec<Result<&Certificate, CrlIssuer>> =
+            (0..lists.crls().len()).map(|index| signer(lists, index)).collect();
+        let crls: Vec<CrlHealth> = lists
+            .crls()
             .iter()
-            .filter(|authority| is_authority(authority, authorities.iter().copied()))
-            .map(|authority| authority.thumbprint_sha1())
-            .filter(|own| {
-                !crls.iter().any(|crl| {
-                    crl.is_usable() && matches!(&crl.issuer, CrlIssuer::Held { thumbprint } if thumbprint == own)
-                })
+            .zip(&signers)
+            .map(|(crl, signer)| {
+                let held = |signer: &Certificate| CrlIssuer::Held { thumbprint: signer.thumbprint_sha1() };
+                let issuer = signer.as_ref().map_or_else(CrlIssuer::clone, |signer| held(signer));
+                CrlHealth { issuer, dates: dates(crl, now) }
             })
             .collect();
+        let usable: Vec<(&Crl, &Certificate)> = lists
+            .crls()
+            .iter()
+            .zip(&signers)
+            .zip(&crls)
+            .filter(|((crl, _), health)| health.is_usable() && crl.unusable().is_none())
+            .filter_map(|((crl, signer), _)| Some((crl, *signer.as_ref().ok()?)))
+            .collect();
+        let held = || lists.trusted().iter().chain(lists.issuers());
+        let has_a_crl = |authority: &Certificate| {
+            let issues_authorities = || {
+                held().any(|below| {
+                    below != authority
+                        && below.facts().issuer_folded == authority.facts().subject_folded
+                        && is_authority(below, held())
+                })
+            };
+            let of_it = |crl: &Crl| crl.issuer_folded() == authority.facts().subject_folded;
+            usable.iter().filter(|(crl, _)| of_it(crl)).any(|(crl, signer)| {
+                (*signer == authority || lists.signs_lists_for(signer, authority, now))
+                    && (!crl.is_only_about_authorities() || issues_authorities())
+            })
+        };
+        let mut without_crl: Vec<String> = held()
+            .filter(|authority| is_authority(authority, held()) && !has_a_crl(authority))
+            .map(Certificate::thumbprint_sha1)
+            .collect();
+        let mut seen = std::collections::HashSet::new();
+        without_crl.retain(|thumbprint| seen.insert(thumbprint.clone()));
         Self { crls, without_crl }
     }
 }
 
-fn issuer(crl: &Crl, authorities: &[&Certificate]) -> CrlIssuer {
+/// The held certificate whose key signed the list and may do so; or what is wrong with the one that comes nearest.
+fn signer(lists: &TrustLists, index: usize) -> Result<&Certificate, CrlIssuer> {
+    let crl = &lists.crls()[index];
     let mut found = CrlIssuer::Missing;
-    let same_name = |authority: &&&Certificate| crl.issuer_folded() == authority.facts().subject_folded;
-    for authority in authorities.iter().filter(same_name) {
-        let thumbprint = authority.thumbprint_sha1();
-        if !crl.verify_signed_by(authority) {
-            found = CrlIssuer::NotSignedBy { thumbprint };
+    for authority in lists.with_subject(crl.issuer_folded()) {
+        let thumbprint = || authority.thumbprint_sha1();
+        if lists.crl_signature(index, authority) != Verdict::Right {
+            if found == CrlIssuer::Missing {
+                found = CrlIssuer::NotSignedBy { thumbprint: thumbprint() };
+            }
         } else if authority.key_usages().is_some_and(|usages| !usages.contains(&KeyUsage::CrlSign)) {
-            found = CrlIssuer::MayNotSign { thumbprint };
+            found = CrlIssuer::MayNotSign { thumbprint: thumbprint() };
         } else {
-            return CrlIssuer::Held { thumbprint };
+            return Ok(authority);
         }
     }
-    found
+    Err(found)
 }
 
 fn dates(crl: &Crl, now: DateTime<Utc>) -> CrlDates {
@@ -102,6 +131,7 @@ fn dates(crl: &Crl, now: DateTime<Utc>) -> CrlDates {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pki::samples::{self, TestCa};
     use rcgen::{
         BasicConstraints, CertificateParams, CertificateRevocationListParams, CertifiedIssuer, DnType, IsCa,
         KeyIdMethod, KeyPair, KeyUsagePurpose, SerialNumber,
@@ -141,12 +171,15 @@ mod tests {
         let (signer, held) = authority("Plant CA", &SIGNS_CRLS);
         let (_, other) = authority("Other CA", &SIGNS_CRLS);
         let crls = [crl(&signer, 0, 30), crl(&signer, -30, 0), crl(&signer, 1, 30)];
-        let health = TrustHealth::of(&crls, &[&held, &other], now());
+        let lists = |crls: &[Crl], held: &[&Certificate]| {
+            TrustLists::new(held.iter().map(|one| (*one).clone()).collect(), vec![], crls.to_vec())
+        };
+        let health = TrustHealth::of(&lists(&crls, &[&held, &other]), now());
         let dates: Vec<CrlDates> = health.crls.iter().map(|crl| crl.dates).collect();
         assert_eq!(dates, [CrlDates::Current, CrlDates::Expired, CrlDates::NotYetValid]);
         assert!(health.crls.iter().all(|crl| crl.issuer == CrlIssuer::Held { thumbprint: held.thumbprint_sha1() }));
         assert_eq!(health.without_crl, [other.thumbprint_sha1()]);
-        assert_eq!(TrustHealth::of(&crls[1..], &[&held], now()).without_crl, [held.thumbprint_sha1()]);
+        assert_eq!(TrustHealth::of(&lists(&crls[1..], &[&held]), now()).without_crl, [held.thumbprint_sha1()]);
     }
 
     #[test]
@@ -155,15 +188,37 @@ mod tests {
         let (_, namesake) = authority("Plant CA", &SIGNS_CRLS);
         let (_, other) = authority("Other CA", &SIGNS_CRLS);
         let crls = [crl(&signer, 0, 30)];
-        assert_eq!(TrustHealth::of(&crls, &[&other], now()).crls[0].issuer, CrlIssuer::Missing);
-        let health = TrustHealth::of(&crls, &[&namesake], now());
+        let lists = |held: &Certificate| TrustLists::new(vec![held.clone()], vec![], crls.to_vec());
+        assert_eq!(TrustHealth::of(&lists(&other), now()).crls[0].issuer, CrlIssuer::Missing);
+        let health = TrustHealth::of(&lists(&namesake), now());
         assert_eq!(health.crls[0].issuer, CrlIssuer::NotSignedBy { thumbprint: namesake.thumbprint_sha1() });
         assert_eq!(health.without_crl, [namesake.thumbprint_sha1()]);
     }
 
     #[test]
+    fn a_crl_of_a_new_key_is_usable_when_the_old_key_certified_it_and_it_is_trusted() {
+        let (old, new) = (TestCa::new("Plant CA"), TestCa::new("Plant CA"));
+        let link = old.certify(&new);
+        let crl = Crl::from_der(&new.crl(1, [])).unwrap();
+        let health = |trusted: &[&Certificate], issuers: &[&Certificate]| {
+            let all = |held: &[&Certificate]| held.iter().map(|one| (*one).clone()).collect();
+            TrustHealth::of(&TrustLists::new(all(trusted), all(issuers), vec![crl.clone()]), samples::now())
+        };
+        let both = health(&[&old.certificate, &link], &[]);
+        assert_eq!(both.crls[0].issuer, CrlIssuer::Held { thumbprint: link.thumbprint_sha1() });
+        assert_eq!(both.without_crl, [""; 0]);
+        let untrusted = health(&[&old.certificate], &[&link]);
+        assert_eq!(untrusted.without_crl, [old.certificate.thumbprint_sha1()], "it only vouches for itself");
+        let namesakes = health(&[&old.certificate, &new.certificate], &[]);
+        assert_eq!(namesakes.without_crl, [old.certificate.thumbprint_sha1()], "another authority of the same name");
+    }
+
+    #[test]
     fn an_application_needs_no_crl() {
         let application = crate::pki::samples::certificate();
-        assert_eq!(TrustHealth::of(&[], &[application], now()), TrustHealth::default());
+        assert_eq!(
+            TrustHealth::of(&TrustLists::new(vec![application.clone()], vec![], vec![]), now()),
+            TrustHealth::default()
+        );
     }
 }

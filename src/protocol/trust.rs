@@ -91,8 +91,8 @@ pub enum TrustStep {
     /// By thumbprint, from one list into another.
     Move { from: ClientList, to: ClientList, thumbprints: Vec<String> },
     /// DER CRLs, each with the file name it is to be shown under. One takes the place of the CRL of the same issuer (same
-    /// name, same authority key identifier) if it is newer: by CRL number, then by its `thisUpdate`; otherwise it is
-    /// refused with [`ErrorCode::CrlOutdated`](crate::model::ErrorCode::CrlOutdated).
+    /// name, same authority key identifier) about the same certificates (same issuing distribution point) if it is
+    /// newer: by its `thisUpdate`, then by CRL number; otherwise it is refused with [`ErrorCode::CrlOutdated`](crate::model::ErrorCode::CrlOutdated).
     AddCrls { crls: Vec<(String, Base64Bytes)> },
     /// By [`CrlSummary::id`], each of which must be held.
     RemoveCrls { ids: Vec<String> },

@@ -193,10 +193,11 @@ impl Editor<'_> {
                 return Err(Problem::with_detail(ErrorCode::DuplicateCrl, file_name));
             }
             let replaced = match Crl::from_der(&held.crl.0) {
-                Ok(old) if crl.is_of_same_issuer(&old) && !crl.is_newer_than(&old) => {
-                    return Err(Problem::with_detail(ErrorCode::CrlOutdated, file_name));
+                Ok(old) if crl.has_same_scope_as(&old) && !crl.is_newer_than(&old) => {
+                    let (new, old) = (crl.number_and_date(), old.number_and_date());
+                    return Err(Problem::with_detail(ErrorCode::CrlOutdated, format!("{file_name}: {new} < {old}")));
                 }
-                Ok(old) => crl.is_of_same_issuer(&old),
+                Ok(old) => crl.has_same_scope_as(&old),
                 Err(_) => false,
             };
             if !replaced {

@@ -75,6 +75,9 @@ pub fn accepts(world: &World, built: &Built, folder: &Path) -> (bool, String) {
     };
     if let Some(lists) = lists {
         command.arg(lists);
+        if world.extended_lists {
+            command.arg("-extended_crl");
+        }
         if write("lists.pem", "X509 CRL", &[&built.lists]).is_some() {
             command.args(["-CRLfile", "lists.pem"]);
         }

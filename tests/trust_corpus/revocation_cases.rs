@@ -131,10 +131,6 @@ pub(super) fn missing_lists(table: &mut Table) {
 /// Lists that must not be believed when they say nothing.
 pub(super) fn bad_lists(table: &mut Table) {
     let last_bit: fn(&mut Vec<u8>) = |bytes| *bytes.last_mut().unwrap() ^= 1;
-    fn point(tag: u8, content: &[u8]) -> Extension {
-        Extension::new(DISTRIBUTION_POINT, true, seq(&[&tlv(tag, &[content])]))
-    }
-    let partitions = Differs("OpenSSL knows partitions, and this one is about such certificates");
     for length in 2..=3 {
         for at in 0..length - 1 {
             let unknown = by_depth(RevocationUnknown, IssuerRevocationUnknown)(at);
@@ -159,18 +155,6 @@ pub(super) fn bad_lists(table: &mut Table) {
             });
             let delta = Changed { merged: NO_DELTA_AS_A_WHOLE, before: &OLD_DELTAS, after: &Agrees };
             bad("a delta list", delta, &|list| list.extensions.push(Extension::new("2.5.29.27", true, int(&[1]))));
-            bad("an indirect list", Agrees, &|list| list.extensions.push(point(0x84, &[0xff])));
-            // The root's list is about the root as well, which is no application but a CA.
-            let of_users = if at == 0 && length > 2 { partitions } else { Agrees };
-            bad("a list only about applications", of_users, &|list| list.extensions.push(point(0x81, &[0xff])));
-            let of_cas = if at == 0 { Agrees } else { partitions };
-            bad("a list only about CAs", of_cas, &|list| list.extensions.push(point(0x82, &[0xff])));
-            bad("a list only about attribute certificates", Agrees, &|list| list.extensions.push(point(0x85, &[0xff])));
-            bad("a list only about some reasons", Agrees, &|list| list.extensions.push(point(0x83, &[6, 0x40])));
-            bad("a list of one distribution point", Agrees, &|list| {
-                let uri = tlv(0x86, &[b"http://plant.example/1.crl"]);
-                list.extensions.push(point(0xa0, &tlv(0xa0, &[&uri])));
-            });
             bad("a list with a critical extension nobody knows", Agrees, &|list| {
                 list.extensions.push(Extension::new(UNKNOWN, true, boolean(true)));
             });

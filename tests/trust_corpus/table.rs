@@ -4,6 +4,7 @@ mod chain_cases;
 mod constraint_cases;
 mod name_cases;
 mod revocation_cases;
+mod scope_cases;
 mod trust_cases;
 mod usage_cases;
 
@@ -12,7 +13,7 @@ use opcua_configurator::model::CertificateStatus::{self as Status, *};
 use opcua_configurator::model::SecurityPolicy as Policy;
 use opcua_configurator::pki::{Role, TrustPolicy};
 
-use super::der::{boolean, int, oid, seq, tlv};
+use super::der::{boolean, int, oid, seq, set, tlv};
 use super::forge::{Algorithm, *};
 use super::openssl::Version;
 use super::world::{APPLICATION_URI, Ask, World, authority, issue, world};
@@ -113,6 +114,8 @@ pub fn cases() -> Vec<Case> {
     revocation_cases::revocations(&mut table);
     revocation_cases::missing_lists(&mut table);
     revocation_cases::bad_lists(&mut table);
+    scope_cases::scopes(&mut table);
+    scope_cases::new_keys(&mut table);
     table.0
 }
 

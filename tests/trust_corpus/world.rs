@@ -35,6 +35,8 @@ pub struct World {
     pub ask: Ask,
     /// OpenSSL looks at certificate policies only if it is told to.
     pub check_policies: bool,
+    /// Whether OpenSSL looks for other keys that sign lists.
+    pub extended_lists: bool,
 }
 
 /// How OpenSSL is asked.
@@ -89,6 +91,7 @@ pub fn world(length: usize) -> World {
         // Nobody stands above a self-signed application who could revoke it; OpenSSL would want a list of itself.
         ask: if length == 1 { Ask::NoLists } else { Ask::AllLists },
         check_policies: false,
+        extended_lists: false,
     }
 }
 

@@ -307,17 +307,18 @@ impl Sorter<'_> {
         if self.held.is_some_and(|held| held.holds_crl(&summary.id)) {
             return Fate::Skipped(SkipReason::AlreadyHeld);
         }
-        let newer_stands_by = |other: &&Crl| crl.is_of_same_issuer(other) && other.is_newer_than(crl);
+        let newer_stands_by = |other: &&Crl| crl.has_same_scope_as(other) && other.is_newer_than(crl);
         if self.offered_crls.iter().any(newer_stands_by) {
             return Fate::Skipped(SkipReason::Outdated);
         }
         let mut notes = Vec::new();
         let asked_for = self.destination == Destination::Crls || !among_certificates;
-        if let Some(held) = self.held_crls.iter().find(|held| crl.is_of_same_issuer(held)) {
+        if let Some(held) = self.held_crls.iter().find(|held| crl.has_same_scope_as(held)) {
             if crl.is_newer_than(held) {
                 notes.push(Note::ReplacesOlder);
             } else if asked_for {
-                return refused(ErrorCode::CrlOutdated, &summary.issuer);
+                let (new, old) = (crl.number_and_date(), held.number_and_date());
+                return refused(ErrorCode::CrlOutdated, &format!("{}: {new} < {old}", summary.issuer));
             } else {
                 return Fate::Skipped(SkipReason::Outdated);
             }

@@ -3,7 +3,7 @@ use chrono::{DateTime, Utc};
 
 use crate::jobs::{Confirmation, Operation, Outcome, Run, Step};
 use crate::model::{ClientList, ErrorCode, FirmwareGeneration, ListLimits, Problem};
-use crate::pki::{Certificate, Crl, TrustHealth};
+use crate::pki::{Certificate, Crl, PkiError, TrustHealth, TrustLists};
 use crate::protocol::{ListedCertificate, ListedCrl, RejectedClient};
 use crate::session::ControllerSession;
 
@@ -135,16 +135,22 @@ impl TrustSnapshot {
 
 /// Checks signatures: off the async threads.
 async fn health(
-    authorities: [&[ListedCertificate]; 2],
+    [trusted, issuers]: [&[ListedCertificate]; 2],
     crls: &[ListedCrl],
     now: DateTime<Utc>,
 ) -> Result<TrustHealth, Problem> {
-    let authorities: Vec<Vec<u8>> = authorities.concat().into_iter().map(|listed| listed.certificate.0).collect();
+    let ders = |listed: &[ListedCertificate]| -> Vec<Vec<u8>> {
+        listed.iter().map(|listed| listed.certificate.0.clone()).collect()
+    };
+    let (trusted, issuers) = (ders(trusted), ders(issuers));
     let crls: Vec<Vec<u8>> = crls.iter().filter_map(|listed| Some(listed.crl.clone()?.0)).collect();
     tokio::task::spawn_blocking(move || {
-        let authorities = authorities.iter().map(|der| Certificate::from_der(der)).collect::<Result<Vec<_>, _>>()?;
         let crls = crls.iter().map(|der| Crl::from_der(der)).collect::<Result<Vec<_>, _>>()?;
-        Ok(TrustHealth::of(&crls, &authorities.iter().collect::<Vec<_>>(), now))
+        let certificates = |ders: &[Vec<u8>]| -> Result<Vec<Certificate>, PkiError> {
+            ders.iter().map(|der| Certificate::from_der(der)).collect()
+        };
+        let lists = TrustLists::new(certificates(&trusted)?, certificates(&issuers)?, crls);
+        Ok(TrustHealth::of(&lists, now))
     })
     .await
     .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?

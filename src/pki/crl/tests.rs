@@ -29,14 +29,26 @@ fn a_list_says_what_its_authority_wrote() {
 }
 
 #[test]
-fn a_later_list_is_newer_by_number_then_by_date() {
+fn a_later_list_of_the_same_date_is_newer_by_number() {
     let (ca, other) = (TestCa::new("CA"), TestCa::new("CA"));
     let crl = |ca: &TestCa, number, revoked: Vec<Vec<u8>>| Crl::from_der(&ca.crl(number, revoked)).unwrap();
     let (one, two, long) = (crl(&ca, 255, vec![]), crl(&ca, 256, vec![]), crl(&ca, 255, vec![serial(1)]));
     assert!(two.is_newer_than(&one) && !one.is_newer_than(&two));
     assert!(!one.is_newer_than(&one) && !long.is_newer_than(&one), "the same number and date");
-    assert!(one.is_of_same_issuer(&two));
-    assert!(!one.is_of_same_issuer(&crl(&other, 1, vec![])), "the same name, but another key");
+    assert!(one.has_same_scope_as(&two));
+    assert!(!one.has_same_scope_as(&crl(&other, 1, vec![])), "the same name, but another key");
+}
+
+/// An authority that was set up anew, with the same key.
+#[test]
+fn a_list_whose_number_starts_again_is_newer_by_date() {
+    let read = |der: &[u8]| Crl::from_der(der).unwrap();
+    let before = read(include_bytes!("../../../tests/cases/12-crl-number-reset/crls/0.crl"));
+    let after = read(include_bytes!("../../../tests/cases/12-crl-number-reset/crls/1.crl"));
+    assert!(after.is_newer_than(&before) && !before.is_newer_than(&after) && after.has_same_scope_as(&before));
+    assert_eq!(after.number_starts_again_after(&before), Some(("1".to_owned(), "500".to_owned())));
+    assert_eq!(before.number_starts_again_after(&after), None);
+    assert_eq!(before.number_and_date(), "number 500 of 2026-10-18T15:16:44Z");
 }
 
 #[test]

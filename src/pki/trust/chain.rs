@@ -1,7 +1,8 @@
 use std::collections::HashMap;
 
-use super::checks::{self, Step};
-use super::{Presented, Rejection, TrustLists, TrustPolicy, revocation};
+use super::checks::{self, Failure, Step};
+use super::revocation::{OtherKeys, Revocation};
+use super::{Presented, Rejection, TrustLists, TrustPolicy};
 use crate::pki::flaw::quoted;
 use crate::pki::signature::Verdict;
 use crate::pki::{Certificate, CertificateFlaw};
@@ -13,21 +14,66 @@ const MAX_SIGNATURES: usize = 64;
 /// How many steps up a chain are made for one peer: CAs that certified one another make more chains than certificates.
 const MAX_STEPS: usize = 256;
 
-/// The search for a chain without a flaw: depth first, and bounded.
-pub(super) struct Search<'a> {
-    lists: &'a TrustLists,
-    presented: &'a Presented<'a>,
-    policy: &'a TrustPolicy,
+/// What may still be done for one peer, and what was found out so far.
+#[derive(Debug, Default)]
+pub(super) struct Budget {
     /// Who signed what, by SHA-256 of both.
     signatures: HashMap<([u8; 32], [u8; 32]), Verdict>,
     steps: usize,
     exhausted: bool,
+}
+
+/// What the chain is for.
+#[derive(Clone, Copy)]
+enum Purpose<'a> {
+    /// An application connects.
+    Application,
+    /// An authority, about which nothing but its chain is asked.
+    Authority,
+    /// The certificate's key signs the revocation lists of an authority whose chain ends in this root.
+    SignsLists { root: &'a Certificate },
+}
+
+/// The search for a chain without a flaw: depth first, and bounded.
+pub(super) struct Search<'a, 'b> {
+    lists: &'a TrustLists,
+    presented: &'a Presented<'a>,
+    policy: &'a TrustPolicy,
+    purpose: Purpose<'a>,
+    budget: &'b mut Budget,
     best: Option<(Step, Rejection)>,
 }
 
-impl<'a> Search<'a> {
-    pub fn new(lists: &'a TrustLists, presented: &'a Presented<'a>, policy: &'a TrustPolicy) -> Self {
-        Self { lists, presented, policy, signatures: HashMap::new(), steps: 0, exhausted: false, best: None }
+impl<'a, 'b> Search<'a, 'b> {
+    /// For the certificate of an application.
+    pub fn new(
+        lists: &'a TrustLists,
+        presented: &'a Presented<'a>,
+        policy: &'a TrustPolicy,
+        budget: &'b mut Budget,
+    ) -> Self {
+        Self { lists, presented, policy, purpose: Purpose::Application, budget, best: None }
+    }
+
+    /// For an authority; its revocation is not asked about.
+    pub fn for_an_authority(
+        lists: &'a TrustLists,
+        presented: &'a Presented<'a>,
+        policy: &'a TrustPolicy,
+        budget: &'b mut Budget,
+    ) -> Self {
+        Self { purpose: Purpose::Authority, ..Self::new(lists, presented, policy, budget) }
+    }
+
+    /// For the certificate whose key signed revocation lists of an authority whose chain ends in `root`.
+    pub fn for_a_signer_of_lists(
+        lists: &'a TrustLists,
+        presented: &'a Presented<'a>,
+        policy: &'a TrustPolicy,
+        root: &'a Certificate,
+        budget: &'b mut Budget,
+    ) -> Self {
+        Self { purpose: Purpose::SignsLists { root }, ..Self::new(lists, presented, policy, budget) }
     }
 
     pub fn run(mut self) -> Result<Vec<Certificate>, Rejection> {
@@ -44,9 +90,9 @@ impl<'a> Search<'a> {
     /// Whether the chain is good, or can be made so; it then is.
     fn extend(&mut self, chain: &mut Vec<&'a Certificate>) -> bool {
         let Some(&last) = chain.last() else { return false };
-        self.steps += 1;
-        if self.steps > MAX_STEPS {
-            self.exhausted = true;
+        self.budget.steps += 1;
+        if self.budget.steps > MAX_STEPS {
+            self.budget.exhausted = true;
             return false;
         }
         let depth = chain.len() - 1;
@@ -107,7 +153,7 @@ impl<'a> Search<'a> {
         let mut flaw = CertificateFlaw::IssuerMissing { issuer: issuer.clone() };
         for namesake in self.named(certificate) {
             // Half of the signatures that may be checked are left for chains.
-            let is_affordable = self.signatures.len() < MAX_SIGNATURES / 2;
+            let is_affordable = self.budget.signatures.len() < MAX_SIGNATURES / 2;
             if is_affordable && self.signature(certificate, namesake) == Verdict::Right {
                 return CertificateFlaw::IssuerKeyIdentifier { issuer, wanted: quoted(&wanted) };
             }
@@ -118,15 +164,33 @@ impl<'a> Search<'a> {
 
     /// Whether the chain, which is complete, has no flaw.
     fn check(&mut self, chain: &[&'a Certificate]) -> bool {
-        let checked = checks::chain(chain, self.lists, self.presented, self.policy)
-            .and_then(|()| revocation::check(chain, self.lists, self.presented, self.policy));
-        match checked {
+        let checked = match self.purpose {
+            Purpose::Application => checks::chain(chain, self.lists, self.presented, self.policy),
+            Purpose::SignsLists { root } if chain.last() != Some(&root) => {
+                let flaw = CertificateFlaw::IssuerMissing { issuer: quoted(root.subject()) };
+                Err((Step::Chain, Rejection::new(flaw, self.presented.certificate, 0)))
+            }
+            Purpose::Authority | Purpose::SignsLists { .. } => {
+                checks::authority(chain, self.lists, self.presented, self.policy)
+            }
+        };
+        match checked.and_then(|()| self.revocation(chain)) {
             Ok(()) => true,
             Err((step, rejection)) => {
                 self.note(step, rejection);
                 false
             }
         }
+    }
+
+    fn revocation(&mut self, chain: &[&'a Certificate]) -> Result<(), Failure> {
+        let other_keys = match self.purpose {
+            Purpose::Authority => return Ok(()),
+            Purpose::Application => OtherKeys::WithAGoodChain(&mut *self.budget),
+            Purpose::SignsLists { .. } => OtherKeys::OfTheChain,
+        };
+        let (lists, presented, policy) = (self.lists, self.presented, self.policy);
+        Revocation { lists, presented, policy, other_keys }.check(chain)
     }
 
     /// Whoever may have issued it, by name and key identifier: trusted ones first, what was sent last.
@@ -157,21 +221,21 @@ impl<'a> Search<'a> {
 
     fn signature(&mut self, certificate: &Certificate, issuer: &Certificate) -> Verdict {
         let key = (certificate.sha256(), issuer.sha256());
-        if let Some(known) = self.signatures.get(&key) {
+        if let Some(known) = self.budget.signatures.get(&key) {
             return known.clone();
         }
-        if self.signatures.len() >= MAX_SIGNATURES {
-            self.exhausted = true;
+        if self.budget.signatures.len() >= MAX_SIGNATURES {
+            self.budget.exhausted = true;
             return Verdict::CannotSay("there are too many possible issuers to check them all".to_owned());
         }
         let verdict = certificate.signature_by(issuer);
-        self.signatures.insert(key, verdict.clone());
+        self.budget.signatures.insert(key, verdict.clone());
         verdict
     }
 
     fn fail(&mut self, step: Step, certificate: &Certificate, depth: usize, flaw: CertificateFlaw) {
         // Out of budget, nothing is known about the signature; the chain was not found, that is all.
-        let (step, flaw) = if self.exhausted { (Step::Chain, CertificateFlaw::TooManyIssuers) } else { (step, flaw) };
+        let (step, flaw) = if self.budget.exhausted { (Step::Chain, CertificateFlaw::TooManyIssuers) } else { (step, flaw) };
         self.note(step, Rejection::new(flaw, certificate, depth));
     }
 

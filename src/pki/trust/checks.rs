@@ -46,30 +46,66 @@ pub(super) fn chain(
     presented: &Presented<'_>,
     policy: &TrustPolicy,
 ) -> Result<(), Failure> {
-    names::check(chain).and_then(|()| policies::check(chain)).map_err(|rejection| (Step::Constraints, rejection))?;
-    let at = |step: Step, certificate: &Certificate, depth: usize, flaw: Option<Flaw>| {
-        flaw.map_or(Ok(()), |flaw| Err((step, Rejection::new(flaw, certificate, depth))))
-    };
+    constraints(chain)?;
     for (depth, certificate) in chain.iter().enumerate() {
         let flaw = strength_flaw(certificate, depth > 0, presented.security_policy, policy);
         at(Step::Policy, certificate, depth, flaw)?;
     }
     let Some(leaf) = chain.first() else { return Ok(()) };
-    if !chain.iter().any(|certificate| lists.is_trusted(certificate)) {
-        return Err((Step::TrustList, Rejection::new(Flaw::Untrusted, leaf, 0)));
-    }
-    if !policy.allow_expired_certificates {
-        for (depth, certificate) in chain.iter().enumerate() {
-            at(Step::Validity, certificate, depth, validity_flaw(certificate, presented.now))?;
-        }
-    }
+    trust(chain, lists)?;
+    validity(chain, presented, policy)?;
     at(Step::HostName, leaf, 0, presented.host.and_then(|host| host_flaw(leaf, &[host])))?;
     at(Step::Uri, leaf, 0, presented.application_uri.and_then(|announced| uri_flaw(leaf, announced)))?;
     at(Step::Usage, leaf, 0, application_flaw(leaf, chain.len() > 1, presented.role, policy))?;
-    for depth in 1..chain.len() {
-        at(Step::Usage, chain[depth], depth, issuer_flaw(chain, depth, presented.role))?;
+    issuers(chain, presented.role)
+}
+
+/// Steps 4 to 6 and 9, of the chain of an authority, or of the certificate that signs its revocation lists.
+pub(super) fn authority(
+    chain: &[&Certificate],
+    lists: &TrustLists,
+    presented: &Presented<'_>,
+    policy: &TrustPolicy,
+) -> Result<(), Failure> {
+    constraints(chain)?;
+    for (depth, certificate) in chain.iter().enumerate() {
+        // What applications need of their own keys is not asked of it.
+        let flaw = strength_flaw(certificate, true, presented.security_policy, policy);
+        at(Step::Policy, certificate, depth, flaw)?;
     }
-    Ok(())
+    trust(chain, lists)?;
+    validity(chain, presented, policy)?;
+    issuers(chain, presented.role)
+}
+
+fn constraints(chain: &[&Certificate]) -> Result<(), Failure> {
+    names::check(chain).and_then(|()| policies::check(chain)).map_err(|rejection| (Step::Constraints, rejection))
+}
+
+/// Some certificate of the chain must be trusted.
+fn trust(chain: &[&Certificate], lists: &TrustLists) -> Result<(), Failure> {
+    match chain.first() {
+        Some(leaf) if !chain.iter().any(|certificate| lists.is_trusted(certificate)) => {
+            Err((Step::TrustList, Rejection::new(Flaw::Untrusted, leaf, 0)))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn validity(chain: &[&Certificate], presented: &Presented<'_>, policy: &TrustPolicy) -> Result<(), Failure> {
+    if policy.allow_expired_certificates {
+        return Ok(());
+    }
+    let mut all = chain.iter().enumerate();
+    all.try_for_each(|(depth, one)| at(Step::Validity, one, depth, validity_flaw(one, presented.now)))
+}
+
+fn issuers(chain: &[&Certificate], role: Role) -> Result<(), Failure> {
+    (1..chain.len()).try_for_each(|depth| at(Step::Usage, chain[depth], depth, issuer_flaw(chain, depth, role)))
+}
+
+fn at(step: Step, certificate: &Certificate, depth: usize, flaw: Option<Flaw>) -> Result<(), Failure> {
+    flaw.map_or(Ok(()), |flaw| Err((step, Rejection::new(flaw, certificate, depth))))
 }
 
 /// What of the key and the signature the security policy does not take.

@@ -2,10 +2,11 @@ use std::collections::{HashMap, HashSet};
 use std::fmt;
 use std::sync::Arc;
 
+use chrono::{DateTime, Utc};
 use parking_lot::Mutex;
 
-use super::chain::Search;
-use super::{Presented, Rejection, TrustPolicy};
+use super::chain::{Budget, Search};
+use super::{Presented, Rejection, Role, TrustPolicy};
 use crate::pki::signature::Verdict;
 use crate::pki::{Certificate, Crl};
 
@@ -75,11 +76,42 @@ impl TrustLists {
     ///
     /// Blocks for some signature checks, 64 at most; and the first time a revocation list is used, while it is read.
     pub fn validate(&self, presented: &Presented<'_>, policy: &TrustPolicy) -> Result<Vec<Certificate>, Rejection> {
-        Search::new(self, presented, policy).run()
+        Search::new(self, presented, policy, &mut Budget::default()).run()
+    }
+
+    /// Whether revocation lists that are signed with the key of `signer` count for what `authority` issued, which has
+    /// another key. Asks about no dates of lists.
+    pub(in crate::pki) fn signs_lists_for(
+        &self,
+        signer: &Certificate,
+        authority: &Certificate,
+        now: DateTime<Utc>,
+    ) -> bool {
+        let presented = |certificate, chain| Presented {
+            certificate,
+            chain,
+            role: Role::Either,
+            now,
+            application_uri: None,
+            host: None,
+            security_policy: None,
+        };
+        let (policy, mut budget) = (TrustPolicy::default(), Budget::default());
+        let asked = presented(authority, &[]);
+        let Ok(chain) = Search::for_an_authority(self, &asked, &policy, &mut budget).run() else { return false };
+        let Some(root) = chain.last() else { return false };
+        let asked = presented(signer, &chain);
+        Search::for_a_signer_of_lists(self, &asked, &policy, root, &mut budget).run().is_ok()
+    }
+
+    /// Whether a trusted certificate has the same name and key.
+    pub(super) fn trusts_key_of(&self, certificate: &Certificate) -> bool {
+        let (name, key) = (&certificate.facts().subject_folded, &certificate.facts().public_key);
+        self.with_subject(name).iter().any(|other| other.facts().public_key == *key && self.is_trusted(other))
     }
 
     /// Those that are held under this subject.
-    pub(super) fn with_subject(&self, folded: &[u8]) -> &[Certificate] {
+    pub(in crate::pki) fn with_subject(&self, folded: &[u8]) -> &[Certificate] {
         self.0.by_subject.get(folded).map(Vec::as_slice).unwrap_or_default()
     }
 
@@ -90,7 +122,7 @@ impl TrustLists {
     }
 
     /// Whether the revocation list is signed with the key of that certificate.
-    pub(super) fn crl_signature(&self, index: usize, signer: &Certificate) -> Verdict {
+    pub(in crate::pki) fn crl_signature(&self, index: usize, signer: &Certificate) -> Verdict {
         let key = (index, signer.sha256());
         if let Some(known) = self.0.crl_signatures.lock().get(&key) {
             return known.clone();

@@ -27,16 +27,22 @@
 //!   certificates, and it stands in the trust list by itself. A CA's certificate that another CA issued is refused.
 //! - **A certificate that is revoked** is told as such even where a list for another member is missing: a missing list
 //!   can be excused, a revocation cannot.
-//! - **Only the key that issued a certificate** may sign the list that revokes it; a list by another key of the same
-//!   authority does not count.
 //! - **Key identifiers** that differ are told apart from an issuer that is missing; such a chain is refused, as OpenSSL
 //!   does.
 //! - **Name constraints** of every authority count, those of the root too; names that cannot be compared with a constraint
 //!   of their form are refused (RFC 5280 §4.2.1.10).
 //! - **Certificate policies**: OPC UA asks for none, so that a chain fails only where an authority below the root asks.
+//! - **A revocation list signed with another key** of the same authority counts if a certificate of that key and name is
+//!   in the lists, or in the chain itself, and has a good chain of its own to the same root (RFC 5280 §6.3.3 (f)): after a
+//!   change of keys the authority issues such a certificate to itself. The list of the new key may say that the new key's
+//!   certificate was not revoked only if that key is in the trust list.
+//! - **A revocation list about some certificates** (RFC 5280 §5.2.5) counts where it covers the certificate asked about.
+//!   Lists about some reasons count only together, and delta and indirect lists do not count; what any of them revokes is
+//!   revoked all the same, indirect ones left aside.
 
 mod chain;
 pub(super) mod checks;
+mod crl_flaw;
 mod lists;
 mod names;
 mod never;
@@ -48,6 +54,7 @@ mod revocation;
 mod tests;
 
 pub use checks::check_application_uri;
+pub use crl_flaw::CrlFlaw;
 pub use lists::TrustLists;
 pub use never::never_accepted;
 pub use policy::{Presented, Role, TrustPolicy};

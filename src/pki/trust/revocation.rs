@@ -1,123 +1,189 @@
-use chrono::SecondsFormat;
-
+use super::chain::{Budget, Search};
 use super::checks::{Failure, Step, accepts_hash};
-use super::{Presented, Rejection, TrustLists, TrustPolicy};
+use super::{CrlFlaw, Presented, Rejection, TrustLists, TrustPolicy};
 use crate::pki::crl::Revoked;
+use crate::pki::distribution_point::Reasons;
 use crate::pki::flaw::quoted;
-use crate::pki::signature::Verdict;
+use crate::pki::signature::{PublicKey, Verdict};
 use crate::pki::{Certificate, CertificateFlaw, Crl, KeyUsage};
+
+/// How many other certificates of an issuer are tried as the signer of one list.
+const MAX_SIGNERS: usize = 8;
 
 /// What the revocation lists say of one certificate.
 enum Answer {
     NotRevoked,
     Revoked(Revoked),
     /// No list is at hand that can be believed.
-    Unknown(String),
+    Unknown(CrlFlaw),
 }
 
-/// Steps 10 and 11, of a chain that is good so far. A root is not asked about: nobody stands above it.
-pub(super) fn check(
-    chain: &[&Certificate],
-    lists: &TrustLists,
-    presented: &Presented<'_>,
-    policy: &TrustPolicy,
-) -> Result<(), Failure> {
-    let mut unknown = None;
-    for (depth, pair) in chain.windows(2).enumerate() {
-        let (certificate, issuer) = (pair[0], pair[1]);
-        match ask(certificate, issuer, lists, presented, policy) {
-            Answer::NotRevoked => {}
-            Answer::Revoked(revoked) => {
-                let flaw = CertificateFlaw::Revoked { on: revoked.date, because: revoked.reason };
-                return Err((Step::Revocation, Rejection::new(flaw, certificate, depth)));
+/// Which keys of an authority may have signed its lists, besides the one that signed the certificate asked about.
+pub(super) enum OtherKeys<'b> {
+    /// Those of the same name whose own chain is good and ends in the same root (RFC 5280 §6.3.3 (f)).
+    WithAGoodChain(&'b mut Budget),
+    /// Those of the chain itself. For the chain of such a signer, whose lists need no further chains.
+    OfTheChain,
+}
+
+/// Steps 10 and 11 of OPC 10000-4 §6.1.3.
+pub(super) struct Revocation<'a, 'b> {
+    pub lists: &'a TrustLists,
+    pub presented: &'a Presented<'a>,
+    pub policy: &'a TrustPolicy,
+    pub other_keys: OtherKeys<'b>,
+}
+
+impl Revocation<'_, '_> {
+    /// Of a chain that is good so far. A root is not asked about: no certificate stands above it.
+    pub fn check(mut self, chain: &[&Certificate]) -> Result<(), Failure> {
+        let mut unknown = None;
+        for (depth, pair) in chain.windows(2).enumerate() {
+            let (certificate, issuer) = (pair[0], pair[1]);
+            match self.ask(chain, depth) {
+                Answer::NotRevoked => {}
+                Answer::Revoked(revoked) => {
+                    let flaw = CertificateFlaw::Revoked { on: revoked.date, because: revoked.reason };
+                    return Err((Step::Revocation, Rejection::new(flaw, certificate, depth)));
+                }
+                Answer::Unknown(flaw) => {
+                    let why = quoted(&flaw.explain(issuer.subject()));
+                    let rejection = Rejection::new(CertificateFlaw::RevocationUnknown { why }, certificate, depth);
+                    unknown.get_or_insert((Step::FindRevocationList, rejection));
+                }
             }
-            Answer::Unknown(why) => {
-                let flaw = CertificateFlaw::RevocationUnknown { why: quoted(&why) };
-                let rejection = Rejection::new(flaw, certificate, depth);
-                unknown.get_or_insert((Step::FindRevocationList, rejection));
+        }
+        match unknown {
+            Some(failure) if !self.policy.allow_unknown_revocation => Err(failure),
+            _ => Ok(()),
+        }
+    }
+
+    /// Asks the lists of the issuer about the certificate at that depth.
+    fn ask(&mut self, chain: &[&Certificate], depth: usize) -> Answer {
+        let (certificate, issuer) = (chain[depth], chain[depth + 1]);
+        let lists = self.lists;
+        let mut flaw = CrlFlaw::Missing;
+        // By the key that signed the lists.
+        let mut covered: Vec<(PublicKey, Reasons)> = Vec::new();
+        for (index, crl) in lists.crls_of(issuer) {
+            let key = match self.signer(index, crl, chain, depth) {
+                Ok(signer) => signer.facts().public_key.clone(),
+                Err(why) => {
+                    flaw = flaw.or_nearer(why);
+                    continue;
+                }
+            };
+            // Newer lists stand first. What the newest one does not say any more is not so any more, as far as it
+            // covers the certificate and one key signed both: some authorities keep one list for each key. What a list
+            // says that cannot be used for a full check is true all the same.
+            let newer = covered.iter().find(|(of, _)| *of == key).map_or(Reasons::NONE, |(_, reasons)| *reasons);
+            if let Some(revoked) = crl.revoked(certificate).filter(|revoked| !newer.contains(revoked.reason)) {
+                return Answer::Revoked(revoked);
+            }
+            match self.covers(crl, certificate) {
+                Ok(reasons) => match covered.iter_mut().find(|(of, _)| *of == key) {
+                    Some((_, before)) => *before = before.or(reasons),
+                    None => covered.push((key, reasons)),
+                },
+                Err(why) => flaw = flaw.or_nearer(why),
             }
         }
+        match covered.into_iter().fold(Reasons::NONE, |all, (_, reasons)| all.or(reasons)) {
+            Reasons::ALL => Answer::NotRevoked,
+            Reasons::NONE => Answer::Unknown(flaw),
+            _ => Answer::Unknown(flaw.or_nearer(CrlFlaw::SomeReasons)),
+        }
     }
-    match unknown {
-        Some(failure) if !policy.allow_unknown_revocation => Err(failure),
-        _ => Ok(()),
-    }
-}
 
-fn ask(
-    certificate: &Certificate,
-    issuer: &Certificate,
-    lists: &TrustLists,
-    presented: &Presented<'_>,
-    policy: &TrustPolicy,
-) -> Answer {
-    let mut why = format!("there is no revocation list of {}", issuer.subject());
-    let mut newest_is_known = false;
-    for (index, crl) in lists.crls_of(issuer) {
-        if let Err(reason) = is_signed(index, crl, issuer, lists, presented, policy) {
-            why = reason;
-            continue;
+    /// The certificate with the key that signed the list, if the list counts for the certificate at that depth.
+    fn signer(
+        &mut self,
+        index: usize,
+        crl: &Crl,
+        chain: &[&Certificate],
+        depth: usize,
+    ) -> Result<Certificate, CrlFlaw> {
+        let issuer = chain[depth + 1];
+        let mut flaw = match self.is_signed_by(index, crl, issuer) {
+            Ok(()) => return Ok(issuer.clone()),
+            Err(flaw) => flaw,
+        };
+        let name = &issuer.facts().subject_folded;
+        let above = chain[depth + 2..].iter().filter(|other| other.facts().subject_folded == *name);
+        for other in above {
+            match self.is_signed_by(index, crl, other) {
+                Ok(()) => return Ok((*other).clone()),
+                Err(why) => flaw = flaw.or_nearer(why),
+            }
         }
-        // Newer lists stand first. What the newest whole one does not say any more is not so any more; what a list
-        // says that cannot be used for a full check is true all the same.
-        if let Some(revoked) = crl.revoked(certificate).filter(|_| !newest_is_known) {
-            return Answer::Revoked(revoked);
+        let lists = self.lists;
+        match &mut self.other_keys {
+            OtherKeys::OfTheChain => {
+                // The list of a new key may say that the new key itself was not revoked, where that key is trusted by
+                // itself.
+                let signer = chain[depth];
+                if signer.facts().subject_folded == *name && lists.trusts_key_of(signer) {
+                    return self.is_signed_by(index, crl, signer).map(|()| signer.clone());
+                }
+            }
+            OtherKeys::WithAGoodChain(_) => {
+                let others = lists.with_subject(name).iter().filter(|other| *other != issuer && crl.is_of(other));
+                for other in others.take(MAX_SIGNERS) {
+                    match self.is_signed_by(index, crl, other).and_then(|()| self.has_a_good_chain(other, chain, depth))
+                    {
+                        Ok(()) => return Ok(other.clone()),
+                        Err(why) => flaw = why.or_nearer(flaw),
+                    }
+                }
+            }
         }
-        if newest_is_known {
-            continue;
-        }
-        match is_usable(crl, presented, policy) {
-            Ok(()) => newest_is_known = true,
-            Err(reason) => why = reason,
-        }
+        Err(flaw)
     }
-    if newest_is_known { Answer::NotRevoked } else { Answer::Unknown(why) }
-}
 
-/// Whether the list is what that issuer says.
-fn is_signed(
-    index: usize,
-    crl: &Crl,
-    issuer: &Certificate,
-    lists: &TrustLists,
-    presented: &Presented<'_>,
-    policy: &TrustPolicy,
-) -> Result<(), String> {
-    let of = issuer.subject();
-    if let (Some(wanted), Some(has)) = (crl.authority_key_id(), issuer.subject_key_id())
-        && wanted != has
-    {
-        return Err(format!("the revocation list of {of} is signed with another of its keys"));
-    }
-    if issuer.key_usages().is_some_and(|usages| !usages.contains(&KeyUsage::CrlSign)) {
-        return Err(format!("{of} may not sign revocation lists, but there is one"));
-    }
-    match lists.crl_signature(index, issuer) {
-        Verdict::Right if accepts_hash(crl.algorithm().hash(), presented, policy) => Ok(()),
-        Verdict::Right => {
-            Err(format!("the revocation list of {of} is signed with {}, which is too weak", crl.signature_algorithm()))
+    /// Whether the signer's own chain is good and ends as that of the certificate at that depth.
+    fn has_a_good_chain(&mut self, signer: &Certificate, chain: &[&Certificate], depth: usize) -> Result<(), CrlFlaw> {
+        let OtherKeys::WithAGoodChain(budget) = &mut self.other_keys else { return Ok(()) };
+        let Some(root) = chain.last() else { return Ok(()) };
+        let above: Vec<Certificate> = chain[depth + 1..].iter().map(|member| (*member).clone()).collect();
+        let presented =
+            Presented { certificate: signer, chain: &above, application_uri: None, host: None, ..*self.presented };
+        match Search::for_a_signer_of_lists(self.lists, &presented, self.policy, root, budget).run() {
+            Ok(_) => Ok(()),
+            Err(rejection) => Err(CrlFlaw::AnotherKey(format!("{}: {}", rejection.subject, rejection.reason()))),
         }
-        Verdict::Wrong => Err(format!("the signature of the revocation list of {of} is wrong")),
-        Verdict::CannotSay(why) => Err(format!("the revocation list of {of} cannot be believed: {why}")),
     }
-}
 
-/// Whether a list that does not name a certificate says that it is not revoked.
-fn is_usable(crl: &Crl, presented: &Presented<'_>, policy: &TrustPolicy) -> Result<(), String> {
-    let of = crl.issuer();
-    let text = |time: chrono::DateTime<chrono::Utc>| time.to_rfc3339_opts(SecondsFormat::Secs, true);
-    if let Some(why) = crl.unusable() {
-        return Err(format!("the revocation list of {of} cannot be used: {why}"));
-    }
-    if presented.now < crl.this_update() {
-        return Err(format!("the revocation list of {of} is valid only from {} on", text(crl.this_update())));
-    }
-    match crl.next_update() {
-        _ if policy.allow_expired_crls => Ok(()),
-        None => Err(format!("the revocation list of {of} does not say until when it is valid")),
-        Some(until) if presented.now.timestamp() > until.timestamp() => {
-            Err(format!("the revocation list of {of} was valid until {}", text(until)))
+    /// Whether the list is what the owner of that certificate says.
+    fn is_signed_by(&self, index: usize, crl: &Crl, signer: &Certificate) -> Result<(), CrlFlaw> {
+        if !crl.is_of(signer) {
+            return Err(CrlFlaw::AnotherKey("no certificate with that key is held".to_owned()));
         }
-        Some(_) => Ok(()),
+        match self.lists.crl_signature(index, signer) {
+            Verdict::Right if signer.key_usages().is_some_and(|usages| !usages.contains(&KeyUsage::CrlSign)) => {
+                Err(CrlFlaw::MayNotSign)
+            }
+            Verdict::Right if accepts_hash(crl.algorithm().hash(), self.presented, self.policy) => Ok(()),
+            Verdict::Right => Err(CrlFlaw::TooWeak(crl.signature_algorithm().to_owned())),
+            Verdict::Wrong => Err(CrlFlaw::NotSigned),
+            Verdict::CannotSay(why) => Err(CrlFlaw::CannotSay(why)),
+        }
+    }
+
+    /// The reasons for which the list would name the certificate.
+    fn covers(&self, crl: &Crl, certificate: &Certificate) -> Result<Reasons, CrlFlaw> {
+        if let Some(why) = crl.not_understood() {
+            return Err(CrlFlaw::Unusable(why.to_owned()));
+        }
+        let reasons = crl.covers(certificate).map_err(CrlFlaw::OutOfScope)?;
+        if self.presented.now < crl.this_update() {
+            return Err(CrlFlaw::NotYetValid(crl.this_update()));
+        }
+        match crl.next_update() {
+            _ if self.policy.allow_expired_crls => Ok(reasons),
+            None => Err(CrlFlaw::NoEnd),
+            Some(until) if self.presented.now.timestamp() > until.timestamp() => Err(CrlFlaw::Expired(until)),
+            Some(_) => Ok(reasons),
+        }
     }
 }

@@ -1,4 +1,4 @@
-use chrono::{Duration, Utc};
+use chrono::Duration;
 
 use super::*;
 use crate::model::CertificateStatus as Status;
@@ -33,8 +33,8 @@ fn a_self_signed_certificate_is_trusted_only_if_it_is_in_the_list_itself() {
     assert_eq!(chain, std::slice::from_ref(certificate));
     let later = Presented { now: samples::now() + Duration::days(3660), ..presented(certificate) };
     assert_eq!(status(&lists, &later), Some(Status::TimeInvalid));
-    let now = Presented { now: Utc::now(), ..presented(certificate) };
-    assert_eq!(status(&lists, &now), Some(Status::TimeInvalid), "made for the year 2030");
+    let earlier = Presented { now: samples::now() - Duration::days(3660), ..presented(certificate) };
+    assert_eq!(status(&lists, &earlier), Some(Status::TimeInvalid));
 }
 
 #[test]
@@ -71,5 +71,52 @@ fn whoever_sends_a_maze_is_refused_soon() {
     let presented = Presented { chain: &sent, ..presented(&application) };
     let start = std::time::Instant::now();
     assert_eq!(status(&TrustLists::default(), &presented), Some(Status::ChainIncomplete));
+    assert!(start.elapsed() < std::time::Duration::from_secs(5), "{:?}", start.elapsed());
+}
+
+/// Made by OpenSSL on 2026-11-26; the chain is one of a root and what it issued.
+struct Files {
+    certificate: &'static [u8],
+    root: &'static [u8],
+    crls: &'static [&'static [u8]],
+}
+
+macro_rules! files {
+    ($folder:literal, $($crl:literal),*) => {
+        Files {
+            certificate: include_bytes!(concat!("../../../tests/cases/", $folder, "/cert.der")),
+            root: include_bytes!(concat!("../../../tests/cases/", $folder, "/trusted/0.der")),
+            crls: &[$(include_bytes!(concat!("../../../tests/cases/", $folder, "/crls/", $crl))),*],
+        }
+    };
+}
+
+#[test]
+fn a_list_about_some_certificates_counts_where_it_covers_the_one_asked_about() {
+    for (files, expected) in [
+        (files!("07-crl-idp/crl-idp-usercerts-only", "0.crl"), None),
+        (files!("07-crl-idp/crl-idp-usercerts-stepca-cdp", "0.crl"), None),
+        (files!("07-crl-idp/crl-idp-dp-only-no-cdp", "0.crl"), Some(Status::RevocationUnknown)),
+        (files!("12-crl-number-reset", "0.crl"), Some(Status::RevocationUnknown)),
+        (files!("12-crl-number-reset", "0.crl", "1.crl"), None),
+    ] {
+        let crls = files.crls.iter().map(|der| Crl::from_der(der).unwrap()).collect();
+        let lists = TrustLists::new(vec![Certificate::from_der(files.root).unwrap()], vec![], crls);
+        let certificate = Certificate::from_der(files.certificate).unwrap();
+        let now = "2026-11-27T12:00:00Z".parse().unwrap();
+        assert_eq!(status(&lists, &Presented { now, ..presented(&certificate) }), expected, "{:?}", lists.crls());
+    }
+}
+
+/// Sixty certificates of the name of the issuer, each of another key and none of them the signer.
+#[test]
+fn a_list_of_an_unknown_key_is_not_tried_with_every_namesake() {
+    let (ca, stranger) = (TestCa::new("Plant CA"), TestCa::new("Plant CA"));
+    let namesakes: Vec<Certificate> = (0..60).map(|_| ca.certify(&TestCa::new("Plant CA"))).collect();
+    let application = ca.application(&[0x11]);
+    let crls = (0..20).map(|number| Crl::from_der(&stranger.crl(number, [])).unwrap()).collect();
+    let lists = TrustLists::new(vec![ca.certificate.clone()], namesakes, crls);
+    let start = std::time::Instant::now();
+    assert_eq!(status(&lists, &presented(&application)), Some(Status::RevocationUnknown));
     assert!(start.elapsed() < std::time::Duration::from_secs(5), "{:?}", start.elapsed());
 }

@@ -88,7 +88,7 @@ pub fn trust(bytes: &[u8]) {
 fn assert_crl(crl: &Crl) {
     assert!(crl.der().len() <= MAX_CRL_BYTES);
     assert_eq!(Crl::from_der(crl.der()).as_ref(), Ok(crl));
-    assert!(!crl.is_newer_than(crl) && crl.is_of_same_issuer(crl));
+    assert!(!crl.is_newer_than(crl) && crl.has_same_scope_as(crl));
     let summary = crl.summary();
     assert_printable(&summary.issuer);
     assert_printable(crl.issuer());
