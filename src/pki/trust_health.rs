@@ -55,39 +55,31 @@ impl CrlHealth {
 impl TrustHealth {
     /// Says the same as [`TrustLists::validate`] by default. Checks signatures of every CRL: blocks for large ones.
     pub fn of(lists: &TrustLists, now: DateTime<Utc>) -> Self {
-        let signers: Vec<Result<&Certificate, CrlIssuer>> =
-            (0..lists.crls().len()).map(|index| signer(lists, index)).collect();
         let crls: Vec<CrlHealth> = lists
             .crls()
             .iter()
-            .zip(&signers)
-            .map(|(crl, signer)| {
-                let held = |signer: &Certificate| CrlIssuer::Held { thumbprint: signer.thumbprint_sha1() };
-                let issuer = signer.as_ref().map_or_else(CrlIssuer::clone, |signer| held(signer));
-                CrlHealth { issuer, dates: dates(crl, now) }
-            })
-            .collect();
-        let usable: Vec<(&Crl, &Certificate)> = lists
-            .crls()
-            .iter()
-            .zip(&signers)
-            .zip(&crls)
-            .filter(|((crl, _), health)| health.is_usable() && crl.unusable().is_none())
-            .filter_map(|((crl, signer), _)| Some((crl, *signer.as_ref().ok()?)))
+            .enumerate()
+            .map(|(index, crl)| CrlHealth { issuer: issuer(lists, index), dates: dates(crl, now) })
             .collect();
         let held = || lists.trusted().iter().chain(lists.issuers());
         let has_a_crl = |authority: &Certificate| {
+            let name = &authority.facts().subject_folded;
             let issues_authorities = || {
-                held().any(|below| {
-                    below != authority
-                        && below.facts().issuer_folded == authority.facts().subject_folded
-                        && is_authority(below, held())
-                })
+                let mut issued = held().filter(|below| below.facts().issuer_folded == *name && *below != authority);
+                issued.any(|below| is_authority(below, held()))
             };
-            let of_it = |crl: &Crl| crl.issuer_folded() == authority.facts().subject_folded;
-            usable.iter().filter(|(crl, _)| of_it(crl)).any(|(crl, signer)| {
-                (*signer == authority || lists.signs_lists_for(signer, authority, now))
+            let usable = lists.crls_of(authority).filter(|(index, crl)| {
+                crls[*index].is_usable()
+                    && crl.unusable().is_none()
                     && (!crl.is_only_about_authorities() || issues_authorities())
+            });
+            usable.map(|(index, _)| index).any(|index| {
+                is_signed_by(lists, index, authority) == Some(true)
+                    || lists.with_subject(name).iter().any(|other| {
+                        other != authority
+                            && is_signed_by(lists, index, other) == Some(true)
+                            && lists.signs_lists_for(other, authority, now)
+                    })
             })
         };
         let mut without_crl: Vec<String> = held()
@@ -101,22 +93,24 @@ impl TrustHealth {
 }
 
 /// The held certificate whose key signed the list and may do so; or what is wrong with the one that comes nearest.
-fn signer(lists: &TrustLists, index: usize) -> Result<&Certificate, CrlIssuer> {
-    let crl = &lists.crls()[index];
+fn issuer(lists: &TrustLists, index: usize) -> CrlIssuer {
     let mut found = CrlIssuer::Missing;
-    for authority in lists.with_subject(crl.issuer_folded()) {
-        let thumbprint = || authority.thumbprint_sha1();
-        if lists.crl_signature(index, authority) != Verdict::Right {
-            if found == CrlIssuer::Missing {
-                found = CrlIssuer::NotSignedBy { thumbprint: thumbprint() };
-            }
-        } else if authority.key_usages().is_some_and(|usages| !usages.contains(&KeyUsage::CrlSign)) {
-            found = CrlIssuer::MayNotSign { thumbprint: thumbprint() };
-        } else {
-            return Ok(authority);
+    for authority in lists.with_subject(lists.crls()[index].issuer_folded()) {
+        let thumbprint = authority.thumbprint_sha1();
+        match is_signed_by(lists, index, authority) {
+            Some(true) => return CrlIssuer::Held { thumbprint },
+            Some(false) => found = CrlIssuer::MayNotSign { thumbprint },
+            None if found == CrlIssuer::Missing => found = CrlIssuer::NotSignedBy { thumbprint },
+            None => {}
         }
     }
-    Err(found)
+    found
+}
+
+/// Whether the certificate's key signed the list, and if so, whether it may.
+fn is_signed_by(lists: &TrustLists, index: usize, signer: &Certificate) -> Option<bool> {
+    let is_signed = lists.crls()[index].is_of(signer) && lists.crl_signature(index, signer) == Verdict::Right;
+    is_signed.then(|| signer.key_usages().is_none_or(|usages| usages.contains(&KeyUsage::CrlSign)))
 }
 
 fn dates(crl: &Crl, now: DateTime<Utc>) -> CrlDates {

@@ -116,7 +116,7 @@ impl TrustLists {
     }
 
     /// The revocation lists of this issuer, the newest first.
-    pub(super) fn crls_of(&self, issuer: &Certificate) -> impl Iterator<Item = (usize, &Crl)> {
+    pub(in crate::pki) fn crls_of(&self, issuer: &Certificate) -> impl Iterator<Item = (usize, &Crl)> {
         let indices = self.0.crls_by_issuer.get(&issuer.facts().subject_folded);
         indices.into_iter().flatten().map(|index| (*index, &self.0.crls[*index]))
     }
