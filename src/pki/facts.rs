@@ -10,9 +10,9 @@ use x509_parser::prelude::{
     ASN1Time, GeneralName as Parsed, ParsedExtension, PolicyMapping, X509Certificate, X509Extension,
 };
 
+use super::distribution_point::DistributionPoint;
 use super::flaw::quoted;
 use super::general_name::{GeneralName, NameConstraints};
-use super::distribution_point::DistributionPoint;
 use super::signature::{PublicKey, SignatureAlgorithm};
 use super::{CertificateFlaw, Fingerprint, PkiError, name};
 
@@ -298,14 +298,9 @@ impl Extensions {
             }
             ParsedExtension::CertificatePolicies(policies) => {
                 self.policies.asserted = Some(policies.iter().map(|policy| policy.policy_id.to_id_string()).collect());
+            }
             // Read with the issuer's name, which some of them are relative to.
             ParsedExtension::CRLDistributionPoints(_) => {}
-            // No policy is ever asked for, so that none is too many.
-            ParsedExtension::CertificatePolicies(_) => {}
-            ParsedExtension::NameConstraints(_) => {
-                // Whoever wrote them wanted them to hold, critical or not.
-                self.not_understood("name constraints are not supported".to_owned());
-            }
             ParsedExtension::PolicyMappings(mappings) => {
                 let pair = |one: &PolicyMapping<'_>| {
                     (one.issuer_domain_policy.to_id_string(), one.subject_domain_policy.to_id_string())

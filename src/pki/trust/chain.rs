@@ -235,7 +235,8 @@ impl<'a, 'b> Search<'a, 'b> {
 
     fn fail(&mut self, step: Step, certificate: &Certificate, depth: usize, flaw: CertificateFlaw) {
         // Out of budget, nothing is known about the signature; the chain was not found, that is all.
-        let (step, flaw) = if self.budget.exhausted { (Step::Chain, CertificateFlaw::TooManyIssuers) } else { (step, flaw) };
+        let (step, flaw) =
+            if self.budget.exhausted { (Step::Chain, CertificateFlaw::TooManyIssuers) } else { (step, flaw) };
         self.note(step, Rejection::new(flaw, certificate, depth));
     }
 
