@@ -38,7 +38,16 @@ fn a_log_is_shown_and_deleted() {
     assert_eq!(desk.json(&MAKE).0, Some(0));
     let (_, lines) = desk.json(&["log", "show", "--all"]);
     assert_eq!((&lines[0]["result"]["text"], &lines[0]["result"]["size"]), (&"".into(), &0.into()));
-    assert_eq!(desk.json(&["settings", "set", "--server-log", "on", "--yes", "cell1"]).0, Some(0));
+    let (code, lines) = desk.json(&["settings", "set", "--server-log", "on", "--yes", "cell1"]);
+    assert_eq!(code, Some(2), "the password is asked for");
+    assert_error(&lines, "log-password");
+    assert!(lines[0]["error"]["remedy"].as_str().unwrap().contains("199532"), "{lines:?}");
+    let log = |password: &str| {
+        fs::write(desk.file("log-password"), password).unwrap();
+        let file = desk.file("log-password");
+        desk.json(&["settings", "set", "--server-log", "on", "--log-password-file", &file, "--yes", "cell1"]).0
+    };
+    assert_eq!((log("199533"), log("199532\n")), (Some(2), Some(0)));
     assert_eq!(desk.json(&["start", "--all"]).0, Some(0));
     let (_, infos) = desk.json(&["info", "--all"]);
     assert_eq!((&infos[0]["result"]["status"], &infos[0]["result"]["error"]), (&"Run".into(), &"581".into()));

@@ -154,6 +154,7 @@ async fn a_full_log_stops_the_server_until_it_is_deleted_or_switched_off() {
     assert_eq!(code(&plant.run(StartServer).await), Some(ErrorCode::ServerLogFull));
 
     plant.run(delete()).await;
+    assert_eq!(standing(&plant).await, (ServerStatus::Stop, Some(ErrorCode::ServerLogOn)), "582 went with its cause");
     assert_eq!(code(&plant.run(StartServer).await), None);
     assert_eq!(standing(&plant).await, (ServerStatus::Run, Some(ErrorCode::ServerLogOn)));
     assert!(log(&plant, LogPart::From(0)).await.size < full.size);
@@ -187,6 +188,35 @@ async fn strangers_cannot_stop_the_server_by_filling_its_log() {
     plant.run(StopServer).await;
     assert!(log(&plant, LogPart::End).await.text.contains("server stopped"));
     assert_eq!(code(&plant.run(StartServer).await), None);
+}
+
+#[tokio::test(flavor = "multi_thread")]
+async fn a_full_log_is_deleted_and_switched_on_in_one_step() {
+    let plant = logging(FleetFirmware::Current).await;
+    let limit = |bytes| plant.controller(0).faults().update(|switches| switches.log_limit = bytes);
+    assert_eq!(code(&plant.run(switch(false)).await), None);
+    let old = log(&plant, LogPart::From(0)).await;
+    limit(Some(1024 + old.size));
+    let both = || {
+        let SetSettings { change, log_password, .. } = switch(true);
+        SetSettings { change: SettingsChange { delete_log: true, ..change }, log_password, based_on: None }
+    };
+    assert_eq!(
+        code(&plant.run(switch(true)).await),
+        Some(ErrorCode::ServerLogFull),
+        "the server runs and stays as it is"
+    );
+    assert_eq!(standing(&plant).await, (ServerStatus::Run, None));
+    // A change that fails keeps the log.
+    plant.controller(0).faults().update(|switches| switches.server_error = true);
+    assert_eq!(code(&plant.run(both()).await), Some(ErrorCode::ServerError));
+    plant.controller(0).faults().update(|switches| switches.server_error = false);
+    assert_eq!(log(&plant, LogPart::From(0)).await.text, old.text);
+
+    assert_eq!(code(&plant.run(both()).await), None);
+    assert_eq!(standing(&plant).await, (ServerStatus::Run, Some(ErrorCode::ServerLogOn)));
+    let new = log(&plant, LogPart::From(0)).await;
+    assert!(new.text.contains("server started") && !new.text.contains(&old.text), "{}", new.text);
 }
 
 #[tokio::test(flavor = "multi_thread")]

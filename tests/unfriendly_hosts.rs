@@ -1,15 +1,17 @@
 //! What an engineer is told when the address of a controller leads somewhere else.
 
-use std::sync::Arc;
+#[path = "common/https.rs"]
+mod https;
+
 use std::time::Duration;
 
+use https::{listener, tls};
 use opcua_configurator::model::{Address, ErrorCode};
-use opcua_configurator::pki::{Fingerprint, TlsIdentity, tls_identity};
+use opcua_configurator::pki::{Fingerprint, TlsIdentity};
 use opcua_configurator::session::{Connector as _, ManagementConnector, Timeouts};
-use rustls::pki_types::{CertificateDer, PrivateKeyDer, PrivatePkcs8KeyDer};
 use secrecy::SecretString;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
-use tokio::net::{TcpListener, TcpStream};
+use tokio::net::TcpStream;
 
 fn connector() -> ManagementConnector {
     ManagementConnector {
@@ -21,12 +23,6 @@ fn connector() -> ManagementConnector {
     }
 }
 
-async fn listener() -> (TcpListener, Address) {
-    let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
-    let address = listener.local_addr().unwrap().to_string().parse().unwrap();
-    (listener, address)
-}
-
 async fn probe(address: &Address) -> ErrorCode {
     let connector = connector();
     tokio::time::timeout(Duration::from_secs(10), connector.probe(address))
@@ -36,27 +32,14 @@ async fn probe(address: &Address) -> ErrorCode {
         .code
 }
 
-/// The server's end of TLS under a new identity.
-fn tls(name: &str) -> (tokio_rustls::TlsAcceptor, TlsIdentity) {
-    let identity = tls_identity(name, chrono::Utc::now()).unwrap();
-    let key = PrivateKeyDer::Pkcs8(PrivatePkcs8KeyDer::from(identity.private_key_pkcs8.to_vec()));
-    let config = rustls::ServerConfig::builder_with_provider(Arc::new(rustls::crypto::aws_lc_rs::default_provider()))
-        .with_safe_default_protocol_versions()
-        .unwrap()
-        .with_no_client_auth()
-        .with_single_cert(vec![CertificateDer::from(identity.certificate_der.clone())], key)
-        .unwrap();
-    (tokio_rustls::TlsAcceptor::from(Arc::new(config)), identity)
-}
-
 /// An HTTPS server that answers every request with the same bytes.
-async fn https(answer: Vec<u8>) -> (Address, TlsIdentity) {
-    https_in_turn(vec![answer]).await
+async fn always(answer: Vec<u8>) -> (Address, TlsIdentity) {
+    in_turn(vec![answer]).await
 }
 
 /// An HTTPS server that answers one connection with the first bytes, the next with the second, and so on; the last
 /// are for all that follow.
-async fn https_in_turn(answers: Vec<Vec<u8>>) -> (Address, TlsIdentity) {
+async fn in_turn(answers: Vec<Vec<u8>>) -> (Address, TlsIdentity) {
     let (acceptor, identity) = tls("not a controller");
     let (listener, address) = listener().await;
     tokio::spawn(async move {
@@ -170,17 +153,17 @@ async fn a_handshake_that_is_lost_twice_is_tried_a_third_time() {
 #[tokio::test]
 async fn another_https_server() {
     for body in ["<html>welcome</html>", "{}", r#"{"product":"something-else","versions":[1]}"#, "[[[[[[[["] {
-        let (address, _) = https(http(body)).await;
+        let (address, _) = always(http(body)).await;
         assert_eq!(probe(&address).await, ErrorCode::NotAController, "{body}");
     }
-    let (address, _) = https(b"SSH-2.0-OpenSSH\r\n".to_vec()).await;
+    let (address, _) = always(b"SSH-2.0-OpenSSH\r\n".to_vec()).await;
     assert_eq!(probe(&address).await, ErrorCode::NotAController);
 }
 
 #[tokio::test]
 async fn a_web_server_without_the_controllers_page() {
     for body in ["<html>no such page</html>", r#"{"error":"not found"}"#, ""] {
-        let (address, _) = https(http_with("404 Not Found", body)).await;
+        let (address, _) = always(http_with("404 Not Found", body)).await;
         assert_eq!(probe(&address).await, ErrorCode::NotAController, "{body}");
     }
 }
@@ -190,11 +173,11 @@ async fn a_web_server_without_the_controllers_page() {
 async fn a_failure_with_a_strange_code() {
     for code in ["out-of-coffee", "cancelled", "timeout"] {
         let failure = format!(r#"{{"code":"{code}","message":"not \u001b[31mtoday"}}"#);
-        let (address, identity) = https(http_with("400 Bad Request", &failure)).await;
+        let (address, identity) = always(http_with("400 Bad Request", &failure)).await;
         let refused = connector().connect(&address, identity.fingerprint(), &SecretString::from("")).await;
         let problem = refused.err().expect("refused");
         assert_eq!(problem.code, ErrorCode::Refused);
-        assert_eq!(problem.detail, Some(format!("{code}: not  [31mtoday")));
+        assert_eq!(problem.detail, Some(format!("{code}: not \u{fffd}[31mtoday")));
     }
 }
 
@@ -208,7 +191,7 @@ async fn information_without_end_is_not_taken() {
             "used_ports":[],"limits":{{"trusted":1,"issuers":1,"crls":0}},"clock":"2026-01-01T00:00:00Z","revision":1}}"#,
             "x".repeat(length)
         );
-        let (address, identity) = https_in_turn(vec![http(r#"{"token":"t","idle_secs":300}"#), http(&info)]).await;
+        let (address, identity) = in_turn(vec![http(r#"{"token":"t","idle_secs":300}"#), http(&info)]).await;
         let session = connector().connect(&address, identity.fingerprint(), &SecretString::from("")).await;
         let Ok(mut session) = session else { panic!("not logged in") };
         match session.info().await {
@@ -220,7 +203,7 @@ async fn information_without_end_is_not_taken() {
 
 #[tokio::test]
 async fn a_controller_of_a_future_protocol() {
-    let (address, _) = https(http(r#"{"product":"opcua-controller-management","versions":[2,3]}"#)).await;
+    let (address, _) = always(http(r#"{"product":"opcua-controller-management","versions":[2,3]}"#)).await;
     assert_eq!(probe(&address).await, ErrorCode::ProtocolVersion);
 }
 
@@ -228,7 +211,7 @@ async fn a_controller_of_a_future_protocol() {
 async fn an_answer_without_end_does_not_fill_the_memory() {
     let mut endless = b"HTTP/1.1 200 OK\r\ncontent-type: application/json\r\n\r\n".to_vec();
     endless.resize(16 * 1024 * 1024, b'[');
-    let (address, _) = https(endless).await;
+    let (address, _) = always(endless).await;
     let connector = ManagementConnector::default();
     let problem = connector.probe(&address).await.expect_err("too large");
     assert_eq!(problem.code, ErrorCode::NotAController);

@@ -11,8 +11,8 @@ use std::time::Duration;
 
 use common::window::{choose, click, is_enabled, shows, type_into, wait_until};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use opcua_configurator::jobs::AddUser;
-use opcua_configurator::model::{Credential, Language, Problem, ServerStatus, UserPassword};
+use opcua_configurator::jobs::{AddUser, SelfSigned, SelfSignedFields};
+use opcua_configurator::model::{Credential, KeyLength, Language, Problem, ServerStatus, UserPassword, Validity};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::ui::backend::{NewVirtual, VirtualFleetStarter};
 use opcua_configurator::ui::picker::FixedPicker;
@@ -181,6 +181,34 @@ fn failing_start(desk: &mut Desk, message: &str) {
     desk.wait_for(message);
     assert!(shows(&desk.window, "1 failed"));
     desk.click("Close");
+}
+
+/// The number stands in the status and is explained there, until its cause is mended.
+#[test]
+fn an_error_number_describes_the_present() {
+    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
+    failing_start(&mut desk, "No server certificate is configured");
+    assert!(shows(&desk.window, "Error (7931)"));
+    desk.window.get_by_label("Error (7931)").hover();
+    for _ in 0..60 {
+        desk.window.step();
+    }
+    for part in ["7931: No server certificate is configured", "Create or import a server certificate"] {
+        assert!(shows(&desk.window, part), "{part}");
+    }
+    let fields = SelfSignedFields {
+        common_name: None,
+        country: String::new(),
+        state: String::new(),
+        locality: String::new(),
+        organisation: String::new(),
+        key_length: KeyLength::Rsa2048,
+        validity: Validity::try_from(1).unwrap(),
+    };
+    desk.run(SelfSigned { fields, backup: None });
+    desk.click("Get new information");
+    wait_until(&mut desk.window, PATIENCE, |window| !shows(window, "7931"));
+    assert_eq!(desk.statuses()[0], Some(ServerStatus::Stop));
 }
 
 #[test]

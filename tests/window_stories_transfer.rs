@@ -15,8 +15,11 @@ use opcua_configurator::jobs::{
     AddUser, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, StopServer,
 };
 use opcua_configurator::model::{Credential, KeyLength, SecurityPolicy, ServerSettings, UserPassword, Validity};
+use opcua_configurator::ui::model::Dialog;
+use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::FleetFirmware;
-use window_desk::{Desk, PATIENCE};
+use plant::Plant;
+use window_desk::{Desk, PATIENCE, listed};
 
 impl Desk {
     fn choose(&mut self, item: &str) {
@@ -123,14 +126,7 @@ fn current_firmware_says_why_not() {
     }
 }
 
-#[test]
-fn the_log_is_read_filtered_refreshed_and_deleted() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Legacy);
-    desk.click("Tick cell 1");
-    desk.choose("Server log…");
-    desk.wait_for("The log is empty");
-    assert!(!is_enabled(&desk.window, "Delete…") && shows(&desk.window, "0 B, 0 lines"));
-
+fn certificate() -> SelfSigned {
     let fields = SelfSignedFields {
         common_name: None,
         country: "JP".into(),
@@ -140,7 +136,70 @@ fn the_log_is_read_filtered_refreshed_and_deleted() {
         key_length: KeyLength::Rsa2048,
         validity: Validity::try_from(5).unwrap(),
     };
-    desk.run(SelfSigned { fields, backup: None });
+    SelfSigned { fields, backup: None }
+}
+
+/// The password is in the hint, and a full log is deleted in the same step.
+#[test]
+fn the_log_is_switched_on_and_deleted_in_one_step_and_saved() {
+    let picked = |folder: &std::path::Path| FixedPicker(Ok(Some(folder.join("picked.txt"))));
+    let mut desk = Desk::start(|| Plant::start(1, FleetFirmware::Current), listed, None, picked);
+    desk.run(certificate());
+    let faults = desk.plant.controller(0).faults();
+    let log = |on: bool| SetSettings {
+        change: SettingsChange { server_log: Some(on), ..SettingsChange::default() },
+        log_password: on.then(|| ServerSettings::LOG_PASSWORD.to_owned()),
+        ..SetSettings::default()
+    };
+    desk.run(log(true));
+    desk.run(StartServer);
+    desk.run(log(false));
+    // Full with the two lines that are in the log, and not with the one that a new log begins with.
+    faults.update(|switches| switches.log_limit = Some(1024 + 100));
+
+    desk.click("Tick cell 1");
+    desk.choose("Basic settings…");
+    desk.wait_for("Delete log");
+    desk.click("On");
+    desk.click("Delete log");
+    assert!(shows(&desk.window, "199532 switches it on") && !is_enabled(&desk.window, "Apply"));
+    type_into(&mut desk.window, "Password for the log", ServerSettings::LOG_PASSWORD);
+    desk.click("Apply");
+    desk.confirm_and_finish("1 done");
+    desk.wait_for("Run (581)");
+
+    desk.choose("Server log…");
+    desk.wait_for("server started");
+    desk.click("Save…");
+    assert!(shows(&desk.window, "The whole log is read"));
+    desk.click("Browse…");
+    let file = desk.folder.path().join("picked.txt");
+    wait_until(&mut desk.window, PATIENCE, |window| {
+        let dialogs = &window.state().model.dialogs;
+        matches!(dialogs.last(), Some(Dialog::SaveLog(form)) if form.path == file.display().to_string())
+    });
+    desk.click("Save");
+    desk.finish("1 done");
+    let saved = std::fs::read_to_string(&file).unwrap();
+    assert!(saved.contains("INFO server started: opc.tcp://") && saved.ends_with('\n'), "{saved}");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        assert_eq!(std::fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o600);
+    }
+    assert!(shows(&desk.window, "server started"), "the log is still shown");
+    desk.click("Close");
+}
+
+#[test]
+fn the_log_is_read_filtered_refreshed_and_deleted() {
+    let mut desk = Desk::with_controllers(1, FleetFirmware::Legacy);
+    desk.click("Tick cell 1");
+    desk.choose("Server log…");
+    desk.wait_for("The log is empty");
+    assert!(!is_enabled(&desk.window, "Delete…") && shows(&desk.window, "0 B, 0 lines"));
+
+    desk.run(certificate());
     desk.run(SetSettings {
         change: SettingsChange {
             server_log: Some(true),

@@ -1,6 +1,7 @@
 use clap::Subcommand;
 use serde_json::json;
 
+use super::output::json_path;
 use super::{Ending, Settled};
 use crate::model::Problem;
 
@@ -27,7 +28,7 @@ pub fn run(settled: &Settled, command: BackupCommand) -> Result<Ending, Problem>
     };
     let root = settled.workspace.root();
     if settled.output.is_json() {
-        settled.output.text(&json!({ "backup": backup, "folder": root }).to_string());
+        settled.output.text(&json!({ "backup": backup, "folder": json_path(root) }).to_string());
     } else {
         settled.output.text(&format!("Backup is {}; folder {}", if backup { "on" } else { "off" }, root.display()));
     }

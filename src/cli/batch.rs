@@ -12,7 +12,7 @@ use tokio_util::sync::CancellationToken;
 use super::table::table;
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Operation, Outcome, Report};
-use crate::model::{ControllerInfo, ErrorCode, Problem};
+use crate::model::{ControllerInfo, ErrorCode, Problem, clock};
 use crate::pki::Severity;
 use crate::session::ManagementConnector;
 use crate::ui::texts;
@@ -224,7 +224,7 @@ impl Settled {
 
     /// Keeps what was read for the window. A window that is open keeps its own.
     fn remember(&self, chosen: &[ControllerEntry], reports: &[Report]) {
-        let now = chrono::Utc::now();
+        let now = clock::now();
         let keep = || -> Result<(), Problem> {
             let lock = self.lock()?;
             let mut configuration = self.workspace.load()?.configuration;

@@ -4,6 +4,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use serde_json::{Value, json};
 
 use super::batch::{Presentation, STATE, Shown};
+use super::output::{json_path, json_paths};
 use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
@@ -176,8 +177,11 @@ const CERTIFICATE: Presentation = Presentation {
             json: json!({
                 "status": info.status,
                 "certificate": summary,
-                "saved": saved.as_ref().map(|s| json!({ "certificate": s.certificate, "key": s.key })),
-                "moved_aside": outcome.moved_aside(),
+                "saved": saved.as_ref().map(|s| json!({
+                    "certificate": json_path(&s.certificate),
+                    "key": s.key.as_deref().map(json_path),
+                })),
+                "moved_aside": json_paths(outcome.moved_aside()),
             }),
             cells: vec![
                 info.status.as_str().to_owned(),
@@ -199,8 +203,8 @@ const CSR: Presentation = Presentation {
             json: json!({
                 "status": info.status,
                 "common_name": common_name,
-                "saved": { "csr": saved.csr, "key": saved.key },
-                "moved_aside": outcome.moved_aside(),
+                "saved": { "csr": json_path(&saved.csr), "key": saved.key.as_deref().map(json_path) },
+                "moved_aside": json_paths(outcome.moved_aside()),
             }),
             cells: vec![info.status.as_str().to_owned(), common_name.clone(), saved.csr.display().to_string()],
         }
@@ -218,7 +222,7 @@ pub const IMPORTED: Presentation = Presentation {
                 "status": info.status,
                 "certificate": summary,
                 "findings": findings.iter().map(finding).collect::<Vec<_>>(),
-                "moved_aside": moved_aside,
+                "moved_aside": json_paths(moved_aside),
             }),
             cells: vec![
                 info.status.as_str().to_owned(),
@@ -239,7 +243,11 @@ const EXPORTED: Presentation = Presentation {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
-            json: json!({ "certificate": summary, "file": saved.file, "moved_aside": saved.moved_aside }),
+            json: json!({
+                "certificate": summary,
+                "file": json_path(&saved.file),
+                "moved_aside": json_paths(&saved.moved_aside),
+            }),
             cells: vec![
                 summary.not_after.format("%Y-%m-%d").to_string(),
                 summary.thumbprint.clone(),

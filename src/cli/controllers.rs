@@ -7,7 +7,7 @@ use serde_json::json;
 use super::table::table;
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Enrolled};
-use crate::model::{Address, ControllerName, ControllerSeries, ErrorCode, Problem};
+use crate::model::{Address, ControllerName, ControllerSeries, ErrorCode, Problem, clock};
 use crate::pki::Fingerprint;
 use crate::workspace::{
     ConnectionList, ControllerEntry, MAX_CONNECTION_LIST_BYTES, PlannedConnection, Retrieved, VaultState,
@@ -143,7 +143,7 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
         }
         let text = format!("Added {name}: {} {} {fingerprint}", info.series, info.serial);
         let shown = json!({ "fingerprint": fingerprint, "info": info });
-        let (series, last) = (info.series, Some(Retrieved { at: chrono::Utc::now(), info }));
+        let (series, last) = (info.series, Some(Retrieved { at: clock::now(), info }));
         (ControllerEntry { name: name.clone(), address, series, fingerprint: Some(fingerprint), last }, shown, text)
     };
     configuration.controllers.push(entry);
@@ -255,7 +255,7 @@ fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
     let text = format!("Trusted {}: {} {} {fingerprint}", entry.name, info.series, info.serial);
     entry.series = info.series;
     entry.fingerprint = Some(fingerprint);
-    entry.last = Some(Retrieved { at: chrono::Utc::now(), info });
+    entry.last = Some(Retrieved { at: clock::now(), info });
     settled.workspace.save(&configuration, &lock)?;
     if settled.output.is_json() {
         settled.output.done(&args.name, &shown);

@@ -5,7 +5,7 @@ use super::batch::{Presentation, STATE, Shown};
 use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{LogPart, Outcome, ReadLog, SetSettings, SettingsChange};
-use crate::model::Problem;
+use crate::model::{Problem, foreign_text};
 
 #[derive(Debug, Subcommand)]
 pub enum LogCommand {
@@ -28,7 +28,7 @@ const LOG: Presentation = Presentation {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
-            json: json!({ "size": log.size, "from": log.from, "text": log.text }),
+            json: json!({ "size": log.size, "from": log.from, "next": log.next, "text": log.text }),
             cells: vec![format!("{} bytes", log.size)],
         }
     },
@@ -45,12 +45,19 @@ pub fn run(settled: &Settled, command: LogCommand) -> Result<Ending, Problem> {
                 for (entry, report) in chosen.iter().zip(&reports) {
                     match &report.result {
                         Ok(Outcome::Log(log)) if chosen.len() > 1 => {
-                            settled.output.text(&format!("==> {} <==\n{}", entry.name, log.text));
+                            let text = foreign_text::lines(&log.text);
+                            settled.output.text(&format!("==> {} <==\n{text}", entry.name));
                         }
                         Ok(Outcome::Log(log)) if log.text.is_empty() => {}
-                        Ok(Outcome::Log(log)) => settled.output.text(&log.text),
+                        Ok(Outcome::Log(log)) => settled.output.text(&foreign_text::lines(&log.text)),
                         Ok(_) => {}
                         Err(problem) => settled.output.explain(Some(entry.name.as_str()), problem),
+                    }
+                    if let Ok(Outcome::Log(log)) = &report.result
+                        && log.next < log.size
+                    {
+                        let read = log.next - log.from;
+                        eprintln!("{}: {read} of {} bytes of the log were read", entry.name, log.size);
                     }
                 }
             }

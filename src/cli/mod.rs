@@ -30,6 +30,7 @@ mod vault;
 mod verify;
 mod virtual_fleet;
 mod virtual_plant;
+mod virtual_switch;
 mod window;
 
 use std::cell::OnceCell;

@@ -1,4 +1,5 @@
 use std::io::{IsTerminal as _, Write as _};
+use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
 
@@ -115,8 +116,33 @@ impl Output {
     }
 }
 
+/// A path in a JSON line. JSON is Unicode: what is not in a path (bytes that are not UTF-8, unpaired surrogates on
+/// Windows) is written as `�`. To be used for every path: `json!` of a `Path` panics on such a one.
+pub fn json_path(path: &Path) -> Value {
+    Value::String(path.display().to_string())
+}
+
+/// Paths, each as [`json_path`] writes it.
+pub fn json_paths(paths: &[PathBuf]) -> Value {
+    paths.iter().map(|path| json_path(path)).collect()
+}
+
 /// A reader that went away (`| head`) is no reason to fail.
 pub fn line(text: &str) {
     let mut out = std::io::stdout().lock();
     let _gone = writeln!(out, "{text}").and_then(|()| out.flush());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn a_path_that_is_not_utf_8_has_a_place_in_json() {
+        use std::os::unix::ffi::OsStrExt as _;
+        let path = Path::new(std::ffi::OsStr::from_bytes(b"/plant/\xff\xfe/1_cert.der"));
+        assert_eq!(json!({ "file": json_path(path) }).to_string(), r#"{"file":"/plant/��/1_cert.der"}"#);
+        assert_eq!(json_path(Path::new("/plant/焊接")), "/plant/焊接");
+    }
 }

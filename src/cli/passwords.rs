@@ -18,17 +18,21 @@ pub fn passphrase(question: &str, file: Option<&Path>, chosen: bool) -> Result<S
     if let Some(file) = file {
         return read_secret(file);
     }
-    let terminal = console::Term::stderr();
-    if !terminal.is_term() || !std::io::stdin().is_terminal() {
-        return Err(ErrorCode::NoPassphrase.into());
-    }
-    let ask = |question: &str| {
-        eprint!("{question}: ");
-        terminal.read_secure_line().map(SecretString::from).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))
-    };
+    let ask = |question: &str| ask_secret(question)?.ok_or(Problem::new(ErrorCode::NoPassphrase));
     let passphrase = ask(question)?;
     if chosen && ask("The same again")?.expose_secret() != passphrase.expose_secret() {
         return Err(Problem::with_detail(ErrorCode::NoPassphrase, "the two entries differ"));
     }
     Ok(passphrase)
+}
+
+/// Asks on the terminal, without showing what is typed; `None` without one.
+pub fn ask_secret(question: &str) -> Result<Option<SecretString>, Problem> {
+    let terminal = console::Term::stderr();
+    if !terminal.is_term() || !std::io::stdin().is_terminal() {
+        return Ok(None);
+    }
+    eprint!("{question}: ");
+    let typed = terminal.read_secure_line().map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
+    Ok(Some(SecretString::from(typed)))
 }

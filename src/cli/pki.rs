@@ -4,9 +4,10 @@ use chrono::{DateTime, Utc};
 use clap::{Args, Subcommand, ValueEnum};
 use serde_json::json;
 
+use super::output::json_path;
 use super::secret_file::read_secret;
 use super::{Ending, Settled, read_bounded};
-use crate::model::{ErrorCode, Language, Problem, SecurityPolicy};
+use crate::model::{ErrorCode, Language, Problem, SecurityPolicy, clock};
 use crate::pki::{
     self, Bundle, Certificate, MAX_BUNDLE_BYTES, PkiError, Presented, Rejection, Role, TrustLists, TrustPolicy,
     read_bundle,
@@ -98,7 +99,7 @@ fn show(settled: &Settled, file: &Path, password_file: Option<&Path>) -> Result<
     let password = password.as_ref().map(secrecy::ExposeSecret::expose_secret);
     let bytes = read_bounded(file, MAX_BUNDLE_BYTES)?;
     let contents = pki::describe(&bytes, password).map_err(|error| of_file(file, error))?;
-    let contents = json!({ "file": file, "contents": contents });
+    let contents = json!({ "file": json_path(file), "contents": contents });
     settled.output.text(&if settled.output.is_json() { contents.to_string() } else { format!("{contents:#}") });
     Ok(Ending::AllDone)
 }
@@ -130,7 +131,7 @@ fn verify(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
         certificate,
         chain,
         role: args.role.map_or(default_role, Role::from),
-        now: args.at.unwrap_or_else(Utc::now),
+        now: args.at.unwrap_or_else(clock::now),
         application_uri: args.uri.as_deref(),
         host: args.host.as_deref(),
         security_policy: args.policy,

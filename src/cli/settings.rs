@@ -1,9 +1,13 @@
 use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
+use secrecy::ExposeSecret as _;
 use serde_json::json;
 
 use super::batch::{Presentation, STATE, Shown};
+use super::passwords::ask_secret;
+use super::secret_file::read_secret;
 use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{Outcome, ReadSettings, SetSettings, SettingsChange};
@@ -30,9 +34,14 @@ pub enum SettingsCommand {
         /// User tokens, separated by commas: anonymous, username
         #[arg(long, value_name = "A,B", value_delimiter = ',')]
         tokens: Option<Vec<String>>,
-        /// Write a server log: on or off. In normal use it stays off; it stops the server when it is full
+        /// Write a server log: on or off. Switching it on needs the password 199532, which keeps it from being switched on
+        /// by mistake. In normal use the log stays off; the server stops when it is full
         #[arg(long, value_name = "on|off", value_parser = on_off)]
         server_log: Option<bool>,
+        /// File with the password for switching the server log on (199532), "-" for standard input [default: asked for on
+        /// the terminal]
+        #[arg(long, value_name = "FILE")]
+        log_password_file: Option<PathBuf>,
         /// Delete the server log in the controller
         #[arg(long)]
         delete_log: bool,
@@ -41,12 +50,27 @@ pub enum SettingsCommand {
     },
 }
 
-fn on_off(text: &str) -> Result<bool, String> {
+/// The value of a switch.
+pub fn on_off(text: &str) -> Result<bool, String> {
     match text {
         "on" => Ok(true),
         "off" => Ok(false),
         other => Err(format!("\"{other}\" is neither on nor off")),
     }
+}
+
+/// What the manual makes a person type before the server log is switched on (2.6.1). A wrong one is refused before
+/// anything is sent.
+fn log_password(file: Option<&Path>) -> Result<String, Problem> {
+    let given = match file {
+        Some(file) => read_secret(file)?,
+        None => ask_secret("Password for the server log (199532 in the manual)")?.ok_or(ErrorCode::LogPassword)?,
+    };
+    let given = given.expose_secret();
+    if given != ServerSettings::LOG_PASSWORD {
+        return Err(ErrorCode::LogPassword.into());
+    }
+    Ok(given.to_owned())
 }
 
 const SETTINGS: Presentation = Presentation {
@@ -76,7 +100,7 @@ pub fn run(settled: &Settled, command: SettingsCommand) -> Result<Ending, Proble
         SettingsCommand::Show(select) => {
             settled.batch(&configuration, &select.resolve(&configuration)?, ReadSettings, &SETTINGS)
         }
-        SettingsCommand::Set { port, startup, policies, tokens, server_log, delete_log, select } => {
+        SettingsCommand::Set { port, startup, policies, tokens, server_log, log_password_file, delete_log, select } => {
             let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadSettings, e);
             let change = SettingsChange {
                 port: port
@@ -98,8 +122,10 @@ pub fn run(settled: &Settled, command: SettingsCommand) -> Result<Ending, Proble
             if change == SettingsChange::default() {
                 return Err(Problem::with_detail(ErrorCode::BadSettings, "nothing to change was given"));
             }
-            // The password guards a tick box against a careless click; an option is typed on purpose.
-            let log_password = (server_log == Some(true)).then(|| ServerSettings::LOG_PASSWORD.to_owned());
+            let log_password = match server_log {
+                Some(true) => Some(log_password(log_password_file.as_deref())?),
+                _ => None,
+            };
             let operation = SetSettings { change, based_on: None, log_password };
             settled.batch(&configuration, &select.resolve(&configuration)?, operation, &STATE)
         }

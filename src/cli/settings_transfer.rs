@@ -4,6 +4,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::batch::{Presentation, Shown};
+use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
 use super::{Ending, Settled};
@@ -28,7 +29,7 @@ const EXPORTED: Presentation = Presentation {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
-            json: json!({ "serial": info.serial, "file": path }),
+            json: json!({ "serial": info.serial, "file": json_path(path) }),
             cells: vec![info.serial.to_string(), path.display().to_string()],
         }
     },
@@ -41,7 +42,7 @@ const IMPORTED: Presentation = Presentation {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
-            json: json!({ "status": info.status, "revision": info.revision, "file": path }),
+            json: json!({ "status": info.status, "revision": info.revision, "file": json_path(path) }),
             cells: vec![info.status.as_str().to_owned(), info.revision.to_string(), path.display().to_string()],
         }
     },

@@ -1,12 +1,13 @@
 use unicode_width::UnicodeWidthStr as _;
 
+use crate::model::foreign_text;
+
 /// A plain table for a terminal: columns padded to their widest cell, two blanks apart. Chinese counts double.
 ///
-/// Names in certificates and the like come from strangers: control characters, which a terminal would obey, are shown
-/// as `�`.
+/// Names in certificates and the like come from strangers: each cell is one line ([`foreign_text`]).
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
-    let harmless = |cell: &String| cell.replace(char::is_control, "�");
-    let rows: Vec<Vec<String>> = rows.iter().map(|row| row.iter().map(harmless).collect()).collect();
+    let rows: Vec<Vec<String>> =
+        rows.iter().map(|row| row.iter().map(|cell| foreign_text::one_line(cell, usize::MAX)).collect()).collect();
     let mut widths: Vec<usize> = header.iter().map(|h| h.width()).collect();
     for row in &rows {
         for (width, cell) in widths.iter_mut().zip(row) {
@@ -39,6 +40,6 @@ mod tests {
 
     #[test]
     fn a_cell_cannot_command_the_terminal() {
-        assert_eq!(table(&["NAME", "BY"], &[vec!["\u{1b}[2J".into(), "a\nb".into()]]), "NAME  BY\n�[2J  a�b\n");
+        assert_eq!(table(&["NAME", "BY"], &[vec!["\u{1b}[2J".into(), "a\nb".into()]]), "NAME  BY\n�[2J  a b\n");
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use super::table::table;
 use super::{Settled, read_bounded};
 use crate::jobs::{Destination, Fate, Note, SkipReason, Target, Thing, TrustFile, TrustPlan, TrustSnapshot};
-use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Language, ListLimits, Problem};
+use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Language, ListLimits, Problem, clock};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
 use crate::workspace::ControllerEntry;
 
@@ -40,7 +40,7 @@ pub fn show_plan(
     destination: Destination,
     chosen: &[ControllerEntry],
 ) -> Result<(), Problem> {
-    let now = chrono::Utc::now();
+    let now = clock::now();
     let mut unclear = false;
     for (generation, says) in [
         (FirmwareGeneration::Current, "firmware 8.0.0 and later"),

@@ -5,12 +5,13 @@ use secrecy::ExposeSecret as _;
 use serde_json::{Value, json};
 
 use super::batch::{Presentation, Shown};
+use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
 use super::table::table;
 use super::{Ending, Settled};
 use crate::jobs::{Outcome, Refusal, Verdict, Verify, VerifyReport};
-use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword};
+use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword, foreign_text};
 use crate::pki::{Rejection, Severity};
 use crate::session::opcua_client::{MessageSecurity, Patience};
 
@@ -154,7 +155,7 @@ fn as_json(report: &VerifyReport, language: Language) -> Value {
         "server_certificate": certificate,
         "endpoints": endpoints,
         "own_certificate": {
-            "file": report.own.certificate_path,
+            "file": json_path(&report.own.certificate_path),
             "thumbprint": report.own.certificate.thumbprint_sha1(),
         },
     })
@@ -165,7 +166,7 @@ fn words(report: &VerifyReport, language: Language) -> String {
     let mut text = report.url.clone();
     let mark = |severity| if severity == Severity::Error { '✗' } else { '!' };
     let mut line = |mark: char, said: &str| {
-        text.push_str(&format!("\n  {mark} {}", said.replace(char::is_control, "�")));
+        text.push_str(&format!("\n  {mark} {}", foreign_text::one_line(said, usize::MAX)));
     };
     for finding in &report.findings {
         line(mark(finding.severity()), &finding.explain(language));

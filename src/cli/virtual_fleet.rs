@@ -5,7 +5,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use secrecy::SecretString;
 
 use super::secret_file::read_secret;
-use super::{Ending, runtime};
+use super::{Ending, runtime, virtual_switch};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::platform::stop_signal::stop_signal;
@@ -27,6 +27,10 @@ enum VirtualCommand {
         #[arg(required = true, value_name = "SERIAL")]
         serials: Vec<String>,
     },
+    /// Switch what goes wrong in virtual controllers that run in another process with --data: a running task, a connected
+    /// teach pendant, a failing OPC UA server. In force within a second, until it is switched off; without a switch, shows
+    /// them
+    Switch(virtual_switch::SwitchArgs),
 }
 
 #[derive(Debug, Args)]
@@ -88,6 +92,7 @@ impl From<Firmware> for FleetFirmware {
 pub fn run(args: &VirtualArgs) -> Result<Ending, Problem> {
     match &args.command {
         Some(VirtualCommand::Keys { serials }) => keys(serials),
+        Some(VirtualCommand::Switch(args)) => virtual_switch::run(args),
         None => fleet(&args.fleet),
     }
 }

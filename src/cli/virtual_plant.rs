@@ -5,12 +5,11 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use async_trait::async_trait;
-use chrono::Utc;
 use parking_lot::Mutex;
 use tokio::runtime::{Handle, Runtime};
 
 use super::runtime;
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, clock};
 use crate::pki::Fingerprint;
 use crate::ui::backend::{NewVirtual, VirtualFleetStarter};
 use crate::virtual_controller::{DEMO_COUNT, DemoEntry, DemoFleet, demo_fleet};
@@ -102,7 +101,7 @@ fn listed(entry: &DemoEntry, fleet: &DemoFleet) -> NewVirtual {
             address: entry.address.clone(),
             series: entry.series,
             fingerprint: Some(fingerprint),
-            last: running.map(|controller| Retrieved { at: Utc::now(), info: controller.info() }),
+            last: running.map(|controller| Retrieved { at: clock::now(), info: controller.info() }),
         },
         password: entry.password.clone(),
     }

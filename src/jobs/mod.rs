@@ -21,7 +21,7 @@
 //! | `export_self_signed` | save the self-signed certificate on the PC |
 //! | `trust` | client certificate lists and CRLs: list, watch, add, move, remove, undo |
 //! | `activate` | activate legacy controllers by their keys |
-//! | `server_log` | read the server log |
+//! | `server_log` | read the server log, save it on the PC |
 //! | `settings_transfer` | export settings to the PC and import them again |
 //! | `verify` | connect to the OPC UA server as a client does |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
@@ -63,7 +63,7 @@ pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
 pub use select_certificate::{ListCertificates, SelectCertificateType};
 pub use self_signed::{SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};
-pub use server_log::{LogPart, ReadLog};
+pub use server_log::{LogPart, ReadLog, SaveLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings};
 pub use sign_csrs::{SharedAuthority, SignCsrs};

@@ -103,6 +103,10 @@ pub enum Outcome {
     TrustChanged(Box<TrustChange>),
     /// [`LogChunk::text`] is what was asked for, however many requests that took.
     Log(LogChunk),
+    /// The server log is in this file.
+    LogSaved {
+        path: PathBuf,
+    },
     /// The settings of the controller are in this file.
     SettingsExported {
         path: PathBuf,
@@ -167,7 +171,7 @@ impl Outcome {
             Self::Exported { saved, .. } => Some(&saved.file),
             Self::Csr { saved, .. } => Some(&saved.csr),
             Self::Certificate { saved: Some(saved), .. } => Some(&saved.certificate),
-            Self::SettingsExported { path } | Self::SettingsImported { path } => Some(path),
+            Self::SettingsExported { path } | Self::SettingsImported { path } | Self::LogSaved { path } => Some(path),
             _ => None,
         }
     }

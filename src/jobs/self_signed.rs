@@ -1,13 +1,12 @@
 use std::net::IpAddr;
 
 use async_trait::async_trait;
-use chrono::Utc;
 use secrecy::SecretString;
 
 use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
 use crate::model::{
     CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, Subject,
-    Validity,
+    Validity, clock,
 };
 use crate::pki::{self, Certificate, PrivateKey, ServerNames};
 use crate::protocol::{Base64Bytes, ImportCertificate, Installed, MakeSelfSigned, WireSecret};
@@ -122,7 +121,7 @@ async fn make_and_send(
     let (key, pkcs12, password) = run
         .on_a_core(move || -> Result<_, pki::PkiError> {
             let key = PrivateKey::generate(request.key_length)?;
-            let certificate = pki::self_signed(&request, &names, &key, Utc::now())?;
+            let certificate = pki::self_signed(&request, &names, &key, clock::now())?;
             let pkcs12 =
                 pki::pkcs12_write(&alias, &key, &[&certificate], secrecy::ExposeSecret::expose_secret(&password))?;
             Ok((key, pkcs12, password))

@@ -1,14 +1,29 @@
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
 use async_trait::async_trait;
 
 use super::{Confirmation, Operation, Outcome, Run, Step};
-use crate::model::Problem;
-use crate::protocol::LogChunk;
+use crate::model::{ErrorCode, Problem, foreign_text};
+use crate::protocol::{LogChunk, MAX_LOG_CHUNK_BYTES};
+use crate::workspace::write_atomic;
 
 /// No log is longer; a controller that gives more than this is not read to the end.
-const MAX_LOG_BYTES: usize = 16 * 1024 * 1024;
+const MAX_LOG_BYTES: u64 = 16 * 1024 * 1024;
+/// An honest controller fills its answers; this allows for answers that are a quarter full.
+const MAX_ANSWERS: u64 = 4 * MAX_LOG_BYTES / MAX_LOG_CHUNK_BYTES as u64;
+/// For all answers together.
+const MAX_TIME: Duration = Duration::from_secs(120);
 
 /// Reads the log of an OPC UA server (manual 6.3). It is switched on and off, and deleted, by
 /// [`SetSettings`](super::SetSettings).
+///
+/// Reads what the log holds when this begins, at most 16 MiB, in at most 256 requests and 120 s;
+/// [`LogChunk::next`] of the outcome says how far it came. Lines written meanwhile are left out.
+///
+/// # Errors
+/// [`ErrorCode::NotAController`] if the controller's answers do not fit together: an answer that begins elsewhere than
+/// asked for, or that goes on without text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReadLog {
     pub part: LogPart,
@@ -22,6 +37,13 @@ pub enum LogPart {
     From(u64),
 }
 
+/// Reads the whole server log and saves it on the PC as text ([`foreign_text::lines`]), readable by its owner only:
+/// [`Outcome::LogSaved`]. A file of the same name is replaced. Limits and errors are those of [`ReadLog`].
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SaveLog {
+    pub path: PathBuf,
+}
+
 #[async_trait]
 impl Operation for ReadLog {
     fn confirmation(&self) -> Option<Confirmation> {
@@ -30,20 +52,53 @@ impl Operation for ReadLog {
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
-        let LogPart::From(from) = self.part else {
-            return Ok(Outcome::Log(run.session.log(None).await?));
+        let log = match self.part {
+            LogPart::End => run.session.log(None).await?,
+            LogPart::From(from) => read_from(from, run).await?,
         };
-        let mut whole = LogChunk { from, next: from, ..LogChunk::default() };
-        loop {
-            let chunk = run.session.log(Some(whole.next)).await?;
-            let advanced = chunk.next > whole.next;
-            whole.size = chunk.size;
-            whole.next = chunk.next;
-            whole.text.push_str(&chunk.text);
-            if !advanced || whole.next >= whole.size || whole.text.len() >= MAX_LOG_BYTES {
-                return Ok(Outcome::Log(whole));
-            }
-            run.begin(Step::Read)?;
-        }
+        Ok(Outcome::Log(log))
     }
+}
+
+#[async_trait]
+impl Operation for SaveLog {
+    fn confirmation(&self) -> Option<Confirmation> {
+        None
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+        run.begin(Step::Read)?;
+        let text = read_from(0, run).await?.text;
+        run.begin(Step::SaveBackup)?;
+        let path = self.path.clone();
+        run.off_thread(move || Ok(write_atomic(&path, foreign_text::lines(&text).as_bytes())?)).await?;
+        Ok(Outcome::LogSaved { path: self.path.clone() })
+    }
+}
+
+/// Everything from this byte to what is the end now, within the limits of [`ReadLog`].
+async fn read_from(from: u64, run: &mut Run<'_>) -> Result<LogChunk, Problem> {
+    let until = Instant::now() + MAX_TIME;
+    let first = run.session.log(Some(from)).await?;
+    let end = first.size.min(first.from.saturating_add(MAX_LOG_BYTES));
+    let mut whole = LogChunk { text: String::new(), next: first.from, ..first };
+    let mut chunk = first;
+    for answer in 1..=MAX_ANSWERS {
+        // The log was deleted meanwhile.
+        if chunk.size < whole.next {
+            break;
+        }
+        let advance = chunk.next - chunk.from;
+        if chunk.from != whole.next || (advance > 0 && chunk.text.is_empty()) || advance > MAX_LOG_CHUNK_BYTES as u64 {
+            return Err(Problem::with_detail(ErrorCode::NotAController, "the pieces of its log do not fit together"));
+        }
+        whole.text.push_str(&chunk.text);
+        whole.next = chunk.next;
+        if advance == 0 || whole.next >= end || answer == MAX_ANSWERS || Instant::now() >= until {
+            break;
+        }
+        run.begin(Step::Read)?;
+        chunk = run.session.log(Some(whole.next)).await?;
+    }
+    Ok(whole)
 }

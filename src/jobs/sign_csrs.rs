@@ -1,12 +1,11 @@
 use std::sync::Arc;
 
 use async_trait::async_trait;
-use chrono::Utc;
 use parking_lot::Mutex;
 use secrecy::SecretString;
 
 use super::{Confirmation, CreateCsr, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
-use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, ServerStatus, Validity};
+use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, ServerStatus, Validity, clock};
 use crate::pki::{Certificate, Csr, IssueRequest};
 use crate::protocol::{Base64Bytes, ImportCaSigned};
 use crate::workspace::authority::{Authority, AuthorityFiles, Drafted, IssuedFor};
@@ -134,7 +133,7 @@ impl SignCsrs {
         let (authority, renew) = (self.authority.clone(), self.renew);
         run.off_thread(move || {
             authority.with(|authority| {
-                let now = Utc::now();
+                let now = clock::now();
                 let before = if renew { None } else { authority.valid_for(&csr, now) };
                 // One whose file is missing was never given to anybody.
                 match before.and_then(|issued| authority.files().issued(&issued.serial_number).ok()) {
@@ -151,7 +150,7 @@ impl SignCsrs {
         let controller = IssuedFor { name: run.controller.name.clone(), serial: info.serial.clone() };
         let authority = self.authority.clone();
         run.off_thread(move || {
-            authority.with(|authority| Ok(authority.record(drafted, Some(controller), Utc::now())?)).map(drop)
+            authority.with(|authority| Ok(authority.record(drafted, Some(controller), clock::now())?)).map(drop)
         })
         .await
     }

@@ -4,6 +4,7 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::file_names::is_reserved;
 use super::{ErrorCode, Problem};
 
 /// The controller series a configurator can talk to (manual 1.3.1.1).
@@ -140,6 +141,8 @@ pub enum NameError {
     ControlCharacter,
     #[error("\"{0}\" is not a serial number: 1 to 32 letters, digits, \"-\" or \"_\"")]
     Serial(String),
+    #[error("\"{0}\" cannot be a serial number: its folder would have a name that is kept for something else")]
+    ReservedSerial(String),
     #[error("\"{0}\" is not a controller series; known are RC90, RC700, T/VT and RC800")]
     UnknownSeries(String),
 }
@@ -185,15 +188,25 @@ impl fmt::Display for ControllerName {
     }
 }
 
-/// A controller's serial number. It also names the controller's folder on the PC, so it is limited to characters
-/// that are safe in a file name: a controller cannot choose where its files land.
+/// A controller's serial number: 1–32 ASCII letters, digits, `-` or `_`. It also names the controller's folder on the PC,
+/// and comes from the controller, which cannot choose where its files land: a name that Windows keeps for itself and the
+/// folders of the workspace that are no controller's ([`SerialNumber::WORKSPACE_FOLDERS`]) are refused.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct SerialNumber(String);
 
 impl SerialNumber {
+    /// What the workspace keeps beside the folders of controllers; in any case of letters.
+    pub const WORKSPACE_FOLDERS: [&str; 3] = ["CA", "Configurator", "virtual"];
+
     pub fn as_str(&self) -> &str {
         &self.0
+    }
+
+    /// The name of the controller's folder: in capitals, as serial numbers are printed, so that two that differ in case
+    /// only have the same folder on every system, not only where the file system does not tell them apart.
+    pub fn folder_name(&self) -> String {
+        self.0.to_ascii_uppercase()
     }
 }
 
@@ -203,7 +216,13 @@ impl FromStr for SerialNumber {
     fn from_str(text: &str) -> Result<Self, NameError> {
         let fits =
             (1..=32).contains(&text.len()) && text.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'-' || b == b'_');
-        if fits { Ok(Self(text.to_owned())) } else { Err(NameError::Serial(text.to_owned())) }
+        if !fits {
+            return Err(NameError::Serial(text.to_owned()));
+        }
+        if is_reserved(text) || Self::WORKSPACE_FOLDERS.iter().any(|folder| folder.eq_ignore_ascii_case(text)) {
+            return Err(NameError::ReservedSerial(text.to_owned()));
+        }
+        Ok(Self(text.to_owned()))
     }
 }
 
@@ -253,6 +272,11 @@ mod tests {
             assert!(bad.parse::<SerialNumber>().is_err(), "{bad}");
         }
         assert!("R7A0000001".parse::<SerialNumber>().is_ok());
+        for reserved in ["CON", "nul", "Com1", "CA", "ca", "configurator", "VIRTUAL"] {
+            assert_eq!(reserved.parse::<SerialNumber>(), Err(NameError::ReservedSerial(reserved.to_owned())));
+        }
+        let folder = |serial: &str| serial.parse::<SerialNumber>().expect(serial).folder_name();
+        assert_eq!(folder("r7a-1"), folder("R7A-1"));
     }
 
     #[test]

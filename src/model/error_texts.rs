@@ -431,14 +431,14 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
     (
         ErrorCode::LogPassword,
         text(
-            "The password for the server log is wrong",
-            "Switching the server log on needs the password given in the manual.",
-            "Enter the password again. In normal use the server log stays off.",
+            "The password for the server log is missing or wrong",
+            "Switching the server log on needs the password 199532 (manual 2.6.1), so that nobody does it by mistake.",
+            "Enter 199532. In normal use the server log stays off.",
         ),
         text(
-            "服务器日志密码错误",
-            "打开服务器日志需要手册中给出的密码。",
-            "请重新输入密码。正常使用时请保持服务器日志关闭。",
+            "缺少服务器日志密码或密码错误",
+            "为防止误操作，打开服务器日志需要输入密码 199532（手册 2.6.1）。",
+            "请输入 199532。正常使用时请保持服务器日志关闭。",
         ),
     ),
     (
@@ -690,10 +690,15 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ErrorCode::BadFileName,
         text(
             "The file name cannot be used",
-            "It contains characters other than half-width letters, digits and underscores.",
-            "Rename the file.",
+            "It contains characters other than half-width letters, digits and underscores, or Windows keeps the name for \
+             itself: CON, NUL, COM1, names that end with a dot or a blank.",
+            "Rename the file or the folder.",
         ),
-        text("文件名错误", "文件名中使用了除半角字母数字和下划线以外的字符。", "请更改文件名。"),
+        text(
+            "文件名错误",
+            "文件名中使用了除半角字母数字和下划线以外的字符，或为 Windows 保留的名称（CON、NUL、COM1，以及以点或空格结尾的名称）。",
+            "请更改文件名或文件夹名。",
+        ),
     ),
     (
         ErrorCode::FileFormat,
@@ -1235,6 +1240,20 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
             "该文件不是连接密码列表",
             "应为包含 Name,Password 两列的 CSV 文件，每行一个控制器。",
             "请更正该行，然后重试。",
+        ),
+    ),
+    (
+        ErrorCode::CannotListen,
+        text(
+            "A virtual controller cannot listen on its port",
+            "Another program on this computer uses the TCP port, this account may not open it, or the address is not one of \
+             this computer.",
+            "Stop the other program, or choose other ports with --management-port and --opcua-port, or another address with --bind.",
+        ),
+        text(
+            "虚拟控制器无法监听端口",
+            "本机的其他程序正在使用该 TCP 端口、当前账户无权打开该端口，或该地址不属于本机。",
+            "请停止占用端口的程序，或使用 --management-port 和 --opcua-port 选择其他端口、使用 --bind 选择其他地址。",
         ),
     ),
     (

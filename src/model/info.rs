@@ -43,8 +43,8 @@ pub struct ControllerInfo {
     pub series: ControllerSeries,
     pub firmware: FirmwareVersion,
     pub status: ServerStatus,
-    /// Why the status is [`ServerStatus::Error`] (manual 6.1). With any other status a notice, and nothing is wrong:
-    /// [`ErrorCode::ServerLogOn`] while the server log is on.
+    /// Why the status is [`ServerStatus::Error`] (manual 6.1), as it is now: the number goes when its cause is mended. With
+    /// any other status a notice, and nothing is wrong: [`ErrorCode::ServerLogOn`] while the server log is on.
     pub error: Option<ErrorCode>,
     pub activated: bool,
     /// The certificate type in use, with its certificate, if one is installed.

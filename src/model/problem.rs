@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::Language;
 use super::error_texts::REGISTRY;
+use super::foreign_text::one_line;
 
 /// Everything that can go wrong between an engineer and a controller, with one stable code each.
 ///
@@ -142,6 +143,7 @@ pub enum ErrorCode {
     VaultVersion,
     VaultFull,
     BadPasswordList,
+    CannotListen,
     NoDisplay,
     NoFilePicker,
     FolderNotOpened,
@@ -209,6 +211,7 @@ impl ErrorCode {
                 | VaultVersion
                 | VaultFull
                 | BadPasswordList
+                | CannotListen
                 | NoFilePicker
                 | FolderNotOpened
                 | FileTooLarge
@@ -248,8 +251,8 @@ impl ErrorCode {
 
 /// One failure, as it is shown, logged and sent: a code and, where it helps, one technical detail.
 ///
-/// The detail is free text in English and never holds a secret. Whoever it came from, it is one line that fits on a
-/// screen.
+/// The detail is free text in English and never holds a secret. It is one line of at most 500 characters, without those
+/// that a terminal obeys ([`super::foreign_text`]).
 #[derive(Debug, Clone, PartialEq, Eq, Error, Serialize, Deserialize)]
 pub struct Problem {
     pub code: ErrorCode,
@@ -263,21 +266,12 @@ impl Problem {
     }
 
     pub fn with_detail(code: ErrorCode, detail: impl fmt::Display) -> Self {
-        Self { code, detail: Some(one_line(&detail.to_string())) }
+        Self { code, detail: Some(one_line(&detail.to_string(), MAX_DETAIL_CHARS)) }
     }
 }
 
+/// A detail may quote what a peer sent.
 const MAX_DETAIL_CHARS: usize = 500;
-
-/// A detail may quote what a stranger sent: no control characters, which a terminal would obey, and no end of text.
-fn one_line(text: &str) -> String {
-    let mut chars = text.chars().map(|c| if c.is_control() { ' ' } else { c });
-    let mut line: String = chars.by_ref().take(MAX_DETAIL_CHARS).collect();
-    if chars.next().is_some() {
-        line.push('…');
-    }
-    line
-}
 
 impl From<ErrorCode> for Problem {
     fn from(code: ErrorCode) -> Self {
@@ -357,15 +351,15 @@ mod tests {
             ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
             | BadPassphrase | UnprotectedFile => 8,
             WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | FileInUse | ConfigurationDamaged
-            | KeyringUnavailable | NoDisplay | NoFilePicker | FolderNotOpened | FileTooLarge | FileNotRecognised
-            | Cancelled | Internal => 13,
+            | KeyringUnavailable | CannotListen | NoDisplay | NoFilePicker | FolderNotOpened | FileTooLarge
+            | FileNotRecognised | Cancelled | Internal => 14,
         }
     }
 
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
         let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 13 + 20 + 14 + 14 + 14 + 8 + 1 + 4 + 1 + 8 + 13;
+        let all = 7 + 13 + 20 + 14 + 14 + 14 + 8 + 1 + 4 + 1 + 8 + 14;
         assert_eq!(codes.len(), all);
         codes.sort();
         codes.dedup();
@@ -383,7 +377,7 @@ mod tests {
     #[test]
     fn a_detail_is_one_line_that_fits_on_a_screen() {
         let detail = |text: &str| Problem::with_detail(ErrorCode::Internal, text).detail.unwrap();
-        assert_eq!(detail("\u{1b}[2Jgone\r\nnext"), " [2Jgone  next");
+        assert_eq!(detail("\u{1b}[2Jgone\r\nnext"), "�[2Jgone  next");
         assert_eq!(detail(&"长".repeat(MAX_DETAIL_CHARS)), "长".repeat(MAX_DETAIL_CHARS));
         assert_eq!(detail(&"x".repeat(4_000_000)).chars().count(), MAX_DETAIL_CHARS + 1);
     }

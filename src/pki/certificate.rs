@@ -147,13 +147,16 @@ impl Certificate {
     }
 
     /// Whether one of the addresses or DNS names of the subject alternative name is this one. Case, a dot at the end,
-    /// and the many ways to write an IPv6 address do not matter; there are no wildcards in OPC UA.
+    /// and the many ways to write an IPv6 address do not matter; there are no wildcards in OPC UA. An address is named by
+    /// an iPAddress only, never by a dNSName that looks like one (RFC 9525 §6.2).
     pub fn names_host(&self, host: &str) -> bool {
-        let address = host.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>().ok();
         let plain = host.strip_suffix('.').unwrap_or(host);
+        let address = plain.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>().ok();
         self.facts.extensions.alternative_names.iter().any(|name| match name {
             AlternativeName::Ip(named) => address == Some(*named),
-            AlternativeName::Dns(named) => named.strip_suffix('.').unwrap_or(named).eq_ignore_ascii_case(plain),
+            AlternativeName::Dns(named) if address.is_none() => {
+                named.strip_suffix('.').unwrap_or(named).eq_ignore_ascii_case(plain)
+            }
             _ => false,
         })
     }

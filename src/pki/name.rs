@@ -2,6 +2,8 @@ use x509_parser::asn1_rs::Tag;
 use x509_parser::objects::{oid_registry, oid2abbrev};
 use x509_parser::prelude::{AttributeTypeAndValue, X509Name};
 
+use crate::model::foreign_text::one_line;
+
 /// The common name, or `None` if there is none.
 pub(super) fn common_name(name: &X509Name<'_>) -> Option<String> {
     name.iter_common_name().next().map(text_of).filter(|text| !text.is_empty())
@@ -68,9 +70,9 @@ const STRINGS: [Tag; 8] = [
     Tag::UniversalString,
 ];
 
-/// Without control characters: the text comes from a file or a peer, and ends up in lists, logs and terminals.
+/// One line ([`one_line`]): the text comes from a file or a peer, and ends up in lists, logs and terminals.
 pub(super) fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c }).collect()
+    one_line(text, usize::MAX)
 }
 
 fn text_of(attribute: &AttributeTypeAndValue<'_>) -> String {
@@ -131,7 +133,7 @@ mod tests {
     fn a_name_cannot_command_a_terminal() {
         let der = named(0x0c, b"\x1b[2J\nrobot");
         let (_, name) = X509Name::from_der(&der).unwrap();
-        assert_eq!(title(&name), "\u{fffd}[2J\u{fffd}robot");
+        assert_eq!(title(&name), "\u{fffd}[2J robot");
     }
 
     #[test]

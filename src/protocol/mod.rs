@@ -9,6 +9,10 @@
 //! compared once with the one the controller shows. A client sends nothing, not even a password, to a controller
 //! whose fingerprint differs.
 //!
+//! A request has exactly one `Host` header, and at most one of `Content-Length` and `Transfer-Encoding: chunked`; any other
+//! is refused with 400, and the connection ends. A controller may end the connection after a body in chunks. The head of
+//! a request is at most 16 KiB long, its path 2 KiB.
+//!
 //! Bodies are JSON in UTF-8. A request body is at most [`MAX_REQUEST_BYTES`] long, a response body at most
 //! [`MAX_RESPONSE_BYTES`]; longer ones are refused with `413` and [`ErrorCode::RequestTooLarge`], or dropped by the
 //! client. Binary data is base64 with padding. Times are RFC 3339 in UTC. Unknown members of a request are refused,
@@ -88,9 +92,10 @@
 //! | 401 | no session, session over, wrong password |
 //! | 404, 405 | no such path; not this method |
 //! | 409 | changed meanwhile; or the controller's state forbids it: task running, teach pendant connected |
-//! | 413 | request too large |
+//! | 413, 414, 431 | body, path or headers too large |
 //! | 429 | locked out |
 //! | 500 | the controller failed |
+//! | 505 | another version of HTTP than 1.1 |
 //! | 507 | the controller's storage is full |
 
 mod activation;
@@ -99,6 +104,7 @@ mod certificates;
 mod log;
 mod messages;
 mod settings_export;
+mod tls_time;
 mod trust;
 
 pub use activation::Activate;
@@ -115,6 +121,7 @@ pub use settings_export::{
     EXPORT_FORMAT, EXPORT_VERSION, ExportContent, ExportError, ExportSettings, ExportedUser, ImportSettings,
     MAX_EXPORT_BYTES, SettingsExport,
 };
+pub use tls_time::TlsTime;
 pub use trust::{
     CutClient, EditTrust, ListedCertificate, ListedCrl, MAX_SENT_CRL_BYTES, MAX_TRUST_STEPS, RejectedClient,
     TrustChanged, TrustStamp, TrustStep,

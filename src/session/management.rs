@@ -10,9 +10,9 @@ use parking_lot::Mutex;
 use reqwest::header::CONTENT_TYPE;
 use reqwest::{Method, StatusCode};
 use secrecy::SecretString;
-use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
+use super::answers::Answer;
 use super::pinned_tls::PinVerifier;
 use super::{Connector, ControllerSession};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
@@ -121,7 +121,7 @@ impl Link {
         Ok(Self { client, verifier, base, pin, token: None, timeouts, unanswered: Mutex::new(None) })
     }
 
-    async fn send<B: Serialize + Sync, R: DeserializeOwned>(
+    async fn send<B: Serialize + Sync, R: Answer>(
         &self,
         method: Method,
         path: &str,
@@ -151,10 +151,13 @@ impl Link {
         if status.is_success() {
             // An answer without content is JSON `null`.
             let json: &[u8] = if bytes.is_empty() { b"null" } else { &bytes };
-            return serde_json::from_slice(json).map_err(|e| {
-                lost();
-                Problem::with_detail(ErrorCode::NotAController, e)
-            });
+            let answer = serde_json::from_slice(json).map_err(|e| e.to_string());
+            return answer.and_then(|mut answer: R| answer.check().map_err(str::to_owned).map(|()| answer)).map_err(
+                |e| {
+                    lost();
+                    Problem::with_detail(ErrorCode::NotAController, e)
+                },
+            );
         }
         if let Ok(failure) = serde_json::from_slice::<Failure>(&bytes) {
             return Err(failure.into());
@@ -218,11 +221,11 @@ impl Link {
         Problem::with_detail(ErrorCode::ConnectionLost, detail)
     }
 
-    async fn get<R: DeserializeOwned>(&self, path: &str) -> Result<R, Problem> {
+    async fn get<R: Answer>(&self, path: &str) -> Result<R, Problem> {
         self.send(Method::GET, path, None::<&()>, self.timeouts.read).await
     }
 
-    async fn change<B: Serialize + Sync, R: DeserializeOwned>(&self, path: &str, body: &B) -> Result<R, Problem> {
+    async fn change<B: Serialize + Sync, R: Answer>(&self, path: &str, body: &B) -> Result<R, Problem> {
         self.send(Method::POST, path, Some(body), self.timeouts.change).await
     }
 }
@@ -272,12 +275,7 @@ fn is_caused_by_http_parse(error: &reqwest::Error) -> bool {
 #[async_trait]
 impl ControllerSession for Link {
     async fn info(&mut self) -> Result<ControllerInfo, Problem> {
-        let info: ControllerInfo = self.get(protocol::INFO).await?;
-        if info.is_small() {
-            Ok(info)
-        } else {
-            Err(Problem::with_detail(ErrorCode::NotAController, "its information is too large"))
-        }
+        self.get(protocol::INFO).await
     }
 
     async fn start_server(&mut self) -> Result<Changed, Problem> {

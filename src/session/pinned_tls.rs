@@ -9,6 +9,7 @@ use rustls::pki_types::{CertificateDer, ServerName, UnixTime};
 use rustls::{CertificateError, ClientConfig, DigitallySignedStruct, Error, SignatureScheme};
 
 use crate::pki::Fingerprint;
+use crate::protocol::TlsTime;
 
 /// Compares the presented certificate with the pin, and remembers what was presented.
 ///
@@ -33,7 +34,7 @@ impl PinVerifier {
     }
 
     pub fn client_config(self: &Arc<Self>) -> Result<ClientConfig, Error> {
-        Ok(ClientConfig::builder_with_provider(self.provider.clone())
+        Ok(ClientConfig::builder_with_details(self.provider.clone(), Arc::new(TlsTime))
             .with_safe_default_protocol_versions()?
             .dangerous()
             .with_custom_certificate_verifier(self.clone())

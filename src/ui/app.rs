@@ -7,6 +7,7 @@ use egui::ThemePreference;
 use super::backend::{Backend, Command};
 use super::model::{Message, Model, reduce};
 use super::{dialogs, drops, fonts, keys, theme, views};
+use crate::model::clock;
 use crate::workspace::ThemeChoice;
 
 /// What the window remembers of itself is saved when nothing changed for so long.
@@ -41,7 +42,7 @@ impl<B: Backend> App<B> {
         Self {
             model,
             backend,
-            clock: Arc::new(Utc::now),
+            clock: Arc::new(clock::now),
             save_at: None,
             theme: None,
             size: None,

@@ -37,15 +37,13 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use chrono::Utc;
-
 pub use app::App;
 use backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
 use model::Model;
 pub use notice::show_notice;
 use texts::TextKey;
 
-use crate::model::{ErrorCode, Language, Problem};
+use crate::model::{ErrorCode, Language, Problem, clock};
 use crate::session::Connector;
 use crate::workspace::{Configuration, Passwords, Workspace, WorkspaceLock};
 
@@ -121,7 +119,7 @@ fn create(creation: &eframe::CreationContext<'_>, options: WindowOptions) -> std
     };
     let virtual_available = backend.starter.is_some();
     let backend = TokioBackend::new(backend, move || ctx.request_repaint())?;
-    let mut model = Model::new(options.configuration, options.workspace, options.language, Utc::now());
+    let mut model = Model::new(options.configuration, options.workspace, options.language, clock::now());
     model.virtual_available = virtual_available;
     if let Some(notice) = options.notice {
         model.show_problem(notice);

@@ -20,6 +20,8 @@ pub enum FileKind {
     Pkcs12,
     /// Certificate signing requests.
     Csr,
+    /// Plain text.
+    Text,
 }
 
 impl FileKind {
@@ -32,6 +34,7 @@ impl FileKind {
             Self::Key => &["key", "pem", "der", "p8", "pk8"],
             Self::Pkcs12 => &["pfx", "p12"],
             Self::Csr => &["csr", "req", "der", "pem"],
+            Self::Text => &["txt", "log"],
         }
     }
 }
@@ -49,6 +52,11 @@ pub trait FilePicker: Send + Sync {
     /// Likewise, of several files; where that cannot be asked for, of one.
     fn pick_several(&self, kind: FileKind, title: String, done: PickedSeveral) {
         self.pick(kind, title, Box::new(move |chosen| done(chosen.map(|path| path.into_iter().collect()))));
+    }
+
+    /// Lets a person choose where a file is saved, beginning with this path. The dialog asks before a file is replaced.
+    fn pick_target(&self, kind: FileKind, title: String, _begin: PathBuf, done: Picked) {
+        self.pick(kind, title, done);
     }
 
     /// Shows a folder in the desktop's file manager. Blocks for a moment.
@@ -93,6 +101,19 @@ impl FilePicker for SystemPicker {
         ask(kind, title, done, rfd::FileDialog::pick_files, Option::unwrap_or_default);
     }
 
+    fn pick_target(&self, kind: FileKind, title: String, begin: PathBuf, done: Picked) {
+        let save = move |mut dialog: rfd::FileDialog| {
+            if let Some(folder) = begin.parent().filter(|folder| folder.is_dir()) {
+                dialog = dialog.set_directory(folder);
+            }
+            if let Some(name) = begin.file_name() {
+                dialog = dialog.set_file_name(name.to_string_lossy());
+            }
+            dialog.save_file()
+        };
+        ask(kind, title, done, save, |chosen| chosen);
+    }
+
     fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
         file_manager::open(folder)
     }
@@ -103,7 +124,7 @@ fn ask<C: 'static, T: Send + 'static>(
     kind: FileKind,
     title: String,
     done: Done<T>,
-    open: fn(rfd::FileDialog) -> Option<C>,
+    open: impl FnOnce(rfd::FileDialog) -> Option<C> + Send + 'static,
     chosen: fn(Option<C>) -> T,
 ) {
     let tell = Tell(Some(done));

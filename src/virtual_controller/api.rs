@@ -7,6 +7,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::{Duration, Instant};
 
 use axum::body::{Body, Bytes, HttpBody as _};
+use axum::extract::rejection::PathRejection;
 use axum::extract::{Extension, FromRequestParts, Path, RawQuery};
 use axum::http::request::Parts;
 use axum::http::{StatusCode, header};
@@ -25,7 +26,9 @@ use super::controller::{Controller, Effect, Outcome};
 use super::listener::Peer;
 use super::login::{Sessions, Throttle};
 use super::password::is_password;
+use super::request_heads::Refusal;
 use super::settings_transfer;
+use super::state::{State, Surroundings};
 use crate::model::activation::ActivationKeys;
 use crate::model::{ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::protocol::{
@@ -165,6 +168,11 @@ impl From<Problem> for Failed {
     }
 }
 
+/// The answer to a request whose head was refused.
+pub fn refused(refusal: Refusal) -> Response {
+    Failed { status: refusal.status, problem: refusal.problem }.into_response()
+}
+
 impl IntoResponse for Failed {
     fn into_response(self) -> Response {
         (self.status, Json(Failure::from(self.problem))).into_response()
@@ -215,16 +223,15 @@ async fn settings(caller: Caller) -> Json<Revisioned<ServerSettings>> {
 async fn set_settings(caller: Caller, body: Body) -> Answer<Changed> {
     let SetSettings { revision, settings, delete_log, log_password } =
         read(body, Malformed::plain(ErrorCode::BadSettings)).await?;
-    let outcome = caller
-        .controller()
-        .change(revision, Effect::Restart, move |state, around| {
-            changes::set_settings(state, around, settings, log_password.as_deref())
-        })
-        .await;
+    let edit = move |state: &mut State, around: &Surroundings| {
+        changes::set_settings(state, around, settings, log_password.as_deref())
+    };
+    let outcome = if delete_log {
+        caller.controller().change_with_new_log(revision, Effect::Restart, edit).await
+    } else {
+        caller.controller().change(revision, Effect::Restart, edit).await
+    };
     let (changed, ()) = caller.settle(outcome).await?;
-    if delete_log {
-        caller.controller().delete_log().await;
-    }
     Ok(Json(changed))
 }
 
@@ -336,7 +343,8 @@ async fn import_ca_signed(caller: Caller, body: Body) -> Answer<Installed> {
     Ok(Json(Installed { changed, certificate: Base64Bytes(certificate) }))
 }
 
-async fn clients(caller: Caller, Path(list): Path<String>) -> Result<Response, Failed> {
+async fn clients(caller: Caller, list: Result<Path<String>, PathRejection>) -> Result<Response, Failed> {
+    let Path(list) = list.map_err(|_| not_found())?;
     let controller = Arc::clone(caller.controller());
     // Parses certificates.
     off_thread(move || {
@@ -354,7 +362,8 @@ async fn crls(caller: Caller) -> Json<Revisioned<Vec<ListedCrl>>> {
     Json(caller.controller().crls())
 }
 
-async fn crl(caller: Caller, Path(id): Path<String>) -> Answer<Base64Bytes> {
+async fn crl(caller: Caller, id: Result<Path<String>, PathRejection>) -> Answer<Base64Bytes> {
+    let Path(id) = id.map_err(|_| not_found())?;
     Ok(Json(caller.controller().crl(&id)?))
 }
 

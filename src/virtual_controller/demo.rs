@@ -2,12 +2,15 @@ use std::net::{IpAddr, Ipv4Addr, SocketAddr};
 use std::path::Path;
 use std::time::Duration;
 
-use chrono::{TimeDelta, Utc};
+use chrono::TimeDelta;
 use secrecy::SecretString;
 use tokio::task::spawn_blocking;
+use tokio_util::sync::DropGuard;
 
 use super::controller::{ControllerSpec, VirtualController};
-use super::fleet::{FleetError, FleetFirmware, FolderLock, plausible_identity, serial_number, shutdown_all, start_all};
+use super::fleet::{
+    FleetError, FleetFirmware, FolderLock, plausible_identity, serial_number, shutdown_all, start_all, switches,
+};
 use super::new_controller::{NewCertificate, NewController};
 use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
@@ -15,7 +18,7 @@ use super::ports::free_port;
 use super::state::Identity;
 use crate::model::{
     Address, ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, KeyLength, Problem, SecurityPolicy,
-    ServerPort, StartupMode, UserTokenPolicy, Validity,
+    ServerPort, StartupMode, UserTokenPolicy, Validity, clock,
 };
 use crate::pki::Fingerprint;
 
@@ -30,6 +33,7 @@ pub const DEMO_COUNT: usize = 8;
 pub struct DemoFleet {
     controllers: Vec<VirtualController>,
     entries: Vec<DemoEntry>,
+    _switches: DropGuard,
     _lock: FolderLock,
 }
 
@@ -95,7 +99,8 @@ pub async fn demo_fleet(data: &Path, bind: IpAddr, count: usize, seed: u64) -> R
             password: DEMO_PASSWORD.into(),
         });
     }
-    Ok(DemoFleet { controllers, entries, _lock: lock })
+    let switches = switches(data, &controllers);
+    Ok(DemoFleet { controllers, entries, _switches: switches, _lock: lock })
 }
 
 /// What a controller of the demo shows.
@@ -144,7 +149,7 @@ fn role(seed: u64, index: usize) -> Result<Role, FleetError> {
 
 impl Role {
     fn spec(&self, data: &Path, bind: IpAddr, hash: &str) -> Result<ControllerSpec, FleetError> {
-        let folder = data.join(self.identity.serial.as_str());
+        let folder = data.join(self.identity.serial.folder_name());
         let mut initial = NewController::new(self.identity.clone(), hash.to_owned());
         let port = free_port(bind).map_err(FleetError::NoFreePort)?;
         initial.settings.port =
@@ -180,7 +185,11 @@ impl Role {
 /// A certificate of so many years that ends so far from now.
 fn certificate(years: u8, ends_in: TimeDelta) -> Option<NewCertificate> {
     let validity = Validity::try_from(years).ok()?;
-    Some(NewCertificate { key_length: KeyLength::Rsa2048, made: Utc::now() + ends_in - validity.duration(), validity })
+    Some(NewCertificate {
+        key_length: KeyLength::Rsa2048,
+        made: clock::now() + ends_in - validity.duration(),
+        validity,
+    })
 }
 
 fn address(at: SocketAddr) -> Result<Address, FleetError> {

@@ -4,7 +4,7 @@ use std::time::Duration;
 use chrono::{DateTime, TimeDelta, Utc};
 use parking_lot::Mutex;
 
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, clock};
 
 /// The switches of one controller, to be thrown at run time by a test or a demonstration. Clones share them.
 #[derive(Debug, Clone, Default)]
@@ -79,7 +79,7 @@ impl Faults {
     /// The controller's clock.
     pub(super) fn now(&self) -> DateTime<Utc> {
         let offset = self.0.lock().clock_offset;
-        let now = Utc::now();
+        let now = clock::now();
         now.checked_add_signed(offset).unwrap_or(now)
     }
 }

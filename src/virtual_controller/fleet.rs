@@ -7,6 +7,7 @@ use secrecy::SecretString;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use tokio::task::{JoinSet, spawn_blocking};
+use tokio_util::sync::DropGuard;
 
 use super::controller::{ControllerSpec, SwitchOnError, VirtualController};
 use super::file_limit::raise_file_limit;
@@ -15,6 +16,7 @@ use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::Identity;
+use super::switchboard;
 use crate::model::{
     ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort,
 };
@@ -82,8 +84,8 @@ impl From<FleetError> for Problem {
             FleetError::TooMany { .. } | FleetError::Ports { .. } => ErrorCode::BadSettings,
             FleetError::Busy { .. } => ErrorCode::WorkspaceBusy,
             FleetError::Data { .. } => ErrorCode::WorkspaceReadOnly,
-            FleetError::NoFreePort(_) => ErrorCode::PortConflict,
-            FleetError::Controller { source: SwitchOnError::Listen { .. }, .. } => ErrorCode::PortConflict,
+            FleetError::NoFreePort(_) => ErrorCode::CannotListen,
+            FleetError::Controller { source: SwitchOnError::Listen { .. }, .. } => ErrorCode::CannotListen,
             FleetError::Controller { .. } | FleetError::Name(_) | FleetError::Worker => ErrorCode::Internal,
         };
         Self::with_detail(code, error)
@@ -94,6 +96,7 @@ impl From<FleetError> for Problem {
 #[derive(Debug)]
 pub struct Fleet {
     controllers: Vec<VirtualController>,
+    _switches: DropGuard,
     _lock: FolderLock,
 }
 
@@ -121,7 +124,9 @@ impl Fleet {
         let hash =
             spawn_blocking(move || hash_connection_password(&password)).await.map_err(|_| FleetError::Worker)??;
         let specs = (0..config.count).map(|index| config.spec(index, &hash)).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { controllers: start_all(specs).await?, _lock: lock })
+        let controllers = start_all(specs).await?;
+        let switches = switches(&config.data, &controllers);
+        Ok(Self { controllers, _switches: switches, _lock: lock })
     }
 
     pub fn controllers(&self) -> &[VirtualController] {
@@ -150,7 +155,7 @@ impl FleetConfig {
         let identity = plausible_identity(self.seed, index, self.firmware)?;
         let nth = |first: u16| first.checked_add(u16::try_from(index).ok()?);
         let ports = |first: u16| nth(first).ok_or(FleetError::Ports { first, count: self.count });
-        let folder = self.data.join(identity.serial.as_str());
+        let folder = self.data.join(identity.serial.folder_name());
         let mut initial = NewController::new(identity, hash.to_owned());
         initial.activated = self.activated;
         let opcua = match self.opcua_port {
@@ -180,6 +185,12 @@ impl VirtualController {
             opcua: self.endpoint(),
         }
     }
+}
+
+/// Lets another process throw the switches of the controllers in this folder.
+pub(super) fn switches(data: &Path, controllers: &[VirtualController]) -> DropGuard {
+    let faults = controllers.iter().map(|controller| (controller.serial(), controller.faults()));
+    switchboard::watch(data, faults.collect())
 }
 
 /// Side by side; in the order of `specs`.

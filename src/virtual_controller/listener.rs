@@ -1,7 +1,10 @@
+use std::convert::Infallible;
 use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
+use axum::http::HeaderValue;
+use axum::http::header::{CONNECTION, TRANSFER_ENCODING};
 use hyper::body::Incoming;
 use hyper::service::service_fn;
 use hyper::{Request, server::conn::http1};
@@ -14,8 +17,9 @@ use tokio_rustls::TlsAcceptor;
 use tokio_util::sync::CancellationToken;
 use tower_service::Service as _;
 
-use super::api::{Api, Connection, ROUTER};
+use super::api::{self, Api, Connection, ROUTER};
 use super::connection_limits::{Activity, Occupant, PlaceLimits, Places, Source, Standing};
+use super::request_heads::CheckedHeads;
 
 /// An engineer's program keeps one connection for each session. No change takes as long as `silence`.
 const PLACES: PlaceLimits = PlaceLimits { connections: 64, per_source: 16, silence: Duration::from_secs(180) };
@@ -124,19 +128,30 @@ async fn serve_peer(
     peer.activity.reached(Standing::Opened);
     let cut = CancellationToken::new();
     let connection = Connection { api, peer: Arc::clone(peer), local: local.ip(), cut: cut.clone() };
+    let (stream, refusals) = CheckedHeads::new(stream);
     let service = service_fn(move |mut request: Request<Incoming>| {
-        let connection = connection.clone();
+        let (connection, refusals) = (connection.clone(), refusals.clone());
         async move {
             let latency = connection.api.latency();
             if !latency.is_zero() {
                 tokio::time::sleep(latency).await;
             }
+            if let Some(refusal) = refusals.of(request.uri()) {
+                return Ok(api::refused(refusal));
+            }
+            // The heads after a body in chunks are not checked.
+            let is_last = request.headers().contains_key(TRANSFER_ENCODING);
             request.extensions_mut().insert(connection);
-            ROUTER.clone().call(request).await
+            let mut response = ROUTER.clone().call(request).await?;
+            if is_last {
+                response.headers_mut().insert(CONNECTION, HeaderValue::from_static("close"));
+            }
+            Ok::<_, Infallible>(response)
         }
     });
     let mut http = http1::Builder::new();
-    http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIMEOUT);
+    // Before 1970 the library cannot write its Date header.
+    http.timer(TokioTimer::new()).header_read_timeout(HEAD_TIMEOUT).auto_date_header(SystemTime::now() >= UNIX_EPOCH);
     let mut serving = std::pin::pin!(http.serve_connection(TokioIo::new(stream), service));
     let without_session = async {
         tokio::time::sleep_until(accepted + SESSION_TIMEOUT).await;

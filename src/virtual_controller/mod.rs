@@ -16,12 +16,14 @@
 //! | `new_controller` | [`NewController`]: what a controller is when it is first switched on |
 //! | `activation_keys` | [`demo_keys`]: the keys a virtual controller accepts |
 //! | `faults` | [`Faults`]: the switches for what goes wrong |
+//! | `switchboard` | [`Switchboard`]: some of them, thrown by another process |
 //! | `controller` | [`VirtualController`]: state, store and OPC UA server together; changes whole or not at all |
 //! | `password` | the connection password: Argon2id once, then a memory of this process |
 //! | `login` | wrong passwords by source, sessions by token |
 //! | `api` | the paths of [`crate::protocol`], and bodies within bounds |
 //! | `connection_limits` | what peers may take of either listener before they have a session |
 //! | `listener` | connections of the management protocol: accepted, bounded in number and time, encrypted |
+//! | `request_heads` | the heads of requests, checked before the HTTP library reads them |
 //! | `tls` | the management identity as a TLS server |
 //! | `server_log` | the log of the OPC UA server, and what happens when it is full |
 //! | `log_share` | how much of it peers may fill that have proved nothing |
@@ -48,7 +50,8 @@
 //! - A CRL that its authority, if held, did not sign is refused: it could only take the place of the right one.
 //! - A CSR made in current firmware does not touch the certificate in use. Legacy firmware has room for one key of a
 //!   CA-signed certificate only: a new CSR takes the old certificate away, and a server that used it stops.
-//! - A change on a server in error leaves it in error; the next start or stop that succeeds ends that.
+//! - An error number describes the present: 7930 to 7933 and 582 are shown from the start that failed until their cause is
+//!   mended, 580 until the next start or stop that succeeds.
 //! - While the server log is on, the controller says so with 581 beside a status that is not Error: a notice, since
 //!   everything works. When the log is full the server stops by itself with 582, and does not start again until the log
 //!   is deleted or switched off.
@@ -74,11 +77,13 @@ pub mod opcua;
 mod password;
 mod ports;
 mod rejected;
+mod request_heads;
 mod secret_bytes;
 mod server_log;
 mod settings_transfer;
 mod state;
 mod store;
+mod switchboard;
 #[cfg(test)]
 mod tests;
 mod tls;
@@ -96,3 +101,4 @@ pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;
 pub use state::{HeldCrl, Identity, KeyPair, Listed, PendingCsr, State, Surroundings, User};
 pub use store::{Staged, Store, StoreError};
+pub use switchboard::{OutsideSwitches, Switchboard};

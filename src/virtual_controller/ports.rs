@@ -28,6 +28,11 @@ pub fn free_port(bind: IpAddr) -> io::Result<u16> {
     Err(io::ErrorKind::AddrInUse.into())
 }
 
+/// Whether nobody listens on a TCP port of `bind` just now.
+pub fn is_free(bind: IpAddr, port: u16) -> bool {
+    TcpListener::bind((bind, port)).is_ok()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -41,7 +41,12 @@ const MAX_LINE_CHARS: usize = 120;
 
 impl ServerLog {
     pub fn new(folder: &Path, faults: Faults) -> Self {
-        Self { path: folder.join("server.log"), faults, writing: Mutex::new(None), full: Notify::new() }
+        let log = Self { path: folder.join("server.log"), faults, writing: Mutex::new(None), full: Notify::new() };
+        // Of a process that was killed in between.
+        if log.aside().exists() && log.put_back().is_err() {
+            tracing::warn!(path = %log.path.display(), "a server log that was put aside is not put back");
+        }
+        log
     }
 
     /// Writes one line, unless the log is full. A log that cannot be written is no reason to fail.
@@ -92,13 +97,36 @@ impl ServerLog {
         Ok(LogChunk { size, from: begin, next, text: String::from_utf8_lossy(text).into_owned() })
     }
 
-    pub fn delete(&self) -> io::Result<()> {
+    /// Puts the log aside, so that a new one begins. What comes of it is decided by [`ServerLog::delete_aside`] or
+    /// [`ServerLog::put_back`].
+    pub fn put_aside(&self) -> io::Result<()> {
         let mut writing = self.writing.lock();
         *writing = None;
-        match fs::remove_file(&self.path) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
-            _ => Ok(()),
+        missing_is_fine(fs::rename(&self.path, self.aside()))
+    }
+
+    /// Deletes what was put aside.
+    pub fn delete_aside(&self) -> io::Result<()> {
+        missing_is_fine(fs::remove_file(self.aside()))
+    }
+
+    /// Undoes [`ServerLog::put_aside`]. What was written since stands behind what was put aside.
+    pub fn put_back(&self) -> io::Result<()> {
+        let mut writing = self.writing.lock();
+        *writing = None;
+        if !self.aside().exists() {
+            return Ok(());
         }
+        let since = match fs::read(&self.path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Vec::new(),
+            read => read?,
+        };
+        fs::rename(self.aside(), &self.path)?;
+        open(&self.path)?.write_all(&since)
+    }
+
+    fn aside(&self) -> PathBuf {
+        self.path.with_extension("log.aside")
     }
 
     /// From this size on nothing but the last line is written.
@@ -146,6 +174,13 @@ impl ServerLog {
 /// Without control characters, and not longer than a line may be.
 fn clean(what: &str) -> String {
     what.chars().filter(|c| !c.is_control()).take(MAX_LINE_CHARS).collect()
+}
+
+fn missing_is_fine(result: io::Result<()>) -> io::Result<()> {
+    match result {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
 }
 
 fn open(path: &Path) -> io::Result<File> {
@@ -209,8 +244,16 @@ mod tests {
         assert_eq!(chunk.size, size);
         assert!(chunk.text.ends_with("WARN the log is full; the server stops\n"), "{}", chunk.text);
         assert_eq!(chunk.text.matches("is full").count(), 1);
-        log.delete().unwrap();
-        log.delete().unwrap();
+        log.put_aside().unwrap();
+        assert!(!log.is_full());
+        logged_in(&log);
+        log.put_back().unwrap();
+        let back = log.read(None).unwrap();
+        assert!(log.is_full() && back.size > size && back.text.starts_with(&chunk.text), "{}", back.text);
+        for _ in 0..2 {
+            log.put_aside().unwrap();
+            log.delete_aside().unwrap();
+        }
         assert!(!log.is_full());
         assert_eq!(log.read(None).unwrap(), LogChunk::default());
         logged_in(&log);

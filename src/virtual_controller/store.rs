@@ -2,14 +2,13 @@ use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
-use chrono::Utc;
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 use zeroize::Zeroizing;
 
 use super::faults::Faults;
 use super::state::State;
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, clock};
 use crate::platform::{private, replace};
 
 /// Where a controller keeps its [`State`]: one file in a folder of its own.
@@ -76,7 +75,7 @@ impl Store {
             Ok(state) => Ok(Some(state)),
             Err(Unreadable::TooNew) => Err(StoreError::TooNew { path }),
             Err(Unreadable::Damaged(reason)) => {
-                let stamp = Utc::now().format("%Y%m%dT%H%M%S%.6f");
+                let stamp = clock::now().format("%Y%m%dT%H%M%S%.6f");
                 let kept = self.folder.join(format!("{FILE}.damaged-{stamp}"));
                 replace::rename(&path, &kept).map_err(io_error)?;
                 Err(StoreError::Damaged { reason, kept })
@@ -225,7 +224,7 @@ mod tests {
             name: "store".parse().unwrap(),
         };
         let around =
-            Surroundings { now: Utc::now(), bind: std::net::Ipv4Addr::LOCALHOST.into(), management_port: 7943 };
+            Surroundings { now: clock::now(), bind: std::net::Ipv4Addr::LOCALHOST.into(), management_port: 7943 };
         NewController::new(identity, String::new()).make(&around).unwrap()
     }
 

@@ -1,13 +1,30 @@
 use std::fs::{self, File};
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Component, Path};
 use std::time::{Duration, SystemTime};
 
 use super::WorkspaceError;
+use crate::model::file_names::is_reserved;
 use crate::platform::{private, replace};
 
+/// Refuses a path with a part that Windows could not have; on every system, so that a workspace can be moved.
+fn check_names(path: &Path) -> Result<(), WorkspaceError> {
+    let names = path.components().filter_map(|part| match part {
+        Component::Normal(name) => Some(name.to_string_lossy()),
+        _ => None,
+    });
+    match names.into_iter().find(|name| is_reserved(name)) {
+        Some(name) => Err(WorkspaceError::ReservedName { path: path.to_owned(), name: name.into_owned() }),
+        None => Ok(()),
+    }
+}
+
 /// Makes a folder and its parents, open to their owner only.
+///
+/// # Errors
+/// [`WorkspaceError::ReservedName`] if a part of the path is one that Windows keeps for itself.
 pub(super) fn create_folder(path: &Path) -> Result<(), WorkspaceError> {
+    check_names(path)?;
     private::create_folder(path).map_err(|e| WorkspaceError::writing(path, e))
 }
 
@@ -45,6 +62,7 @@ pub(super) struct Staged<'a> {
 
 impl<'a> Staged<'a> {
     pub(super) fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, WorkspaceError> {
+        check_names(path)?;
         // A bare name is in the current folder.
         let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
         create_folder(folder)?;
@@ -120,6 +138,17 @@ const MAX_ENTRIES: usize = 20_000;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_that_windows_keeps_for_itself_is_refused_everywhere() {
+        let folder = tempfile::tempdir().unwrap();
+        for reserved in ["CON", "nul.txt", "COM1/a.der", "a/LPT3.x/b.der", "name.", "x /a.der"] {
+            let refused = write_atomic(&folder.path().join(reserved), b"x");
+            assert!(matches!(refused, Err(WorkspaceError::ReservedName { .. })), "{reserved}");
+        }
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was made");
+        write_atomic(&folder.path().join("CONTROL/name.x"), b"x").unwrap();
+    }
 
     #[test]
     fn a_file_is_replaced_and_private() {

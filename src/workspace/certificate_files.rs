@@ -75,7 +75,7 @@ impl CertificateFiles {
     }
 
     fn folder(&self, serial: &SerialNumber, kind: &str) -> PathBuf {
-        self.root.join(serial.as_str()).join("Cert").join(kind)
+        self.root.join(serial.folder_name()).join("Cert").join(kind)
     }
 
     /// Finds out whether a backup could be written, before anything is changed in the controller. `key_password`: the

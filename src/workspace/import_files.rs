@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::{fs, io};
 
 use super::{CertificateFiles, read_bounded};
+use crate::model::file_names::is_reserved;
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::pki::MAX_CERTIFICATE_FILE_BYTES;
 
@@ -96,11 +97,11 @@ fn single(folder: &Path, extension: &str) -> Result<PathBuf, Problem> {
     }
 }
 
-/// Half-width letters, digits and underscores before the extension.
+/// Half-width letters, digits and underscores before the extension, and no name that Windows keeps for itself.
 fn has_plain_name(path: &Path) -> bool {
-    path.file_stem()
-        .and_then(|stem| stem.to_str())
-        .is_some_and(|stem| !stem.is_empty() && stem.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_'))
+    path.file_stem().and_then(|stem| stem.to_str()).is_some_and(|stem| {
+        !stem.is_empty() && stem.bytes().all(|b| b.is_ascii_alphanumeric() || b == b'_') && !is_reserved(stem)
+    })
 }
 
 #[cfg(test)]
@@ -119,7 +120,7 @@ mod tests {
         fs::create_dir_all(folder.join("folder.der")).unwrap();
         fs::write(folder.join("3_key.pfx"), "x").unwrap();
         assert_eq!(code(), Err(ErrorCode::FileNotFound), "something else");
-        for name in ["robot 7.der", "robot-7.der", "机器人.der", "robot.7.der"] {
+        for name in ["CON.der", "com1.der", "robot 7.der", "robot-7.der", "机器人.der", "robot.7.der"] {
             fs::write(folder.join(name), "x").unwrap();
             assert_eq!(code(), Err(ErrorCode::BadFileName), "{name}");
             fs::remove_file(folder.join(name)).unwrap();

@@ -42,7 +42,6 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use chrono::Utc;
 use thiserror::Error;
 
 pub use atomic::write_atomic;
@@ -66,7 +65,7 @@ pub use running_window::{Shown, StartRequests, show_running_window};
 pub use settings_files::SettingsFiles;
 pub use vault::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS, Vault, VaultError, VaultFiles};
 
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, clock};
 use crate::platform::replace;
 
 const CONFIGURATION: &str = "epson_opcua_config.json";
@@ -91,6 +90,9 @@ pub enum WorkspaceError {
     Held(io::Error),
     #[error("{}: {source}", path.display())]
     Unreadable { path: PathBuf, source: io::Error },
+    /// See [`is_reserved`](crate::model::file_names::is_reserved).
+    #[error("{}: \"{name}\" is a name that Windows keeps for itself", path.display())]
+    ReservedName { path: PathBuf, name: String },
 }
 
 impl WorkspaceError {
@@ -114,6 +116,7 @@ impl From<WorkspaceError> for Problem {
             WorkspaceError::Busy(_) => ErrorCode::WorkspaceBusy,
             WorkspaceError::Held(_) => ErrorCode::FileInUse,
             WorkspaceError::Unreadable { .. } => ErrorCode::FileUnreadable,
+            WorkspaceError::ReservedName { .. } => ErrorCode::BadFileName,
         };
         Self::with_detail(code, error)
     }
@@ -262,7 +265,7 @@ impl Workspace {
     }
 
     fn unused_name(&self) -> PathBuf {
-        let stamp = Utc::now().format("%Y%m%dT%H%M%SZ");
+        let stamp = clock::now().format("%Y%m%dT%H%M%SZ");
         (0u32..)
             .map(|n| {
                 let suffix = if n == 0 { String::new() } else { format!("-{n}") };

@@ -27,7 +27,7 @@ impl SettingsFiles {
     }
 
     pub fn path(&self, serial: &SerialNumber) -> PathBuf {
-        self.root.join(serial.as_str()).join(FILE)
+        self.root.join(serial.folder_name()).join(FILE)
     }
 
     /// The path for a person to read when it is not about one controller.

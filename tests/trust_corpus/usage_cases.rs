@@ -125,6 +125,13 @@ pub(super) fn hosts_and_uris(table: &mut Table) {
     table.one("reached with a dot at the end", 2, None, Differs("OpenSSL compares the dot"), |world| {
         world.host = Some("robot.plant.example.");
     });
+    for host in ["192.168.10.1", "::1"] {
+        table.one(&format!("reached as {host}, a DNS name there"), 2, Some(HostNameInvalid), Agrees, |world| {
+            world.certs[0].set(alternative_names(&[(DNS, host.as_bytes())]));
+            world.host = Some(host);
+            world.role = Role::Server;
+        });
+    }
     table.one("for every host", 2, Some(HostNameInvalid), Differs("there are no wildcards in OPC UA"), |world| {
         world.certs[0].set(alternative_names(&[(DNS, b"*.plant.example")]));
         world.host = Some("robot.plant.example");

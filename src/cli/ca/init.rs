@@ -1,10 +1,9 @@
-use chrono::Utc;
 use clap::Args;
 
 use super::{PassphraseArgs, show};
 use crate::cli::passwords::ca_passphrase;
 use crate::cli::{Ending, Settled};
-use crate::model::{AuthorityRequest, AuthorityValidity, ErrorCode, KeyLength, Problem, Subject};
+use crate::model::{AuthorityRequest, AuthorityValidity, ErrorCode, KeyLength, Problem, Subject, clock};
 use crate::pki::MAX_CRL_DAYS;
 use crate::workspace::authority::{DEFAULT_CRL_DAYS, NewAuthority};
 use crate::workspace::check_passphrase;
@@ -83,7 +82,7 @@ pub fn run(settled: &Settled, args: InitArgs) -> Result<Ending, Problem> {
     files.check_absent()?;
     let passphrase = ca_passphrase(args.passphrase.passphrase_file.as_deref(), true)?;
     check_passphrase(&passphrase)?;
-    let overview = files.create(&new, &passphrase, Utc::now())?.overview()?;
+    let overview = files.create(&new, &passphrase, clock::now())?.overview()?;
     settled.output.finished(&show::json(&overview), &show::text(&overview));
     Ok(Ending::AllDone)
 }

@@ -10,14 +10,14 @@ mod sign_controllers;
 
 use std::path::PathBuf;
 
-use chrono::Utc;
 use clap::{Args, Subcommand};
 use serde_json::json;
 
+use super::output::json_path;
 use super::passwords::ca_passphrase;
 use super::{Ending, Settled};
 use crate::jobs::SharedAuthority;
-use crate::model::Problem;
+use crate::model::{Problem, clock};
 use crate::pki::{REVOCATION_REASONS, RevocationReason};
 use crate::workspace::authority::Authority;
 
@@ -110,8 +110,8 @@ pub fn run(settled: &Settled, command: CaCommand) -> Result<Ending, Problem> {
         CaCommand::Crl(args) => publish::run(settled, &args),
         CaCommand::Show => show::run(settled),
         CaCommand::Backup { out, passphrase } => {
-            passphrase.open(settled)?.back_up(&out, Utc::now())?;
-            settled.output.finished(&json!({ "backup": out }), &out.display().to_string());
+            passphrase.open(settled)?.back_up(&out, clock::now())?;
+            settled.output.finished(&json!({ "backup": json_path(&out) }), &out.display().to_string());
             Ok(Ending::AllDone)
         }
         CaCommand::Restore { file, passphrase } => {
@@ -127,7 +127,7 @@ pub fn run(settled: &Settled, command: CaCommand) -> Result<Ending, Problem> {
 
 fn revoke(settled: &Settled, args: &RevokeArgs) -> Result<Ending, Problem> {
     let mut authority = args.passphrase.open(settled)?;
-    authority.revoke(&args.serials, args.reason, Utc::now())?;
+    authority.revoke(&args.serials, args.reason, clock::now())?;
     let overview = authority.overview()?;
     let crl = show::crl(&overview.folder, "ca", &overview.signing);
     settled.output.finished(

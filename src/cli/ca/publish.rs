@@ -1,16 +1,16 @@
 use std::io::IsTerminal as _;
 use std::path::{Path, PathBuf};
 
-use chrono::Utc;
 use clap::Args;
 use serde_json::json;
 
 use super::{PassphraseArgs, show};
 use crate::cli::clients::CHANGE;
+use crate::cli::output::json_paths;
 use crate::cli::select::Select;
 use crate::cli::{Ending, Settled};
 use crate::jobs::PushAuthority;
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, clock};
 use crate::pki::{Crl, MAX_CRL_DAYS};
 use crate::workspace::write_atomic;
 
@@ -51,7 +51,7 @@ pub fn run(settled: &Settled, args: &CrlArgs) -> Result<Ending, Problem> {
         return Err(ErrorCode::NotConfirmed.into());
     }
     let mut authority = args.passphrase.open(settled)?;
-    authority.publish_crl(args.days, Utc::now())?;
+    authority.publish_crl(args.days, clock::now())?;
     let overview = authority.overview()?;
     drop(authority);
     let mut saved = Vec::new();
@@ -68,7 +68,7 @@ pub fn run(settled: &Settled, args: &CrlArgs) -> Result<Ending, Problem> {
     let published = json!({
         "crl": show::crl(&overview.folder, "ca", &overview.signing),
         "root_crl": overview.root.as_ref().map(|root| show::crl(&overview.folder, "root", root)),
-        "saved": saved,
+        "saved": json_paths(&saved),
     });
     settled.output.finished(&published, &show::text(&overview));
     if chosen.is_empty() {

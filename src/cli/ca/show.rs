@@ -3,9 +3,10 @@ use std::path::Path;
 use chrono::{DateTime, Utc};
 use serde_json::{Value, json};
 
+use crate::cli::output::json_path;
 use crate::cli::table::table;
 use crate::cli::{Ending, Settled};
-use crate::model::Problem;
+use crate::model::{Problem, clock};
 use crate::workspace::authority::{AuthorityOverview, IssuedCertificate, PublishedAuthority};
 
 pub fn run(settled: &Settled) -> Result<Ending, Problem> {
@@ -15,17 +16,17 @@ pub fn run(settled: &Settled) -> Result<Ending, Problem> {
 }
 
 pub fn json(overview: &AuthorityOverview) -> Value {
-    let now = Utc::now();
+    let now = clock::now();
     let authority = |name: &str, ca: &PublishedAuthority| {
         json!({
             "certificate": ca.summary,
-            "file": overview.folder.join(format!("{name}.der")),
+            "file": json_path(&overview.folder.join(format!("{name}.der"))),
             "valid": (ca.certificate.not_before()..=ca.certificate.not_after()).contains(&now),
             "crl": crl(&overview.folder, name, ca),
         })
     };
     json!({
-        "folder": overview.folder,
+        "folder": json_path(&overview.folder),
         "ca": authority("ca", &overview.signing),
         "root": overview.root.as_ref().map(|root| authority("root", root)),
         "issued": overview.issued.iter().map(|issued| entry(issued, now)).collect::<Vec<_>>(),
@@ -35,8 +36,8 @@ pub fn json(overview: &AuthorityOverview) -> Value {
 /// The CRL of a CA, as JSON.
 pub fn crl(folder: &Path, name: &str, ca: &PublishedAuthority) -> Value {
     let mut json = json!(ca.crl.summary());
-    json["file"] = json!(folder.join(format!("{name}.crl")));
-    json["expired"] = json!(ca.crl.next_update().is_none_or(|next| next < Utc::now()));
+    json["file"] = json_path(&folder.join(format!("{name}.crl")));
+    json["expired"] = json!(ca.crl.next_update().is_none_or(|next| next < clock::now()));
     json
 }
 
@@ -47,7 +48,7 @@ fn entry(issued: &IssuedCertificate, now: DateTime<Utc>) -> Value {
 }
 
 pub fn text(overview: &AuthorityOverview) -> String {
-    let now = Utc::now();
+    let now = clock::now();
     let date = |at: DateTime<Utc>| at.format("%Y-%m-%d").to_string();
     let authorities: Vec<Vec<String>> = std::iter::once(&overview.signing)
         .chain(&overview.root)

@@ -2,14 +2,14 @@ use std::collections::BTreeSet;
 use std::net::IpAddr;
 use std::path::{Path, PathBuf};
 
-use chrono::Utc;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
 use super::PassphraseArgs;
 use crate::cli::cert::Format;
+use crate::cli::output::json_path;
 use crate::cli::{Ending, Settled};
-use crate::model::{CertificateProfile, ErrorCode, FileFormat, Problem, Validity};
+use crate::model::{CertificateProfile, ErrorCode, FileFormat, Problem, Validity, clock};
 use crate::pki::{Csr, IssueRequest, MAX_CERTIFICATE_FILE_BYTES, ServerNames};
 use crate::workspace::authority::Authority;
 use crate::workspace::{read_import_file, write_atomic};
@@ -104,7 +104,7 @@ fn sign(
     request: &IssueRequest,
 ) -> Result<(Value, String), Problem> {
     let csr = Csr::from_any(&read_import_file(file, MAX_CERTIFICATE_FILE_BYTES)?)?;
-    let (certificate, kept) = authority.sign(&csr, request, args.renew, Utc::now())?;
+    let (certificate, kept) = authority.sign(&csr, request, args.renew, clock::now())?;
     let path = match args.target(file) {
         None => kept,
         Some(target) => {
@@ -123,5 +123,5 @@ fn sign(
         summary.not_after.format("%Y-%m-%d"),
         path.display()
     );
-    Ok((json!({ "certificate": summary, "saved": path }), text))
+    Ok((json!({ "certificate": summary, "saved": json_path(&path) }), text))
 }

@@ -1,3 +1,5 @@
+use std::time::Duration;
+
 use async_trait::async_trait;
 use chrono::{DateTime, Utc};
 
@@ -43,15 +45,22 @@ impl Operation for ListTrust {
 
 /// How often somebody else may change the configuration while it is read.
 const ATTEMPTS: u32 = 4;
+/// For everything, however often it is read. Fifty CRLs of megabytes over a slow line take less.
+const MAX_TIME: Duration = Duration::from_secs(120);
+/// Of all CRLs together, in bytes of DER. The bundled virtual controller keeps 4 MiB.
+const MAX_CRLS_BYTES: usize = 64 * 1024 * 1024;
 
 impl TrustSnapshot {
     pub(in crate::jobs) async fn read(session: &mut dyn ControllerSession) -> Result<Self, Problem> {
-        for _ in 0..ATTEMPTS {
-            if let Some(whole) = Self::read_once(session).await? {
-                return Ok(whole);
+        let reading = async {
+            for _ in 0..ATTEMPTS {
+                if let Some(whole) = Self::read_once(session).await? {
+                    return Ok(whole);
+                }
             }
-        }
-        Err(ErrorCode::ChangedMeanwhile.into())
+            Err(ErrorCode::ChangedMeanwhile.into())
+        };
+        tokio::time::timeout(MAX_TIME, reading).await.unwrap_or_else(|_| Err(ErrorCode::Timeout.into()))
     }
 
     /// `None` if the configuration changed between two of the requests.
@@ -69,11 +78,18 @@ impl TrustSnapshot {
             }
         };
         let mut crls = session.crls().await?;
+        let mut bytes: usize = crls.value.iter().filter_map(|listed| Some(listed.crl.as_ref()?.0.len())).sum();
         for listed in crls.value.iter_mut().filter(|listed| listed.crl.is_none()) {
             match session.crl(&listed.summary.id).await {
-                Ok(der) => listed.crl = Some(der),
+                Ok(der) => {
+                    bytes += der.0.len();
+                    listed.crl = Some(der);
+                }
                 Err(problem) if problem.code == ErrorCode::NotInList => return Ok(None),
                 Err(problem) => return Err(problem),
+            }
+            if bytes > MAX_CRLS_BYTES {
+                return Err(Problem::with_detail(ErrorCode::NotAController, "its CRLs are too large"));
             }
         }
         // Last: it is the one that changes by itself.

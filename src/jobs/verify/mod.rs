@@ -18,7 +18,6 @@ use std::collections::HashSet;
 use std::time::Duration;
 
 use async_trait::async_trait;
-use chrono::Utc;
 
 pub use report::{
     CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding,
@@ -28,7 +27,7 @@ pub use report::{
 pub use trust::TrustConfigurator;
 
 use super::{Confirmation, Operation, Outcome, Run, Step};
-use crate::model::{ControllerInfo, Credential, Problem, ServerSettings, ServerStatus, UserTokenPolicy};
+use crate::model::{ControllerInfo, Credential, Problem, ServerSettings, ServerStatus, UserTokenPolicy, clock};
 use crate::pki::Certificate;
 use crate::session::opcua_client::{Endpoint, OpcUaClient, Patience, Target, is_reachable};
 use crate::workspace::OwnIdentityFiles;
@@ -97,7 +96,7 @@ impl Verify {
         target: &Target,
     ) -> Result<(), Problem> {
         let Known { info, settings, selected, users } = known;
-        report.findings.extend(clock(info.clock, Utc::now()));
+        report.findings.extend(clock(info.clock, clock::now()));
         if *users == 0 && !settings.user_tokens.contains(&UserTokenPolicy::Anonymous) {
             report.findings.push(VerifyFinding::NoUsers);
         }
@@ -157,7 +156,7 @@ impl Verify {
                     application_uri: &application_uri,
                     host: &host,
                     policies: &policies,
-                    now: Utc::now(),
+                    now: clock::now(),
                     controllers_clock: clock,
                 };
                 judge(&leaf, &chain, &wanted)

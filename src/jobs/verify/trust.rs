@@ -1,8 +1,7 @@
 use async_trait::async_trait;
-use chrono::Utc;
 
 use crate::jobs::{Confirmation, Operation, Outcome, Run, Step, TrustSnapshot};
-use crate::model::{ClientList, ErrorCode, Problem};
+use crate::model::{ClientList, ErrorCode, Problem, clock};
 use crate::protocol::{Base64Bytes, EditTrust, TrustStep};
 use crate::workspace::{OwnIdentity, OwnIdentityFiles};
 
@@ -30,7 +29,7 @@ impl Operation for TrustConfigurator {
 /// The program's own certificate; made if there is none yet.
 pub(super) async fn own(files: &OwnIdentityFiles, run: &Run<'_>) -> Result<OwnIdentity, Problem> {
     let files = files.clone();
-    run.on_a_core(move || files.load_or_make(Utc::now())).await?
+    run.on_a_core(move || files.load_or_make(clock::now())).await?
 }
 
 /// Does nothing if it is trusted already.

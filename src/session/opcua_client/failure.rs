@@ -3,6 +3,7 @@ use std::fmt;
 use opcua::types::{Error, StatusCode};
 
 use super::watched_stream::Heard;
+use crate::model::foreign_text::one_line;
 
 /// How far a try came: what was being done when it failed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -85,9 +86,9 @@ pub(super) fn status(code: StatusCode, reason: &str) -> Cause {
     Cause::Status { code: code.bits(), name: code.sub_code().to_string(), reason: printable(reason) }
 }
 
-/// What a stranger wrote, fit to be shown: one line, and not a long one.
+/// What a server wrote, as one line of at most 300 characters.
 pub fn printable(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(MAX_CHARS).collect::<String>().trim().to_owned()
+    one_line(text.trim(), MAX_CHARS)
 }
 
 const MAX_CHARS: usize = 300;
@@ -115,7 +116,7 @@ mod tests {
         let heard = Heard { last_word: Some((0x8013_0000, "\u{1b}[2Jno\r\n".into())), ..Heard::default() };
         let failure = Failure::from_library(Stage::Channel, &error, &heard);
         assert_eq!(failure.status(), Some("BadSecurityChecksFailed"));
-        assert_eq!(failure.cause.to_string(), "BadSecurityChecksFailed: [2Jno");
+        assert_eq!(failure.cause.to_string(), "BadSecurityChecksFailed: �[2Jno");
         assert_eq!(Failure::from_library(Stage::Channel, &error, &Heard::default()).cause, Cause::Closed);
         let heard = Heard { fault: Some("a web server".into()), ..heard };
         assert_eq!(Failure::from_library(Stage::Channel, &error, &heard).cause, Cause::NotOpcUa("a web server".into()));

@@ -1,9 +1,8 @@
 use std::path::PathBuf;
 
-use chrono::Utc;
 use secrecy::SecretString;
 
-use crate::model::Problem;
+use crate::model::{Problem, clock};
 use crate::pki::{Csr, IssueRequest, RevocationReason};
 use crate::workspace::authority::{AuthorityError, AuthorityFiles, AuthorityOverview, NewAuthority};
 
@@ -55,7 +54,7 @@ pub struct AuthorityDone {
 impl AuthorityWork {
     /// Blocks for as long as it takes.
     pub(super) fn run(self, files: &AuthorityFiles) -> Result<AuthorityDone, Problem> {
-        let now = Utc::now();
+        let now = clock::now();
         let mut saved = None;
         match self {
             Self::Look => {}

@@ -69,6 +69,14 @@ pub enum Command {
         kind: FileKind,
         title: String,
     },
+    /// Lets a person choose where a file is saved; ends with [`Event::FilePicked`].
+    PickTarget {
+        job: JobId,
+        kind: FileKind,
+        title: String,
+        /// The path to begin with.
+        begin: PathBuf,
+    },
     /// Ends with [`Event::FileRead`]. A file of more than `most` bytes is refused.
     ReadFile {
         job: JobId,

@@ -269,6 +269,10 @@ impl Backend for TokioBackend {
             Command::PickFile { job, kind, title } => {
                 self.picker.pick(kind, title, Box::new(move |result| emit(Event::FilePicked { job, result })));
             }
+            Command::PickTarget { job, kind, title, begin } => {
+                let done = Box::new(move |result| emit(Event::FilePicked { job, result }));
+                self.picker.pick_target(kind, title, begin, done);
+            }
             Command::ReadFile { job, path, most } => {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {

@@ -87,6 +87,7 @@ fn one(ui: &Ui, dialog: &mut Dialog, on_top: bool, focus: bool, model: &Model, m
         Dialog::Restore(form) => restore::show(ui, form, focus, model, messages),
         Dialog::ImportReview(review) => import_review::show(ui, review, model),
         Dialog::ServerLog(log) => server_log::show(ui, log, model, messages),
+        Dialog::SaveLog(form) => server_log::save(ui, form, model, messages),
         Dialog::Verify(view) => verify::show(ui, view, model, messages),
         Dialog::Transfer(form) => transfer::show(ui, form, focus, model, messages),
         Dialog::Trust(form) => trust::show(ui, form, on_top, model, messages),

@@ -1,9 +1,9 @@
 use egui::{Button, Frame, Label, RichText, ScrollArea, Stroke, TextEdit, TextStyle, TextWrapMode, Ui, vec2};
 
-use crate::ui::model::{LogView, Message, Model};
+use crate::ui::model::{LogView, Message, Model, PathField, SaveLogForm};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, fine_print};
+use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, path_field};
 
 /// The end of the server log of one controller. Only the lines in sight are laid out.
 pub fn show(ui: &Ui, log: &mut LogView, model: &Model, messages: &mut Vec<Message>) -> Answer {
@@ -22,6 +22,21 @@ pub fn show(ui: &Ui, log: &mut LogView, model: &Model, messages: &mut Vec<Messag
         let found = (log.shown() < log.lines()).then(|| log.shown());
         let said = texts::log_size(model.language, size, here, log.lines(), found);
         fine_print(ui, if log.reading { text(T::Reading) } else { &said });
+    })
+}
+
+/// Where the log is to be saved.
+pub fn save(ui: &Ui, save: &mut SaveLogForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    let text = |key: T| key.text(model.language);
+    let buttons = Buttons { submit: Some((text(T::Save), save.incomplete().map(text))), close: Some(text(T::Cancel)) };
+    let title = texts::title_for(model.language, T::SaveLogTitle, std::slice::from_ref(&save.name));
+    dialog(ui, "save log", &title, theme::DIALOG, buttons, |ui| {
+        ui.add(Label::new(text(T::SaveLogText)).wrap());
+        ui.add_space(theme::SPACE);
+        form(ui, "save log", |ui| {
+            let (label, hint) = (text(T::FileLabel), text(T::FileHint));
+            path_field(ui, label, &mut save.path, hint, PathField::LogTarget, model.language, messages);
+        });
     })
 }
 
@@ -47,6 +62,9 @@ fn tools(ui: &mut Ui, log: &mut LogView, model: &Model, messages: &mut Vec<Messa
         }
         if clicked(ui, T::Copy, nothing_shown(log)) {
             ui.copy_text(log.copied());
+        }
+        if clicked(ui, T::SaveLog, reading.or(empty)) {
+            messages.push(Message::SaveLog);
         }
         if clicked(ui, T::DeleteLogButton, reading.or(empty)) {
             messages.push(Message::DeleteLog);

@@ -3,8 +3,8 @@ use std::collections::BTreeSet;
 use super::trust::{AddTrustForm, DeleteTrust, DetailsView, MoveTrust, TrustForm};
 use super::{
     ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, DropForm,
-    ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose, RestoreForm, RowId, Task, TransferForm,
-    TypeSelectForm, UserSpecifiedForm, VaultForm, VerifyView,
+    ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose, RestoreForm, RowId, SaveLogForm, Task,
+    TransferForm, TypeSelectForm, UserSpecifiedForm, VaultForm, VerifyView,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -35,6 +35,7 @@ pub enum Dialog {
     ImportReview(ImportReview),
     Transfer(TransferForm),
     ServerLog(LogView),
+    SaveLog(SaveLogForm),
     Trust(Box<TrustForm>),
     AddTrust(AddTrustForm),
     DeleteTrust(DeleteTrust),

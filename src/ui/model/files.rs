@@ -16,6 +16,8 @@ pub enum PathField {
     UserCertificate,
     UserKey,
     KeyBackup,
+    /// Where the server log is saved.
+    LogTarget,
 }
 
 impl PathField {
@@ -24,6 +26,7 @@ impl PathField {
             Self::CaCertificate | Self::UserCertificate => FileKind::Certificate,
             Self::UserPfx | Self::KeyBackup => FileKind::Pkcs12,
             Self::UserKey => FileKind::Key,
+            Self::LogTarget => FileKind::Text,
         }
     }
 
@@ -34,6 +37,7 @@ impl PathField {
             (Self::UserCertificate, Dialog::UserSpecified(form)) => Some(&mut form.certificate),
             (Self::UserKey, Dialog::UserSpecified(form)) => Some(&mut form.key),
             (Self::KeyBackup, Dialog::Restore(form)) => Some(&mut form.file),
+            (Self::LogTarget, Dialog::SaveLog(form)) => Some(&mut form.path),
             _ => None,
         }
     }
@@ -107,8 +111,14 @@ impl Model {
         }
         let job = self.next_job();
         self.browsing = Some((job, field));
+        let kind = field.kind();
+        if let (PathField::LogTarget, Some(Dialog::SaveLog(form))) = (field, self.dialogs.last()) {
+            let title = TextKey::SaveLogTitle.text(self.language).to_owned();
+            let begin = form.target(self.workspace.root());
+            return vec![Command::PickTarget { job, kind, title, begin }];
+        }
         let title = TextKey::ChooseFileTitle.text(self.language).to_owned();
-        vec![Command::PickFile { job, kind: field.kind(), title }]
+        vec![Command::PickFile { job, kind, title }]
     }
 
     pub(super) fn file_picked(&mut self, job: JobId, result: Result<Option<PathBuf>, Problem>) -> Vec<Command> {

@@ -57,6 +57,9 @@ pub enum Task {
     },
     ReadLog,
     DeleteLog,
+    SaveLog {
+        path: PathBuf,
+    },
     Verify {
         login: Option<Credential>,
     },
@@ -150,6 +153,7 @@ impl Task {
             Self::SignCsrs(wish) => Arc::new(wish.operation(workspace)),
             Self::PushAuthority(operation) => Arc::new(operation.clone()),
             Self::ReadLog => Arc::new(jobs::ReadLog { part: jobs::LogPart::End }),
+            Self::SaveLog { path } => Arc::new(jobs::SaveLog { path: path.clone() }),
             Self::DeleteLog => Arc::new(jobs::SetSettings {
                 change: jobs::SettingsChange { delete_log: true, ..Default::default() },
                 ..Default::default()
@@ -180,6 +184,7 @@ impl Task {
             Self::PushAuthority(_) => TextKey::CaCrlTitle,
             Self::ReadLog => TextKey::ServerLog,
             Self::DeleteLog => TextKey::DeleteLog,
+            Self::SaveLog { .. } => TextKey::SaveLogTitle,
             Self::Trust(task) => task.title(),
         }
     }

@@ -46,7 +46,7 @@ pub use import::{
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, SigningWish, Task};
 pub use reduce::reduce;
 pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
-pub use server_log::LogView;
+pub use server_log::{LogView, SaveLogForm};
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
 pub use vault::{VaultAction, VaultForm, VaultRequest};
 pub use verify::VerifyView;
@@ -159,6 +159,8 @@ pub enum Message {
     TrustConfigurator,
     /// Delete the server log that is shown.
     DeleteLog,
+    /// Ask where the server log that is shown is to be saved.
+    SaveLog,
     /// About client certificates and CRLs.
     Trust(TrustAction),
     /// Open the dialog for something the small CA is to do.

@@ -50,6 +50,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::NewCsr => commands = model.new_csr(),
         Message::RefreshLog => commands = model.refresh_log(),
         Message::DeleteLog => commands = model.delete_log(),
+        Message::SaveLog => model.ask_where_to_save_log(),
         Message::VerifyChanged => commands = model.verify_changed(),
         Message::TrustConfigurator => commands = model.trust_configurator(),
         Message::Trust(action) => commands = model.trust_action(action),

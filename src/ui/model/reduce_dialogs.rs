@@ -155,6 +155,7 @@ impl Model {
                 let planned = form.task().map(|task| (task, form.rows.clone()));
                 self.ask(Dialog::Transfer(form), planned)
             }
+            Dialog::SaveLog(form) => self.save_log(form),
             Dialog::Trust(form) => {
                 self.dialogs.push(Dialog::Trust(form));
                 self.trust_action(TrustAction::Details);

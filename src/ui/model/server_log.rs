@@ -1,10 +1,13 @@
 //! The server log of one controller (manual 6.3).
 
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 
 use super::{Dialog, Model, Purpose, RowId, Task};
+use crate::model::foreign_text;
 use crate::protocol::LogChunk;
 use crate::ui::backend::Command;
+use crate::ui::texts::TextKey;
 
 /// The end of the log, as it was read last.
 #[derive(Debug)]
@@ -37,7 +40,8 @@ impl LogView {
         }
     }
 
-    pub fn fill(&mut self, log: LogChunk) {
+    pub fn fill(&mut self, mut log: LogChunk) {
+        log.text = foreign_text::lines(&log.text);
         let mut start = 0;
         let line = |line: &str| {
             let begin = start;
@@ -96,7 +100,53 @@ impl LogView {
     }
 }
 
+/// Where the server log of one controller is to be saved.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SaveLogForm {
+    pub row: RowId,
+    pub name: String,
+    /// As it is typed.
+    pub path: String,
+}
+
+impl SaveLogForm {
+    /// Why it cannot be saved yet.
+    pub fn incomplete(&self) -> Option<TextKey> {
+        self.typed().is_empty().then_some(TextKey::FileRule)
+    }
+
+    /// The file. A relative path starts at the workspace.
+    pub(super) fn target(&self, root: &Path) -> PathBuf {
+        root.join(self.typed())
+    }
+
+    /// File managers put quotes around a path they copy.
+    fn typed(&self) -> &str {
+        self.path.trim().trim_matches('"')
+    }
+}
+
 impl Model {
+    /// Proposes a file in the controller's folder of the workspace.
+    pub(super) fn ask_where_to_save_log(&mut self) {
+        let Some(Dialog::ServerLog(log)) = self.dialogs.last() else { return };
+        let (row, name) = (log.row, log.name.clone());
+        let serial = self.rows.get(row).and_then(|row| row.info()).map(|info| info.serial.folder_name());
+        let folder = self.workspace.root().join(serial.unwrap_or_default());
+        let file = format!("server-log-{}.txt", self.now.format("%Y%m%dT%H%M%SZ"));
+        let path = folder.join(file).display().to_string();
+        self.dialogs.push(Dialog::SaveLog(SaveLogForm { row, name, path }));
+    }
+
+    pub(super) fn save_log(&mut self, form: SaveLogForm) -> Vec<Command> {
+        if form.incomplete().is_some() {
+            self.dialogs.push(Dialog::SaveLog(form));
+            return vec![];
+        }
+        let path = form.target(self.workspace.root());
+        self.start(Task::SaveLog { path }, vec![form.row], Purpose::Show, None)
+    }
+
     pub(super) fn open_log(&mut self, row: RowId) -> Vec<Command> {
         let name = self.rows.names(&[row]).pop().unwrap_or_default();
         self.dialogs.push(Dialog::ServerLog(LogView::new(row, name)));

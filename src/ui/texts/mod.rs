@@ -288,7 +288,7 @@ texts! {
     NoUsersWarning: "The controller has no users yet, so nobody can log in", "控制器尚无用户，将无法登录";
     ServerLog: "Server log", "服务器日志";
     LogPassword: "Password for the log", "日志密码";
-    LogPasswordTip: "The manual gives the password for this", "打开日志所需的密码见手册";
+    LogPasswordTip: "199532 switches it on (manual 2.6.1)", "输入 199532 打开日志（手册 2.6.1）";
     LogWarning: "The server stops by itself when the log reaches its size limit", "日志达到上限时服务器会自行停止";
     DeleteLog: "Delete log", "删除日志";
 
@@ -462,11 +462,15 @@ texts! {
 
     // server log
     ServerLogCommand: "Server log…", "服务器日志…";
-    ServerLogTip: "Read the log of the OPC UA server, and delete it", "查看和删除 OPC UA 服务器日志";
+    ServerLogTip: "Read the log of the OPC UA server, save it or delete it", "查看、保存和删除 OPC UA 服务器日志";
     WhyOne: "Tick one controller only", "请只勾选一台控制器";
     LogFilter: "Filter lines", "筛选行";
     LogEmpty: "The log is empty. It is switched on in the basic settings.", "日志为空。可在[基本设置]中打开日志。";
     LogNothingFound: "No line matches the filter", "没有匹配的行";
+    Save: "Save", "保存";
+    SaveLog: "Save…", "保存…";
+    SaveLogTitle: "Save the server log", "保存服务器日志";
+    SaveLogText: "The whole log is read from the controller and saved as text. A file of the same name is replaced.", "从控制器读取完整日志并保存为文本文件。同名文件将被替换。";
     Refresh: "Refresh", "刷新";
     DeleteLogButton: "Delete…", "删除…";
 

@@ -1,10 +1,10 @@
 //! Texts with something filled in.
 
-use chrono::{DateTime, FixedOffset, Local, Utc};
+use chrono::{DateTime, Datelike as _, FixedOffset, Local, Offset as _, Utc};
 
 use super::TextKey as T;
 use crate::jobs::{Confirmation, ServerEffect, Step, Summary};
-use crate::model::{CertificateSummary, CertificateType, FirmwareVersion, Language, ServerStatus};
+use crate::model::{CertificateSummary, CertificateType, ErrorCode, FirmwareVersion, Language, ServerStatus};
 use crate::workspace::ThemeChoice;
 
 /// Where times are shown as of.
@@ -26,7 +26,9 @@ impl Zone {
     }
 
     fn format(self, at: DateTime<Utc>, pattern: &str) -> String {
-        match self {
+        // At the ends of what can be written, another zone has no such time.
+        let zone = if (0..=9999).contains(&at.year()) { self } else { Self::Fixed(Utc.fix()) };
+        match zone {
             Self::Local => at.with_timezone(&Local).format(pattern).to_string(),
             Self::Fixed(offset) => at.with_timezone(&offset).format(pattern).to_string(),
         }
@@ -188,6 +190,17 @@ fn byte_count(bytes: u64) -> String {
         KIB..0x10_0000 => format!("{:.1} KiB", bytes as f64 / KIB as f64),
         _ => format!("{:.1} MiB", bytes as f64 / (KIB * KIB) as f64),
     }
+}
+
+/// `Error (7931)`: as the command line writes it.
+pub fn status_with_error(status: &str, error: ErrorCode) -> String {
+    format!("{status} ({})", error.as_str())
+}
+
+/// Number, message, cause and remedy, a line each.
+pub fn error_in_full(language: Language, error: ErrorCode) -> String {
+    let explained = error.explain(language);
+    format!("{}: {}\n{}\n{}", error.as_str(), explained.message, explained.cause, explained.remedy)
 }
 
 pub fn version(language: Language, version: &str) -> String {

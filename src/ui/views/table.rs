@@ -189,9 +189,13 @@ fn status(ui: &mut Ui, entry: &Row, model: &Model, palette: &Palette) {
                     ServerStatus::Stop => palette.off,
                     ServerStatus::Error => palette.error,
                 };
-                let response = chip(ui, text(texts::status(info.status)), color);
-                if let Some(error) = info.error {
-                    response.on_hover_text(error.explain(language).message);
+                let word = text(texts::status(info.status));
+                match info.error {
+                    None => drop(chip(ui, word, color)),
+                    Some(error) => {
+                        let response = chip(ui, &texts::status_with_error(word, error), color);
+                        response.on_hover_text(texts::error_in_full(language, error));
+                    }
                 }
             }
         },

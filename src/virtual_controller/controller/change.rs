@@ -10,6 +10,7 @@ use crate::protocol::{Changed, CutClient};
 use crate::virtual_controller::faults::DropPoint;
 use crate::virtual_controller::memory;
 use crate::virtual_controller::opcua::{Clock, Events, OpcUaConfig, OpcUaServer, StartError};
+use crate::virtual_controller::server_log::ServerLog;
 use crate::virtual_controller::state::{State, Surroundings};
 use crate::virtual_controller::store::StoreError;
 
@@ -99,13 +100,43 @@ impl Controller {
         )
     }
 
-    /// Deletes the server log.
-    pub(in super::super) async fn delete_log(&self) {
+    /// As [`Controller::change`], with a new server log: the old one is deleted, or kept if the change fails.
+    pub(in super::super) async fn change_with_new_log<T: Send + 'static>(
+        self: &Arc<Self>,
+        revision: u64,
+        effect: Effect,
+        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<(Changed, T), Outcome> {
+        let this = Arc::clone(self);
+        let change = async move {
+            let mut plant = this.server.lock().await;
+            // Before the change: a full log keeps the server from starting.
+            this.with_log(ServerLog::put_aside).await?;
+            match this.apply(&mut plant, revision, effect, edit).await {
+                Ok(Applied { changed, value, .. }) => {
+                    drop(plant);
+                    if let Err(problem) = this.with_log(ServerLog::delete_aside).await {
+                        tracing::warn!(%problem, "the old server log was not deleted");
+                    }
+                    this.answer()?;
+                    // The status may be better without the full log.
+                    Ok((Changed { status: this.changed().status, ..changed }, value))
+                }
+                Err(outcome) => {
+                    if let Err(problem) = this.with_log(ServerLog::put_back).await {
+                        tracing::warn!(%problem, "the server log was not put back");
+                    }
+                    Err(outcome)
+                }
+            }
+        };
+        finished(tokio::spawn(change).await)
+    }
+
+    async fn with_log(&self, work: fn(&ServerLog) -> std::io::Result<()>) -> Result<(), Problem> {
         let log = Arc::clone(&self.log);
-        let deleted = spawn_blocking(move || log.delete()).await;
-        if let Err(error) = deleted.map_err(std::io::Error::other).flatten() {
-            tracing::warn!(%error, "the server log was not deleted");
-        }
+        let done = spawn_blocking(move || work(&log)).await.map_err(std::io::Error::other).flatten();
+        done.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))
     }
 
     async fn change_now<T: Send + 'static>(
@@ -202,7 +233,7 @@ impl Controller {
                 Ok(())
             }
             Err(problem) => {
-                *self.standing.lock() = Standing::Failed(problem.code);
+                self.failed(problem.code);
                 Err(problem)
             }
         }
@@ -250,7 +281,7 @@ impl Controller {
                 }
                 Err(problem) if attempt == RESTORE_ATTEMPTS => {
                     tracing::error!(serial = %old.identity.serial, %problem, "the OPC UA server could not be put back");
-                    *self.standing.lock() = Standing::Failed(problem.code);
+                    self.failed(problem.code);
                 }
                 Err(_) => tokio::time::sleep(RESTORE_PAUSE).await,
             }

@@ -76,7 +76,7 @@ pub enum SwitchOnError {
     Initial(Problem),
     #[error("the management identity cannot be used: {0}")]
     Tls(#[from] rustls::Error),
-    #[error("cannot listen on {address}: {source}")]
+    #[error("the management protocol cannot listen on {address}: {source}")]
     Listen { address: SocketAddr, source: std::io::Error },
     #[error("a worker thread died")]
     Worker,
@@ -230,8 +230,12 @@ pub(super) struct Controller {
 enum Standing {
     Stopped,
     Running,
-    /// Why the server is not running although it should be, until the next start or stop that succeeds.
-    Failed(ErrorCode),
+    /// Why the server is not running although it should be, found at this revision of the configuration. Shown as long as
+    /// [`Controller::lasts`] says so.
+    Failed {
+        code: ErrorCode,
+        revision: u64,
+    },
 }
 
 impl Controller {
@@ -247,12 +251,16 @@ impl Controller {
         Surroundings { now: self.faults.now(), bind: self.bind, management_port: self.management_port }
     }
 
+    fn failed(&self, code: ErrorCode) {
+        *self.standing.lock() = Standing::Failed { code, revision: self.state().revision };
+    }
+
     /// What a server does by itself whose log is full.
     async fn stop_if_log_is_full(&self) {
         let mut plant = self.server.lock().await;
         if plant.is_running() && self.state().settings.server_log && self.log.is_full() {
             plant.stop().await;
-            *self.standing.lock() = Standing::Failed(ErrorCode::ServerLogFull);
+            self.failed(ErrorCode::ServerLogFull);
         }
     }
 }

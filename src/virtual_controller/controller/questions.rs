@@ -11,6 +11,7 @@ use crate::protocol::{
     Base64Bytes, Changed, HeldCertificate, HeldCertificates, ListedCertificate, ListedCrl, LogChunk, RejectedClient,
     Revisioned, SettingsExport, TrustStamp, WireSecret,
 };
+use crate::virtual_controller::ports::is_free;
 use crate::virtual_controller::settings_transfer;
 use crate::virtual_controller::state::Listed;
 
@@ -113,11 +114,38 @@ impl Controller {
         let notice = self.state().settings.server_log.then_some(ErrorCode::ServerLogOn);
         match standing {
             Standing::Stopped => (ServerStatus::Stop, notice),
-            Standing::Failed(code) => (ServerStatus::Error, Some(code)),
+            Standing::Failed { code, revision } => match self.lasts(code, revision) {
+                Some(code) => (ServerStatus::Error, Some(code)),
+                None => (ServerStatus::Stop, notice),
+            },
             Standing::Running => match self.server.try_lock() {
                 Ok(plant) if !plant.is_running() => (ServerStatus::Error, Some(ErrorCode::ServerError)),
                 _ => (ServerStatus::Run, notice),
             },
+        }
+    }
+
+    /// The reason for which a server that failed to start could not start now either: 7930 to 7933 and 582 end when
+    /// their cause is mended; the others last until the next start or stop that succeeds.
+    fn lasts(&self, failed: ErrorCode, at_revision: u64) -> Option<ErrorCode> {
+        use ErrorCode::*;
+        let state = self.state();
+        match failed {
+            NotActivated | NoCertificate | InvalidParameter | PortConflict => {
+                if let Err(problem) = state.check_start(&self.surroundings()) {
+                    return Some(problem.code);
+                }
+                let lasts = match failed {
+                    // Another program on this computer has the port.
+                    PortConflict => !is_free(self.bind, state.settings.port.get()),
+                    // The server itself did not accept its configuration.
+                    InvalidParameter => state.revision == at_revision,
+                    _ => false,
+                };
+                lasts.then_some(failed)
+            }
+            ServerLogFull => (state.settings.server_log && self.log.is_full()).then_some(failed),
+            other => Some(other),
         }
     }
 

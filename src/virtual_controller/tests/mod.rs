@@ -4,6 +4,7 @@ mod bench;
 mod certificates;
 mod changes;
 mod crowd;
+mod http;
 mod keys_log_and_settings;
 mod persistence;
 mod sessions;

@@ -36,6 +36,40 @@ async fn each_reason_not_to_start_has_its_code() {
 }
 
 #[tokio::test]
+async fn a_number_goes_when_its_cause_is_mended() {
+    bounded(async {
+        let mut bare = initial(LEGACY);
+        bare.activated = false;
+        let bench = Bench::new(bare).await;
+        let client = bench.client().await;
+        assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), ErrorCode::NotActivated);
+        let crate::model::activation::ActivationKeys { licence, activation } =
+            crate::virtual_controller::demo_keys(&bench.controller.serial());
+        let keys = json!({ "revision": 1, "licence": licence, "activation": activation });
+        let changed: Changed = client.post(protocol::ACTIVATION, &keys).await.unwrap();
+        assert_eq!(changed.status, ServerStatus::Error);
+        assert_eq!(bench.status(), (ServerStatus::Error, Some(ErrorCode::NoCertificate)), "the next reason");
+
+        let bench = Bench::new(initial(CURRENT)).await;
+        let client = bench.client().await;
+        assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), ErrorCode::NoCertificate);
+        let make = json!({ "revision": 1, "request": super::bench::request("robot", 2048) });
+        let made: protocol::Installed = client.post(protocol::SELF_SIGNED, &make).await.unwrap();
+        assert_eq!(made.changed.status, ServerStatus::Stop);
+        assert_eq!(bench.status(), (ServerStatus::Stop, None));
+
+        let blocker = std::net::TcpListener::bind(("127.0.0.1", bench.state().settings.port.get())).unwrap();
+        assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), ErrorCode::PortConflict);
+        assert_eq!(bench.status(), (ServerStatus::Error, Some(ErrorCode::PortConflict)));
+        drop(blocker);
+        assert_eq!(bench.status(), (ServerStatus::Stop, None));
+        let started: Changed = client.post(protocol::SERVER_START, &()).await.unwrap();
+        assert_eq!(started.status, ServerStatus::Run);
+    })
+    .await;
+}
+
+#[tokio::test]
 async fn an_error_lasts_until_a_start_succeeds() {
     bounded(async {
         let bench = Bench::new(with_certificate(initial(CURRENT))).await;

@@ -7,7 +7,7 @@ use secrecy::SecretString;
 use super::AuthorityError;
 use super::database::{Database, IssuedCertificate, MAX_DATABASE_BYTES, StoredAuthority, StoredCrl};
 use super::signing::{Authority, crl_number};
-use crate::model::{AuthorityRequest, CertificateSummary};
+use crate::model::{AuthorityRequest, CertificateSummary, clock};
 use crate::pki::{
     Certificate, CertificateAuthority, Crl, MAX_KEY_FILE_BYTES, PkiError, PrivateKey, encrypt_key, read_key_file,
 };
@@ -161,7 +161,7 @@ impl AuthorityFiles {
     pub(super) fn write_key(&self, name: &str, pem: &str) -> Result<(), WorkspaceError> {
         let path = self.key_path(name);
         if path.exists() {
-            let stamp = Utc::now().format("%Y%m%dT%H%M%S%3fZ");
+            let stamp = clock::now().format("%Y%m%dT%H%M%S%3fZ");
             let aside = self.folder.join(format!("{name}.left-{stamp}.key"));
             replace::rename(&path, &aside).map_err(|e| WorkspaceError::writing(&path, e))?;
         }

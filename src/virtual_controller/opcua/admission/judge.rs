@@ -8,7 +8,7 @@ use parking_lot::RwLock;
 
 use super::fault::Fault;
 use super::frame::split_certificates;
-use crate::model::SecurityPolicy;
+use crate::model::{SecurityPolicy, clock};
 use crate::pki::{Certificate, Presented, Rejection, Role, TrustLists, TrustPolicy};
 
 /// The clock certificates are checked by; this machine's by default.
@@ -27,7 +27,7 @@ impl Clock {
 
 impl Default for Clock {
     fn default() -> Self {
-        Self::new(Utc::now)
+        Self::new(clock::now)
     }
 }
 
