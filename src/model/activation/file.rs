@@ -175,18 +175,24 @@ const MAX_SHOWN: usize = FIRST_LINE.len() + 8;
 
 fn one(row: &TableRow, separator: char) -> Result<ActivationLine, LineMistake> {
     let (line, fields) = (row.line, &row.fields);
-    // With a separator missing, a key could be part of the first field.
-    let serial = fields.first().filter(|_| fields.len() >= 3).and_then(|serial| serial.parse::<SerialNumber>().ok());
+    let is_other = |found: &char| *found != separator && fields.len() == 1 && fields[0].contains(*found);
+    let other = SEPARATORS.into_iter().find(is_other);
+    let parts: Vec<&str> = match other {
+        Some(other) => fields[0].split(other).collect(),
+        None => fields.iter().map(String::as_str).collect(),
+    };
+    // With a separator missing, a key could be part of the first field; with a line end in it, it is of two lines.
+    let first = parts.first().filter(|_| parts.len() >= 3 && !row.is_broken);
+    let serial = first.and_then(|serial| serial.trim().parse::<SerialNumber>().ok());
     let wrong = |mistake| LineMistake { line, serial: serial.clone(), mistake };
     if row.is_broken {
         return Err(wrong(Mistake::Quotes));
     }
+    if let Some(found) = other {
+        return Err(wrong(Mistake::Separator { found, expected: separator }));
+    }
     let [_, licence, activation] = &fields[..] else {
-        let other = |found: &char| *found != separator && fields.len() == 1 && fields[0].contains(*found);
-        return Err(wrong(match SEPARATORS.into_iter().find(other) {
-            Some(found) => Mistake::Separator { found, expected: separator },
-            None => Mistake::Fields(fields.len()),
-        }));
+        return Err(wrong(Mistake::Fields(fields.len())));
     };
     let Some(serial) = serial.clone() else {
         return Err(wrong(Mistake::Serial));
@@ -340,6 +346,10 @@ mod tests {
                 (11, Mistake::Quotes),
             ]
         );
+        let text = format!("{FIRST_LINE}\n{body}");
+        let file = parse(text.as_bytes()).unwrap();
+        let other = file.find(&"R7A0000005".parse().unwrap());
+        assert!(matches!(other, Entry::Mistake(LineMistake { line: 7, .. })), "{other:?}");
         assert!(Mistake::Fields(1).to_string().starts_with("it has 1 field;"));
         assert!(Mistake::Fields(2).to_string().starts_with("it has 2 fields;"));
     }

@@ -1,8 +1,8 @@
 use std::collections::HashSet;
 
-use opcua_configurator::model::ControllerSeries;
 use opcua_configurator::model::activation::{self, Entry};
 use opcua_configurator::model::text::decode;
+use opcua_configurator::model::{ControllerSeries, SerialNumber};
 use opcua_configurator::workspace::{Configuration, ConnectionList, NewConnection, Skipped};
 
 /// [`activation::parse`]: every serial number once, every line number that of its line, no key in a mistake; and what
@@ -11,18 +11,20 @@ pub fn activation_file(bytes: &[u8]) {
     let Ok(file) = activation::parse(bytes) else { return };
     let lines = lines(bytes);
 
+    // There may be quotation marks around it and in it.
+    let stands_in = |serial: &SerialNumber, line: usize| lines[line - 1].replace('"', "").contains(serial.as_str());
     let mut serials = HashSet::new();
     let mut canonical = format!("{}\n", activation::FIRST_LINE);
     for line in file.lines() {
-        assert!(serials.insert(&line.serial), "{} twice", line.serial);
-        assert!(lines[line.line - 1].contains(line.serial.as_str()), "line {}", line.line);
+        assert!(serials.insert(line.serial.as_str().to_ascii_uppercase()), "{} twice", line.serial);
+        assert!(stands_in(&line.serial, line.line), "line {}", line.line);
         assert_eq!(file.find(&line.serial), Entry::Line(line));
         canonical += &format!("{},{},{}\n", line.serial, line.keys.licence, line.keys.activation);
     }
     for mistake in file.mistakes() {
         assert!(!lines[mistake.line - 1].trim().is_empty(), "line {}", mistake.line);
         if let Some(serial) = &mistake.serial {
-            assert!(lines[mistake.line - 1].contains(serial.as_str()), "line {}", mistake.line);
+            assert!(stands_in(serial, mistake.line), "line {}", mistake.line);
         }
         assert!(mistake.to_string().chars().count() < 200, "it says what is wrong, not what was bought");
     }
@@ -40,9 +42,9 @@ pub fn activation_file(bytes: &[u8]) {
     );
 }
 
-/// The lines of a text, without quotation marks.
+/// The lines of a text.
 fn lines(bytes: &[u8]) -> Vec<String> {
-    let text = decode(bytes).expect("what was taken is text").replace("\r\n", "\n").replace('"', "");
+    let text = decode(bytes).expect("what was taken is text").replace("\r\n", "\n");
     text.split(['\r', '\n']).map(str::to_owned).collect()
 }
 
