@@ -123,7 +123,7 @@ impl PasswordStore {
     /// far as it has them, and so is what could not be kept before. Returns how many there are.
     pub fn create_vault(&self, passphrase: &SecretString, controllers: &[Fingerprint]) -> Result<usize, Problem> {
         // Asked first: a keyring that waits for its user must not hold up others.
-        let found: Vec<_> = controllers.iter().filter_map(|c| Some((*c, self.from_keyring(*c)?))).collect();
+        let found: Vec<_> = controllers.iter().filter_map(|c| Some((*c, self.ask_keyring(*c)?))).collect();
         let mut vault = self.vault.create(passphrase)?;
         vault.set_all(found)?;
         Ok(self.opened(vault, true))
@@ -226,7 +226,7 @@ impl PasswordStore {
         matches!(self.state.lock().access, Access::Declined)
     }
 
-    fn from_keyring(&self, controller: Fingerprint) -> Option<SecretString> {
+    fn ask_keyring(&self, controller: Fingerprint) -> Option<SecretString> {
         match self.keyring.get(controller) {
             Ok(password) => password,
             Err(problem) => {
@@ -254,7 +254,7 @@ impl Passwords for PasswordStore {
             return Ok(Some(password));
         }
         if !self.uses_vault()
-            && let Some(password) = self.from_keyring(controller)
+            && let Some(password) = self.ask_keyring(controller)
         {
             // Asking the keyring once per start is enough.
             self.memory.put(controller, password.clone());

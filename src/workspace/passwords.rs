@@ -21,7 +21,12 @@ pub trait Passwords: Send + Sync {
 
     /// Remembers the same password for several controllers; of several errors, the last.
     fn set_for(&self, controllers: &[Fingerprint], password: &SecretString) -> Result<(), Problem> {
-        controllers.iter().fold(Ok(()), |result, controller| self.set(*controller, password.clone()).and(result))
+        let mut result = Ok(());
+        for controller in controllers {
+            // One that cannot be kept must not keep the others out.
+            result = self.set(*controller, password.clone()).and(result);
+        }
+        result
     }
 
     fn forget(&self, controller: Fingerprint);
