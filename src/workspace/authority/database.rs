@@ -20,6 +20,10 @@ pub(super) struct Database {
     pub root: Option<StoredAuthority>,
     /// Oldest first.
     pub issued: Vec<IssuedCertificate>,
+    /// The certificate issued last, in DER. Its file is written after this entry, and again if the program ended between
+    /// the two.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub last: Option<Base64Bytes>,
     /// How long a CRL is good for, as last chosen.
     pub crl_days: u16,
 }
@@ -127,7 +131,7 @@ impl StoredCrl {
 
 impl Database {
     pub fn new(signing: StoredAuthority, root: Option<StoredAuthority>, crl_days: u16) -> Self {
-        Self { version: VERSION, signing, root, issued: Vec::new(), crl_days }
+        Self { version: VERSION, signing, root, issued: Vec::new(), last: None, crl_days }
     }
 
     /// The content of the file at `path`, which only the error names.
@@ -151,6 +155,9 @@ impl Database {
         for stored in std::iter::once(&database.signing).chain(&database.root) {
             Certificate::from_der(&stored.certificate.0).map_err(|e| format!("the certificate of a CA: {e}"))?;
             Crl::from_der(&stored.crl.crl.0).map_err(|e| format!("the CRL of a CA: {e}"))?;
+        }
+        if let Some(last) = &database.last {
+            Certificate::from_der(&last.0).map_err(|e| format!("the certificate issued last: {e}"))?;
         }
         let mut seen = HashSet::new();
         for issued in &database.issued {

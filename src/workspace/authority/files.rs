@@ -198,7 +198,18 @@ impl AuthorityFiles {
             self.write_if_other(&format!("{name}.crl"), &stored.crl.crl.0)?;
             pem.push_str(&Certificate::from_der(&stored.certificate.0)?.to_pem());
         }
-        self.write_if_other("ca.pem", pem.as_bytes())
+        self.write_if_other("ca.pem", pem.as_bytes())?;
+        self.write_last(database)
+    }
+
+    /// Writes the file of the certificate that was issued last, if it is missing.
+    pub(super) fn write_last(&self, database: &Database) -> Result<(), AuthorityError> {
+        let Some(last) = &database.last else { return Ok(()) };
+        let path = self.issued_path(&Certificate::from_der(&last.0)?.summary().serial_number);
+        if !path.exists() {
+            write_atomic(&path, &last.0)?;
+        }
+        Ok(())
     }
 
     fn write_if_other(&self, name: &str, bytes: &[u8]) -> Result<(), AuthorityError> {

@@ -8,7 +8,8 @@ use super::files::{AuthorityFiles, AuthorityOverview, ROOT};
 use super::{AuthorityError, CertificateState};
 use crate::model::CertificateProfile;
 use crate::pki::{Certificate, CertificateAuthority, Csr, IssueRequest, RevocationReason, RevokedCertificate};
-use crate::workspace::{WorkspaceLock, write_atomic};
+use crate::protocol::Base64Bytes;
+use crate::workspace::WorkspaceLock;
 
 /// How long a CRL is good for unless told otherwise: a year, because in a small plant a person has to publish the next
 /// one by hand, and an expired CRL locks everybody out.
@@ -74,7 +75,8 @@ impl Authority {
         Ok(Drafted { certificate, key: csr.key_digest(), profile: request.profile })
     }
 
-    /// Writes down what was signed, then the file of the certificate.
+    /// Writes down what was signed, then the file of the certificate; if that fails, or the program ends before it, the
+    /// file is written when the CA is opened again.
     pub fn record(
         &mut self,
         drafted: Drafted,
@@ -84,7 +86,10 @@ impl Authority {
         let Drafted { certificate, key, profile } = drafted;
         let summary = certificate.summary();
         let path = self.files.issued_path(&summary.serial_number);
+        // The one before may still be without its file.
+        self.files.write_last(&self.database)?;
         let mut database = self.database.clone();
+        database.last = Some(Base64Bytes(certificate.der().to_vec()));
         database.issued.push(IssuedCertificate {
             serial_number: summary.serial_number,
             issued_to: summary.issued_to,
@@ -99,7 +104,6 @@ impl Authority {
             revoked: None,
         });
         self.commit(database)?;
-        write_atomic(&path, certificate.der())?;
         Ok(path)
     }
 

@@ -140,6 +140,48 @@ fn what_was_signed_is_written_down_and_a_second_time_only_as_a_renewal() {
     assert_eq!(files.issued(&issued[2].serial_number).unwrap(), third);
 }
 
+/// Between the entry in the database and the file of the certificate the program stops: the folder of the files is gone
+/// as far as it can see, which is the same moment as a kill.
+#[test]
+fn a_certificate_without_its_file_gets_it_when_the_ca_is_opened_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = files(folder.path());
+    let mut authority = files.create(&new(false), &passphrase(), now()).unwrap();
+    let issued = files.folder().join("issued");
+    fs::remove_dir_all(&issued).ok();
+    fs::write(&issued, "in the way").unwrap();
+    assert!(authority.sign(csr(), &server(), false, now()).is_err());
+    let serial_number = authority.overview().unwrap().issued[0].serial_number.clone();
+    assert_eq!(code(authority.sign(csr(), &server(), false, now())), ErrorCode::AlreadySigned);
+    assert!(files.issued(&serial_number).is_err());
+    drop(authority);
+
+    fs::remove_file(&issued).unwrap();
+    let mut authority = files.open(&passphrase()).unwrap();
+    let written = files.issued(&serial_number).unwrap();
+    assert_eq!(written.thumbprint_sha1(), authority.overview().unwrap().issued[0].thumbprint);
+    let (renewed, path) = authority.sign(csr(), &server(), true, now()).unwrap();
+    assert_eq!(fs::read(path).unwrap(), renewed.der());
+    assert_eq!(files.issued(&serial_number).unwrap(), written);
+}
+
+/// Without opening it again: the next certificate is issued by the same program.
+#[test]
+fn a_certificate_without_its_file_gets_it_before_the_next_one_is_issued() {
+    let folder = tempfile::tempdir().unwrap();
+    let files = files(folder.path());
+    let mut authority = files.create(&new(false), &passphrase(), now()).unwrap();
+    let issued = files.folder().join("issued");
+    fs::remove_dir_all(&issued).ok();
+    fs::write(&issued, "in the way").unwrap();
+    assert!(authority.sign(csr(), &server(), false, now()).is_err());
+    fs::remove_file(&issued).unwrap();
+    authority.sign(csr(), &server(), true, now()).unwrap();
+    for one in authority.overview().unwrap().issued {
+        assert_eq!(files.issued(&one.serial_number).unwrap().thumbprint_sha1(), one.thumbprint);
+    }
+}
+
 #[test]
 fn a_draft_leaves_no_trace() {
     let folder = tempfile::tempdir().unwrap();
