@@ -180,7 +180,7 @@ fn self_signed() {
     load(&mut window, settings());
     type_into(&mut window, "Organisation", "Example");
     picture(&mut window, "self_signed");
-    click(&mut window, "Apply");
+    click(&mut window, "Create and save");
     picture(&mut window, "confirm_self_signed");
     click(&mut window, "Cancel");
     click(&mut window, "Cancel");

@@ -68,7 +68,7 @@ fn from_an_empty_window_to_three_running_servers() {
 
     desk.tick(&["weld", "paint", "码垛"]);
     fill_in_certificate(&mut desk);
-    desk.click("Apply");
+    desk.click("Create and save");
     assert!(shows(&desk.window, "The OPC UA server is stopped"));
     desk.confirm_and_finish("3 done");
 
@@ -104,6 +104,48 @@ fn the_settings_of_one_controller_are_read_changed_and_applied() {
 }
 
 #[test]
+fn enter_confirms_a_dialog_whatever_has_the_focus_but_presses_a_focused_button() {
+    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
+    desk.tick(&["cell 1"]);
+    choose(&mut desk.window, &["Server settings", "Basic settings…"]);
+    wait_until(&mut desk.window, PATIENCE, |window| is_enabled(window, "Apply"));
+
+    desk.window.get_by_label("Basic256").focus();
+    desk.window.run_ok();
+    desk.window.key_press(egui::Key::Enter);
+    desk.window.run_ok();
+    assert!(shows(&desk.window, "The OPC UA server is stopped"), "the tick box had the focus");
+
+    let cancel = desk.window.query_all_by_label("Cancel").next_back().unwrap();
+    cancel.focus();
+    desk.window.run_ok();
+    desk.window.key_press(egui::Key::Enter);
+    desk.window.run_ok();
+    assert!(!shows(&desk.window, "The OPC UA server is stopped"), "Cancel was pressed, not Change settings");
+    assert!(is_enabled(&desk.window, "Apply"), "the form is there again");
+    let state = desk.plant.controller(0).state();
+    assert!(
+        !state.settings.security_policies.iter().any(|policy| policy.as_str() == "Basic256"),
+        "nothing was changed"
+    );
+}
+
+#[test]
+fn a_dialog_stays_where_it_is_when_a_warning_appears_in_it() {
+    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
+    desk.tick(&["cell 1"]);
+    choose(&mut desk.window, &["Server settings", "Basic settings…"]);
+    wait_until(&mut desk.window, PATIENCE, |window| is_enabled(window, "Apply"));
+    let top = |desk: &Desk| desk.window.query_all_by_label("Port").next().unwrap().rect().top();
+    let before = top(&desk);
+    for port in ["80", "20777"] {
+        type_into(&mut desk.window, "Port", port);
+        assert_eq!(shows(&desk.window, "Enter a port from 1024 to 65535"), port == "80");
+        assert_eq!(top(&desk), before, "with port {port}");
+    }
+}
+
+#[test]
 fn a_batch_is_cancelled_in_the_middle() {
     let mut desk = Desk::with_controllers(8, FleetFirmware::Current);
     for index in 0..8 {
@@ -115,7 +157,7 @@ fn a_batch_is_cancelled_in_the_middle() {
     type_into(&mut desk.window, "User name", "operator1");
     type_into(&mut desk.window, "Password", "Passw0rd1");
     desk.click("Add");
-    desk.click("OK");
+    desk.click("Add user");
     wait_until(&mut desk.window, PATIENCE, |window| {
         window.state().model.job.as_ref().is_some_and(|job| job.finished >= 1)
     });
@@ -238,7 +280,7 @@ fn a_failing_controller_is_explained_with_cause_and_remedy() {
     };
     assert!(desk.runtime.block_on(desk.plant.run(other))[0].result.is_ok());
     desk.click("Apply");
-    desk.click("OK");
+    desk.click("Change settings");
     desk.wait_for("The controller was changed by somebody else");
     desk.click("Close");
 
@@ -250,7 +292,7 @@ fn a_failing_controller_is_explained_with_cause_and_remedy() {
     type_into(&mut desk.window, "User name", "operator2");
     type_into(&mut desk.window, "Password", "Passw0rd1");
     desk.click("Add");
-    desk.click("OK");
+    desk.click("Add user");
     desk.wait_for("The change was applied, but its answer was lost");
     desk.click("Close");
     desk.wait_for("operator2");
@@ -399,7 +441,7 @@ fn users_are_deleted_from_the_list() {
     desk.wait_for("operator2");
     desk.click("operator1");
     desk.click("Delete");
-    desk.click("OK");
+    desk.click("Delete users");
     desk.wait_for("Completed");
     desk.click("Close");
     let left: Vec<String> = desk.plant.controller(0).state().users.iter().map(|u| u.name.to_string()).collect();

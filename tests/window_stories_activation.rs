@@ -73,7 +73,7 @@ fn one_controller_is_activated_by_the_keys_that_were_pasted() {
     desk.click("Apply");
     assert!(shows(&desk.window, "The OPC UA server is stopped"));
     assert!(!desk.activated(0), "nothing is sent before the confirmation");
-    desk.click("OK");
+    desk.click("Activate");
     desk.wait_for("Completed");
     assert!(shows(&desk.window, "1 done"));
     desk.click("Close");
@@ -110,7 +110,7 @@ fn many_are_activated_from_a_file_with_mistakes_that_are_shown_before_anything_i
         assert!(shows(&desk.window, part), "no {part:?} in the preview");
     }
     desk.click("Apply");
-    desk.click("OK");
+    desk.click("Activate");
     desk.wait_for("Completed");
     assert!(shows(&desk.window, "1 done, 2 failed"));
     desk.click("Close");
@@ -219,7 +219,7 @@ fn a_desktop_without_a_file_dialog_says_what_to_do_instead() {
     desk.click("Read file");
     desk.wait_for("Not read yet, looked up");
     desk.click("Apply");
-    desk.click("OK");
+    desk.click("Activate");
     desk.wait_for("2 done");
     assert!(desk.activated(0) && desk.activated(1));
 }
@@ -261,7 +261,7 @@ fn fifty_are_activated_from_one_file_with_five_bad_lines_one_cable_pulled_and_a_
         assert!(shows(&desk.window, part), "no {part:?} in the preview");
     }
     desk.click("Apply");
-    desk.click("OK");
+    desk.click("Activate");
 
     // In mid-batch: asked first, and what is done stays done.
     let finished = |desk: &Desk| desk.window.state().model.job.as_ref().map_or(0, |job| job.finished);
@@ -284,7 +284,7 @@ fn fifty_are_activated_from_one_file_with_five_bad_lines_one_cable_pulled_and_a_
     // And simply done again, with all that are wrong named.
     open(&mut desk);
     desk.click("Apply");
-    desk.click("OK");
+    desk.click("Activate");
     desk.wait_for("Completed");
     assert!(shows(&desk.window, "44 done, 6 failed"));
     let failed = |desk: &Desk, index: usize| {

@@ -82,7 +82,7 @@ fn from_nothing_to_ca_signed_controllers_that_know_what_was_revoked() {
     assert!(shows(&desk.window, "Revoked certificates cannot be made valid again"));
     desk.click("Reason");
     desk.click("Key compromised");
-    desk.with_passphrase("OK");
+    desk.with_passphrase("Revoke");
     desk.wait_for("1 revoked, number ");
     assert_eq!(desk.ca().issued[0].revoked.unwrap().reason, RevocationReason::KeyCompromise);
 
@@ -141,7 +141,7 @@ fn a_request_of_any_tool_is_signed_and_the_ca_moves_to_another_workspace() {
     let backup = desk.folder.path().join("ca.backup").display().to_string();
     desk.click("Back up…");
     type_into(&mut desk.window, "File", &backup);
-    desk.with_passphrase("OK");
+    desk.with_passphrase("Back up");
     desk.wait_for("Saved as ");
     desk.click("Close");
     let before = desk.ca();

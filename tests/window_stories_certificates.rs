@@ -59,7 +59,7 @@ impl Desk {
         type_into(&mut self.window, "Organisation", "Example");
         self.click("Create and save");
         assert!(shows(&self.window, "The present CA-signed certificate becomes invalid"));
-        self.click("OK");
+        self.click("Create CSR");
         self.finish(summary);
     }
 
@@ -106,7 +106,7 @@ fn a_ca_signs_for_two_controllers_and_the_type_is_chosen_afterwards() {
     desk.wait_for("0 of 2 certificates can be imported");
     assert!(shows(&desk.window, "The certificate and the CSR do not match"));
     assert!(shows(&desk.window, "The file to be imported was not found"));
-    assert!(!is_enabled(&desk.window, "OK"));
+    assert!(!is_enabled(&desk.window, "Import"));
     desk.click("Cancel");
 
     for index in 0..2 {
@@ -115,7 +115,7 @@ fn a_ca_signs_for_two_controllers_and_the_type_is_chosen_afterwards() {
     desk.click("Import…");
     desk.wait_for("2 of 2 certificates can be imported");
     assert!(shows(&desk.window, "The OPC UA server is stopped"));
-    desk.click("OK");
+    desk.click("Import");
     desk.finish("2 done");
     assert!(desk.window.state().model.dialogs.is_empty());
     assert_eq!([desk.in_use(0), desk.in_use(1)], [Some(CertificateType::CaSigned); 2]);
@@ -125,7 +125,7 @@ fn a_ca_signs_for_two_controllers_and_the_type_is_chosen_afterwards() {
     assert!(desk.window.query_by_label("User specified").is_none(), "one of them has current firmware");
     desk.click("Self-signed");
     desk.click("Apply");
-    desk.click("OK");
+    desk.click("Switch certificate");
     desk.finish("2 done");
     assert_eq!([desk.in_use(0), desk.in_use(1)], [Some(CertificateType::SelfSigned); 2]);
 }
@@ -143,7 +143,7 @@ fn warnings_are_asked_about_and_errors_stop_an_import() {
     desk.put(0, &ca.sign_changed(&csr, nobody));
     desk.click("Import…");
     desk.wait_for("Error: It has no application URI");
-    assert!(!is_enabled(&desk.window, "OK"));
+    assert!(!is_enabled(&desk.window, "Import"));
     desk.click("Cancel");
 
     // By its path, as somebody pastes it from a file manager.
@@ -191,7 +191,7 @@ fn a_controller_that_does_not_answer_keeps_no_other_out() {
     desk.wait_for("Connection password needed");
     desk.click("Cancel");
     desk.wait_for("1 of 2 certificates can be imported");
-    desk.click("OK");
+    desk.click("Import");
     desk.finish("1 done");
     assert_eq!(
         [desk.in_use(0), desk.in_use(1)].map(|kind| kind.unwrap()),
@@ -218,7 +218,7 @@ fn self_signed_certificates_are_exported() {
     desk.click("pem");
     desk.click("Export");
     assert!(shows(&desk.window, "Files of the same name on this computer are overwritten"));
-    desk.click("OK");
+    desk.click("Overwrite");
     desk.wait_for("Completed");
     assert!(shows(&desk.window, "Saved in"));
     desk.click("Copy");
@@ -271,7 +271,7 @@ fn a_certificate_of_another_tool_is_imported() {
     type_into(&mut desk.window, "Password of the file", "right");
     desk.click("Import…");
     desk.wait_for("Issued to");
-    desk.click("OK");
+    desk.click("Import");
     desk.finish("1 done");
     assert_eq!(desk.in_use(0), Some(CertificateType::UserSpecified));
 
@@ -290,7 +290,7 @@ fn a_certificate_of_another_tool_is_imported() {
     write(&folder, "robot.key", &key.to_pkcs8_der().unwrap());
     desk.click("Import…");
     desk.wait_for("Issued to");
-    desk.click("OK");
+    desk.click("Import");
     desk.finish("1 done");
 }
 

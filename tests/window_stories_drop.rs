@@ -218,7 +218,7 @@ fn a_certificate_goes_where_it_is_told_and_is_imported() {
     desk.click("Import…");
     desk.wait_for("Plant CA");
     // Whatever clients may warn of.
-    let ok = if is_enabled(&desk.window, "OK") { "OK" } else { "Import anyway" };
+    let ok = if is_enabled(&desk.window, "Import") { "Import" } else { "Import anyway" };
     desk.click(ok);
     desk.finish("1 done");
     assert_eq!(desk.in_use(0), Some(CertificateType::CaSigned));
@@ -260,7 +260,7 @@ fn a_pfx_and_a_pair_of_files_fill_the_user_specified_dialog() {
     assert!(desk.has_value(&certificate_file.display().to_string()));
     desk.click("Import…");
     desk.wait_for("Issued to");
-    let ok = if is_enabled(&desk.window, "OK") { "OK" } else { "Import anyway" };
+    let ok = if is_enabled(&desk.window, "Import") { "Import" } else { "Import anyway" };
     desk.click(ok);
     desk.finish("1 done");
     assert_eq!(desk.in_use(legacy), Some(CertificateType::UserSpecified));

@@ -112,7 +112,7 @@ fn folders_are_shown_in_the_file_manager_and_made_if_they_are_missing() {
     desk.click("Create CSR…");
     wait_until(&mut desk.window, PATIENCE, |window| is_enabled(window, "Create and save"));
     desk.click("Create and save");
-    desk.click("OK");
+    desk.click("Create CSR");
     desk.wait_for("Saved in");
     desk.click("Open folder");
     wait_until(&mut desk.window, PATIENCE, |_| desktop.opened.lock().len() == 3);
@@ -171,6 +171,6 @@ fn the_chain_of_what_a_ca_issued_is_shown_before_the_import() {
     common::window::type_into(&mut desk.window, "Certificate file", &both.display().to_string());
     desk.click("Import…");
     desk.wait_for("Plant CA, root, valid from");
-    desk.click(if is_enabled(&desk.window, "OK") { "OK" } else { "Import anyway" });
+    desk.click(if is_enabled(&desk.window, "Import") { "Import" } else { "Import anyway" });
     desk.finish("1 done");
 }

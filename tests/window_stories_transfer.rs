@@ -69,7 +69,7 @@ fn settings_of_many_are_exported_and_put_back() {
     desk.choose("Import…");
     type_into(&mut desk.window, "Passphrase", "wrong horse");
     desk.click("Import");
-    desk.click("OK");
+    desk.click("Replace settings");
     desk.wait_for("2 failed");
     desk.click("Close");
     assert_eq!((desk.users(0), desk.users(1)), (2, 2), "nothing was changed");

@@ -73,7 +73,7 @@ fn what_fails_is_explained_mended_and_verified_again() {
     desk.click("Trust this configurator…");
     assert!(shows(&desk.window, "is put into Trusted and stays there"));
     assert_eq!(desk.trusted(), 0, "asked first");
-    desk.click("OK");
+    desk.click("Trust");
     wait_until(&mut desk.window, PATIENCE, |window| window.state().model.job.is_none());
     assert_eq!(desk.trusted(), 2);
 
@@ -98,7 +98,7 @@ fn a_change_that_starts_the_server_again_can_be_verified() {
         choose(&mut desk.window, &["Server settings", "Basic settings…"]);
         wait_until(&mut desk.window, PATIENCE, |window| is_enabled(window, "Apply"));
         desk.click("Apply");
-        desk.click("OK");
+        desk.click("Change settings");
     };
     settings(&mut desk);
     desk.wait_for("Completed");

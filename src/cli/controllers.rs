@@ -30,7 +30,7 @@ pub enum ControllersCommand {
         #[arg(value_name = "FILE.csv")]
         file: Option<PathBuf>,
         /// Series to show until a controller was reached: RC90, RC700, T/VT or RC800
-        #[arg(long, default_value = "RC700")]
+        #[arg(long, default_value = ControllerSeries::ASSUMED.as_str())]
         series: String,
     },
     /// Accept the fingerprint of a controller that was imported or added without confirming it

@@ -23,6 +23,10 @@ pub enum ControllerSeries {
 impl ControllerSeries {
     pub const ALL: [Self; 4] = [Self::Rc90, Self::Rc700, Self::TVt, Self::Rc800];
 
+    /// The series assumed for a controller that was not reached yet and whose connection list does not name one: the
+    /// only series on sale with current firmware.
+    pub const ASSUMED: Self = Self::Rc800;
+
     /// The name as the manual prints it.
     pub const fn as_str(self) -> &'static str {
         match self {

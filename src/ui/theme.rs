@@ -18,6 +18,8 @@ pub struct Palette {
     pub warning: Color32,
     pub error: Color32,
     pub off: Color32,
+    /// Fill of tick boxes and radio buttons: must stand out from the panel also when it is not ticked.
+    tick_box: Color32,
     selection: f32,
     shadow: u8,
 }
@@ -41,6 +43,7 @@ const DARK: Palette = Palette {
     warning: rgb(0xe5a73b),
     error: rgb(0xee6160),
     off: rgb(0x8b94a4),
+    tick_box: rgb(0x667085),
     selection: 0.28,
     shadow: 110,
 };
@@ -59,6 +62,7 @@ const LIGHT: Palette = Palette {
     warning: rgb(0xb45309),
     error: rgb(0xc62828),
     off: rgb(0x6b7280),
+    tick_box: rgb(0xffffff),
     selection: 0.16,
     shadow: 45,
 };
@@ -189,6 +193,30 @@ fn visuals(visuals: &mut egui::Visuals, theme: Theme, palette: &Palette) {
         widget.fg_stroke = Stroke::new(if engaged { 1.5 } else { 1.0 }, palette.text);
         widget.bg_stroke = Stroke::new(1.0, if engaged { palette.accent.gamma_multiply(0.7) } else { palette.line });
         widget.weak_bg_fill = if engaged { palette.raised.lerp_to_gamma(palette.accent, 0.12) } else { palette.raised };
-        widget.bg_fill = palette.background;
+        widget.bg_fill = palette.tick_box;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance and contrast ratio, WCAG 2.2.
+    fn contrast(a: Color32, b: Color32) -> f32 {
+        let luminance = |color: Color32| {
+            let [r, g, b] =
+                [color.r(), color.g(), color.b()].map(|channel| egui::ecolor::linear_f32_from_gamma_u8(channel));
+            0.2126 * r + 0.7152 * g + 0.0722 * b
+        };
+        let (a, b) = (luminance(a), luminance(b));
+        (a.max(b) + 0.05) / (a.min(b) + 0.05)
+    }
+
+    #[test]
+    fn an_unticked_box_stands_out_in_the_dark_theme() {
+        for under in [DARK.background, DARK.panel, DARK.stripe] {
+            assert!(contrast(DARK.tick_box, under) >= 3.0, "{under:?}");
+        }
+        assert!(contrast(DARK.text, DARK.tick_box) >= 3.0, "the tick in it");
     }
 }

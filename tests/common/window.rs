@@ -63,6 +63,15 @@ pub fn click<B: Backend>(window: &mut Window<B>, label: &str) {
     settle(window);
 }
 
+/// Clicks the main button of the dialog on top, the one beside its Cancel.
+pub fn agree<B: Backend>(window: &mut Window<B>) {
+    let buttons: Vec<_> = window.query_all_by_role(Role::Button).collect();
+    let cancel = buttons.iter().rposition(|node| node.accesskit_node().label().as_deref() == Some("Cancel"));
+    let main = cancel.and_then(|at| at.checked_sub(1)).map(|at| buttons[at]);
+    main.unwrap_or_else(|| panic!("no dialog asks for an agreement")).click();
+    settle(window);
+}
+
 /// Other things may have the same words on them, such as the state "Stop" of a row.
 fn is_control(role: Role) -> bool {
     matches!(

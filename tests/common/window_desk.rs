@@ -12,7 +12,7 @@ use opcua_configurator::ui::picker::{FileKind, FilePicker, FixedPicker, Picked};
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
 
-use crate::common::window::{self, SIZE, click, shows, wait_until, window_in};
+use crate::common::window::{self, SIZE, agree, click, shows, wait_until, window_in};
 use crate::plant::Plant;
 
 /// Long enough for a busy machine to make keys.
@@ -117,9 +117,9 @@ impl Desk {
         self.click("Close");
     }
 
-    /// Confirms first.
+    /// Confirms first: the button that does it stands before Cancel, whatever the act is called.
     pub fn confirm_and_finish(&mut self, summary: &str) {
-        self.click("OK");
+        agree(&mut self.window);
         self.finish(summary);
     }
 

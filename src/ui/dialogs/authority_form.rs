@@ -22,9 +22,9 @@ pub fn show(ui: &Ui, asked: &mut AuthorityForm, focus: bool, model: &Model, mess
         AuthorityAction::SignControllers(_) => (T::CaSignTitle, T::CaSign),
         AuthorityAction::SignFile(_) if asked.reads_file() => (T::CaSignFileTitle, T::ReadFile),
         AuthorityAction::SignFile(_) => (T::CaSignFileTitle, T::CaSign),
-        AuthorityAction::Revoke { .. } => (T::CaRevokeTitle, T::Ok),
+        AuthorityAction::Revoke { .. } => (T::CaRevokeTitle, T::CaRevokeNow),
         AuthorityAction::PublishCrl { .. } => (T::CaCrlTitle, T::CaPublishNow),
-        AuthorityAction::BackUp { .. } => (T::CaBackUpTitle, T::Ok),
+        AuthorityAction::BackUp { .. } => (T::CaBackUpTitle, T::CaBackUpNow),
     };
     let why = asked.incomplete().map(text);
     let buttons = Buttons { submit: Some((text(submit), why)), close: Some(text(T::Cancel)) };

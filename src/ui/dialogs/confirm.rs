@@ -10,7 +10,7 @@ use crate::workspace::VaultState;
 /// Says what an operation will do, and to which controllers.
 pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, model: &Model) -> Answer {
     let text = |key: T| key.text(model.language);
-    let buttons = Buttons { submit: Some((text(T::Ok), None)), close: Some(text(T::Cancel)) };
+    let buttons = Buttons { submit: Some((text(task.act()), None)), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, task.title(), names);
     dialog(ui, "confirm", &title, theme::DIALOG, buttons, |ui| {
         let mut remarks = texts::confirmation(confirmation);

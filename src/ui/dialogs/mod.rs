@@ -28,7 +28,8 @@ mod users;
 mod vault;
 mod verify;
 
-use egui::{Key, Modifiers, Ui};
+use egui::output::OutputEvent;
+use egui::{Context, Id, Key, Modifiers, Role, Ui};
 
 use super::model::{Dialog, Message, Model};
 use super::widgets::Answer;
@@ -48,13 +49,39 @@ pub fn show(ui: &Ui, open: &mut [Dialog], opened: bool, model: &Model, messages:
             Answer::None => {}
         }
     }
+    if top > 0 {
+        remember_focused_button(ui.ctx());
+    }
 }
 
-/// Enter belongs to a focused button, or to an open list, before it confirms the dialog.
+/// Enter confirms the dialog whatever has the focus, except a push button, which it presses, and an open list. Tick
+/// boxes and radio buttons are changed with Space.
 fn enter_confirms(ui: &Ui) -> bool {
     let ctx = ui.ctx();
-    let free = ctx.text_edit_focused() || ctx.memory(|memory| memory.focused()).is_none();
-    free && !egui::Popup::is_any_open(ctx) && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter))
+    let focused = ctx.memory(|memory| memory.focused());
+    let button: Option<Id> = ctx.data(|data| data.get_temp(focused_button_id())).flatten();
+    let on_button = focused.is_some() && focused == button;
+    !on_button
+        && !egui::Popup::is_any_open(ctx)
+        && ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter))
+}
+
+/// Notes whether the widget that has just got the focus is a push button: egui tells what a widget is only then.
+fn remember_focused_button(ctx: &Context) {
+    let gained = ctx.output(|output| {
+        output.events.iter().rev().find_map(|event| match event {
+            OutputEvent::FocusGained(widget) => Some(matches!(widget.role, Role::Button | Role::Link)),
+            _ => None,
+        })
+    });
+    let focused = ctx.memory(|memory| memory.focused());
+    if let (Some(is_button), Some(id)) = (gained, focused) {
+        ctx.data_mut(|data| data.insert_temp(focused_button_id(), is_button.then_some(id)));
+    }
+}
+
+fn focused_button_id() -> Id {
+    Id::unique("focused button")
 }
 
 /// Enter never stops a running job.

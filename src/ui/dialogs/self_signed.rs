@@ -15,11 +15,8 @@ pub fn show(ui: &Ui, certificate: &mut SelfSignedForm, model: &Model) -> Answer 
         None if certificate.reading => Some(T::Reading),
         None => ["common name", "state", "locality", "organisation"].iter().find_map(|field| certificate.error(field)),
     };
-    let (title, submit) = match certificate.request {
-        None => (T::SelfSignedTitle, T::Apply),
-        Some(_) => (T::CsrTitle, T::CreateAndSave),
-    };
-    let buttons = Buttons { submit: Some((text(submit), why.map(text))), close: Some(text(T::Cancel)) };
+    let title = if certificate.request.is_none() { T::SelfSignedTitle } else { T::CsrTitle };
+    let buttons = Buttons { submit: Some((text(T::CreateAndSave), why.map(text))), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, title, &certificate.names);
     dialog(ui, "self-signed", &title, theme::DIALOG, buttons, |ui| {
         if certificate.reading {

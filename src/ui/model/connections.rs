@@ -41,7 +41,7 @@ impl ConnectionListForm {
     fn new(model: &Model) -> Self {
         let mut file = FileForm::new(FileKind::Csv, MAX_CONNECTION_LIST_BYTES);
         file.path = model.workspace.connection_list_path().display().to_string();
-        Self { file, series: ControllerSeries::Rc800, new: Vec::new(), left_out: Vec::new(), looking: true }
+        Self { file, series: ControllerSeries::ASSUMED, new: Vec::new(), left_out: Vec::new(), looking: true }
     }
 
     pub fn reads_file(&self) -> bool {

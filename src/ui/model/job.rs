@@ -189,6 +189,38 @@ impl Task {
         }
     }
 
+    /// What the button that agrees to it says: the act itself.
+    pub const fn act(&self) -> TextKey {
+        match self {
+            Self::GetInfo => TextKey::GetInfo,
+            Self::Start => TextKey::Start,
+            Self::Stop => TextKey::Stop,
+            Self::SetSettings(_) => TextKey::ActSettings,
+            Self::AddUser(_) => TextKey::AddUserTitle,
+            Self::RemoveUsers(_) => TextKey::DeleteUsers,
+            Self::SelfSigned { .. } => TextKey::ActSelfSigned,
+            Self::Activate(_) => TextKey::ActActivate,
+            Self::SelectType(_) => TextKey::ActSelectType,
+            Self::ExportSelfSigned(_) => TextKey::ActOverwrite,
+            Self::CreateCsr { .. } => TextKey::ActCreateCsr,
+            Self::Import { .. } => TextKey::ImportButton,
+            Self::ExportSettings { .. } => TextKey::ExportButton,
+            Self::ImportSettings { .. } => TextKey::ActImportSettings,
+            Self::TrustConfigurator => TextKey::TrustTrust,
+            Self::SignCsrs(_) => TextKey::ActSignAndImport,
+            Self::PushAuthority(_) => TextKey::ActSendCrl,
+            Self::DeleteLog => TextKey::DeleteLog,
+            Self::Trust(task) => task.act(),
+            // These only read: nothing asks before them.
+            Self::ReadSettings
+            | Self::ListUsers
+            | Self::ListCertificates
+            | Self::Check(_)
+            | Self::ReadLog
+            | Self::Verify { .. } => TextKey::Ok,
+        }
+    }
+
     /// Nothing to read when all went well: the status bar says so and no click is asked for.
     pub const fn is_quiet(&self) -> bool {
         matches!(self, Self::GetInfo | Self::Start | Self::TrustConfigurator)

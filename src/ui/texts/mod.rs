@@ -90,10 +90,10 @@ texts! {
     TypeSelectTip: "Choose which of the installed server certificates is used", "选择要使用的服务器证书";
     RestoreBackup: "Restore backup…", "恢复备份…";
     RestoreBackupTip: "Put a key and its certificate back into the controllers from a backup", "从备份将密钥及其证书恢复到控制器";
-    ClientLists: "Trusted, rejected, issuers…", "信任、拒绝、发行人…";
-    ClientListsTip: "Choose which clients are let in", "选择允许连接的客户端";
+    ClientLists: "Client certificates…", "客户端证书…";
+    ClientListsTip: "Trusted, rejected and issuers: which clients may connect", "信任、拒绝、发行人：允许哪些客户端连接";
     Crl: "CRL…", "CRL…";
-    CrlTip: "Lists of revoked certificates", "证书吊销列表";
+    CrlTip: "Certificate revocation lists of the authorities that issued client certificates", "签发客户端证书的机构的证书吊销列表";
     Backup: "Backup…", "备份…";
     BackupTip: "Keep copies of certificates in the workspace", "在工作区中保留证书副本";
     Options: "Options…", "选项…";
@@ -247,6 +247,18 @@ texts! {
     ConfirmDisconnectsClients: "Clients that are not trusted any more are disconnected at once. The OPC UA server goes on running.", "不再受信任的客户端将立即断开连接。OPC UA 服务器继续运行。";
     ConfirmMovesFiles: "Files of a former certificate or CSR on this computer, and their keys, are kept: they are moved into a folder named after their date.", "本机上原有证书或 CSR 的文件及其密钥将保留，并移动到以其日期命名的文件夹。";
     ConfirmDeletesLog: "The server log in the controller is deleted.", "将删除控制器中的服务器日志。";
+
+    // buttons that agree to a confirmation
+    ActSettings: "Change settings", "更改设置";
+    ActSelfSigned: "Create certificate", "创建证书";
+    ActActivate: "Activate", "激活";
+    ActSelectType: "Switch certificate", "切换证书";
+    ActOverwrite: "Overwrite", "覆盖";
+    ActCreateCsr: "Create CSR", "创建 CSR";
+    ActImportSettings: "Replace settings", "替换设置";
+    ActSignAndImport: "Sign and import", "签发并导入";
+    ActSendCrl: "Send CRL", "发送 CRL";
+    ActMoveClients: "Move certificates", "移动证书";
 
     // processing
     StateWaiting: "Waiting", "等待中";
@@ -703,6 +715,8 @@ texts! {
     CaRestoreText: "The backup is opened with the passphrase the CA had when it was made.", "使用备份时 CA 的口令打开备份。";
     CaSign: "Sign", "签发";
     CaPublishNow: "Publish", "发布";
+    CaRevokeNow: "Revoke", "吊销";
+    CaBackUpNow: "Back up", "备份";
     CaRestoreNow: "Restore", "恢复";
     CaCreateNow: "Create", "创建";
     CaWorking: "Working…", "处理中...";

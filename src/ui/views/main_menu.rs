@@ -23,9 +23,12 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
             ui.menu_button(text(T::MenuCreate), |ui| {
                 items(ui, &[&[C::SelfSigned, C::UserSpecified, C::CaSigned]], model, messages);
             });
-            items(ui, &[&[C::ExportSelfSigned, C::TypeSelect, C::RestoreBackup]], model, messages);
-            ui.separator();
-            ui.menu_button(text(T::MenuClients), |ui| items(ui, &[&[C::ClientLists, C::Crl]], model, messages));
+            items(
+                ui,
+                &[&[C::ExportSelfSigned, C::TypeSelect, C::RestoreBackup], &[C::ClientLists, C::Crl]],
+                model,
+                messages,
+            );
         });
         menu(
             ui,

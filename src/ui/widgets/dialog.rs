@@ -1,4 +1,7 @@
-use egui::{Align, Button, Color32, Frame, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, Stroke, Ui};
+use egui::{
+    Align, Align2, Button, Color32, Context, Frame, Id, Key, Layout, Modal, Modifiers, Rect, Response, RichText,
+    ScrollArea, Stroke, Ui, vec2,
+};
 
 use super::primary;
 use crate::ui::theme::{self, palette};
@@ -33,7 +36,12 @@ pub fn dialog(
     let room = ui.ctx().content_rect();
     let frame = Frame::window(ui.style());
     let width = width.min(room.width() - frame.total_margin().sum().x - 2.0 * theme::SPACE);
-    let shown = Modal::new(Id::unique(id)).frame(frame).show(ui.ctx(), |ui| {
+    let id = Id::unique(id);
+    let mut area = Modal::default_area(id);
+    if let Some(place) = Placement::last(ui.ctx(), id).and_then(|last| last.kept(room)) {
+        area = area.anchor(Align2::CENTER_TOP, vec2(0.0, place.top() - room.top()));
+    }
+    let shown = Modal::new(id).area(area).frame(frame).show(ui.ctx(), |ui| {
         ui.set_width(width);
         ui.add(egui::Label::new(RichText::new(title).heading().strong()).truncate());
         ui.add_space(theme::SPACE);
@@ -55,13 +63,49 @@ pub fn dialog(
     shown.inner
 }
 
-/// A dialog is centred by the size it had a frame ago, so after a change of size one more frame is due. Nothing else
-/// would draw it.
-fn settle(ctx: &egui::Context, dialog: &egui::Response) {
-    let place = dialog.id.with("place");
-    let before = ctx.data_mut(|data| data.get_temp::<egui::Rect>(place));
-    if before != Some(dialog.rect) {
-        ctx.data_mut(|data| data.insert_temp(place, dialog.rect));
+/// Growth in points up to which a dialog keeps its upper edge: a warning or two, not the contents that were awaited.
+const KEEPS_PLACE: f32 = 160.0;
+
+/// Where a dialog was drawn last. Centred when it opens, it then keeps its upper edge, so that it does not move under
+/// the mouse when a warning appears in it.
+#[derive(Debug, Clone, Copy)]
+struct Placement {
+    window: Rect,
+    dialog: Rect,
+    /// How it lay when it was centred and had its size; `None` while it is still being centred.
+    centred: Option<Rect>,
+    /// A dialog that was not drawn in the pass before is a new one.
+    pass: u64,
+}
+
+impl Placement {
+    fn last(ctx: &Context, id: Id) -> Option<Self> {
+        let placement: Option<Self> = ctx.data(|data| data.get_temp(id.with("placement")));
+        placement.filter(|placement| placement.pass + 1 >= ctx.cumulative_pass_nr())
+    }
+
+    /// The place to keep; `None` where the dialog has to be centred: it is new, the window or its contents have
+    /// changed, or it would reach beyond the window's lower edge.
+    fn kept(&self, window: Rect) -> Option<Rect> {
+        self.centred.filter(|centred| {
+            let growth = (self.dialog.height() - centred.height()).abs();
+            let fits = centred.top() + self.dialog.height() <= window.bottom();
+            self.window == window && growth <= KEEPS_PLACE && fits
+        })
+    }
+}
+
+/// Notes where the dialog is. Its place follows from the size it had a frame ago, so after a change one more frame is
+/// due, which nothing else would draw.
+fn settle(ctx: &Context, dialog: &Response) {
+    let (id, window) = (dialog.id, ctx.content_rect());
+    let before = Placement::last(ctx, id);
+    let stable = before.is_some_and(|before| before.dialog == dialog.rect);
+    let kept = before.and_then(|before| before.kept(window));
+    let centred = kept.or_else(|| stable.then_some(dialog.rect));
+    let now = Placement { window, dialog: dialog.rect, centred, pass: ctx.cumulative_pass_nr() };
+    ctx.data_mut(|data| data.insert_temp(id.with("placement"), now));
+    if !stable {
         ctx.request_repaint();
     }
 }

@@ -35,4 +35,16 @@ impl TrustTask {
             Self::Undo(_) => TextKey::TrustUndoTitle,
         }
     }
+    /// What the button that agrees to it says: the act itself.
+    pub const fn act(&self) -> TextKey {
+        match self {
+            Self::List => TextKey::Ok,
+            Self::Add(jobs::AddTrust { destination: jobs::Destination::Crls, .. }) => TextKey::CrlAddTitle,
+            Self::Add(_) => TextKey::TrustAddTitle,
+            Self::RemoveClients(_) => TextKey::TrustDeleteTitle,
+            Self::RemoveCrls(_) => TextKey::CrlDeleteTitle,
+            Self::Move(_) => TextKey::ActMoveClients,
+            Self::Undo(_) => TextKey::TrustUndo,
+        }
+    }
 }
