@@ -4,7 +4,9 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::batch::{Presentation, Shown};
+use super::output::say;
 use super::select::Select;
+use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{Activate, KeySource};
 use crate::model::activation::{self, ActivationFile, ActivationKeys, KeyError, MAX_ACTIVATION_FILE_BYTES};
@@ -26,7 +28,7 @@ pub struct ActivateArgs {
 }
 
 const ACTIVATED: Presentation = Presentation {
-    header: &["SERIAL", "ACTIVATED", "STATUS"],
+    header: &[phrases::SERIAL, phrases::ACTIVATED, phrases::STATUS],
     show: |_, info| Shown {
         json: serde_json::json!({
             "serial": info.serial,
@@ -34,11 +36,7 @@ const ACTIVATED: Presentation = Presentation {
             "status": info.status,
             "revision": info.revision,
         }),
-        cells: vec![
-            info.serial.to_string(),
-            if info.activated { "Yes" } else { "No" }.to_owned(),
-            info.status.as_str().to_owned(),
-        ],
+        cells: vec![info.serial.to_string().into(), info.activated.into(), info.status.into()],
     },
 };
 
@@ -49,8 +47,7 @@ pub fn run(settled: &Settled, args: &ActivateArgs) -> Result<Ending, Problem> {
         (Some(file), ..) => KeySource::File(Arc::new(read(file)?)),
         (None, Some(licence), Some(activation)) => {
             if chosen.len() > 1 {
-                let detail = "keys can be given for one controller only; use a file for several";
-                return Err(Problem::with_detail(ErrorCode::BadActivationKey, detail));
+                return Err(Problem::with_detail(ErrorCode::OneControllerOnly, "use --file for several controllers"));
             }
             let bad = |which: &str, error: KeyError| {
                 Problem::with_detail(ErrorCode::BadActivationKey, format!("{which} key: {error}"))
@@ -64,7 +61,7 @@ pub fn run(settled: &Settled, args: &ActivateArgs) -> Result<Ending, Problem> {
     };
     if let KeySource::File(file) = &keys {
         for mistake in file.mistakes() {
-            eprintln!("{mistake}");
+            say(&mistake.to_string());
         }
     }
     settled.batch(&configuration, &chosen, Activate { keys }, &ACTIVATED)

@@ -2,7 +2,7 @@ use clap::Subcommand;
 use serde_json::json;
 
 use super::output::json_path;
-use super::{Ending, Settled};
+use super::{Ending, Settled, texts};
 use crate::model::Problem;
 
 #[derive(Debug, Subcommand)]
@@ -30,7 +30,7 @@ pub fn run(settled: &Settled, command: BackupCommand) -> Result<Ending, Problem>
     if settled.output.is_json() {
         settled.output.text(&json!({ "backup": backup, "folder": json_path(root) }).to_string());
     } else {
-        settled.output.text(&format!("Backup is {}; folder {}", if backup { "on" } else { "off" }, root.display()));
+        settled.output.text(&texts::backup(settled.output.language(), backup, root.display()));
     }
     Ok(Ending::AllDone)
 }

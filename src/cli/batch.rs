@@ -9,13 +9,15 @@ use parking_lot::Mutex;
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
 
+use super::output::say;
 use super::table::table;
+use super::texts::{self, Cell, Phrase, phrases};
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Operation, Outcome, Report};
 use crate::model::{ControllerInfo, ErrorCode, Problem, clock};
 use crate::pki::Severity;
 use crate::session::ManagementConnector;
-use crate::ui::texts;
+use crate::ui;
 use crate::workspace::{Configuration, ControllerEntry, Retrieved, WorkspaceLock};
 
 /// What is shown of one controller's success.
@@ -23,7 +25,7 @@ pub struct Shown {
     /// `result` of the JSON line.
     pub json: Value,
     /// One row of the table, after the name.
-    pub cells: Vec<String>,
+    pub cells: Vec<Cell>,
 }
 
 /// What a shell makes of a program that Ctrl-C ended.
@@ -32,16 +34,16 @@ const INTERRUPTED: i32 = 130;
 /// How an operation's outcomes are shown.
 pub struct Presentation {
     /// Column headings after `NAME`.
-    pub header: &'static [&'static str],
+    pub header: &'static [Phrase],
     pub show: fn(&Outcome, &ControllerInfo) -> Shown,
 }
 
 /// The usual: the server's state after the change.
 pub const STATE: Presentation = Presentation {
-    header: &["STATUS", "REVISION"],
+    header: &[phrases::STATUS, phrases::REVISION],
     show: |_, info| Shown {
         json: json!({ "status": info.status, "revision": info.revision }),
-        cells: vec![info.status.as_str().to_owned(), info.revision.to_string()],
+        cells: vec![info.status.into(), info.revision.to_string().into()],
     },
 };
 
@@ -114,18 +116,20 @@ impl Settled {
         !self.yes && std::io::stdin().is_terminal()
     }
 
-    /// An import of server certificates. Whoever sits at a terminal is shown what clients will say of them, and asked
-    /// about it together with the rest; else that is agreed to with `--yes` or not at all.
+    /// An import of server certificates. On a terminal, what clients will say of them is shown and asked about together
+    /// with the rest. Elsewhere, and with `--yes`, which agrees to the stop of the server only, `accept_warnings` says
+    /// whether certificates that clients may complain about are imported.
     pub fn import<I: Operation + 'static>(
         &self,
         configuration: &Configuration,
         chosen: &[ControllerEntry],
         check: impl Operation + 'static,
         import: impl FnOnce(bool) -> I,
+        accept_warnings: bool,
         presentation: &Presentation,
     ) -> Result<Ending, Problem> {
-        if self.output.is_json() || !self.asks() {
-            return self.batch(configuration, chosen, import(self.yes), presentation);
+        if accept_warnings || self.output.is_json() || !self.asks() {
+            return self.batch(configuration, chosen, import(accept_warnings), presentation);
         }
         let checked = self.confirmed(configuration, chosen, check, presentation)?;
         let mut good = 0;
@@ -136,7 +140,7 @@ impl Settled {
             if findings.iter().all(|finding| finding.severity == Severity::Warning) {
                 good += 1;
                 if !findings.is_empty() {
-                    remarks.push("clients may complain about what is listed above");
+                    remarks.push(texts::clients_may_complain(self.output.language()));
                 }
             }
         }
@@ -190,14 +194,14 @@ impl Settled {
                 slots.lock()[index] = Some(*report);
             }
         };
-        let runtime = runtime()?;
+        let (runtime, language) = (runtime()?, self.output.language());
         runtime.block_on(async {
             let cancel = CancellationToken::new();
             let on_interrupt = {
                 let cancel = cancel.clone();
                 tokio::spawn(async move {
                     if tokio::signal::ctrl_c().await.is_ok() {
-                        eprintln!("Stopping after the step in hand; press Ctrl-C again to leave it unfinished…");
+                        say(texts::stopping(language));
                         cancel.cancel();
                     }
                     if tokio::signal::ctrl_c().await.is_ok() {
@@ -242,12 +246,13 @@ impl Settled {
     }
 
     fn print(&self, chosen: &[ControllerEntry], reports: &[Report], presentation: &Presentation) {
-        let mut rows = Vec::new();
+        let language = self.output.language();
+        let mut rows: Vec<Vec<String>> = Vec::new();
         for (entry, report) in chosen.iter().zip(reports) {
             if let (Ok(outcome), Some(info)) = (&report.result, &report.info) {
-                let mut row = vec![entry.name.to_string()];
-                row.extend((presentation.show)(outcome, info).cells);
-                rows.push(row);
+                let cells = (presentation.show)(outcome, info).cells;
+                let cells = cells.iter().map(|cell| cell.text(language));
+                rows.push(std::iter::once(entry.name.to_string()).chain(cells).collect());
             } else if report.result.is_ok() {
                 // Done, but what the controller is like now could not be read.
                 let unknown = presentation.header.iter().map(|_| "-".to_owned());
@@ -255,14 +260,15 @@ impl Settled {
             }
         }
         if !rows.is_empty() {
-            let header: Vec<&str> = std::iter::once("NAME").chain(presentation.header.iter().copied()).collect();
-            self.output.text(&table(&header, &rows));
+            let headings = std::iter::once(&phrases::NAME).chain(presentation.header);
+            let headings: Vec<&str> = headings.map(|heading| heading.text(language)).collect();
+            self.output.text(&table(&headings, &rows));
         }
         for (entry, report) in chosen.iter().zip(reports) {
             match &report.result {
                 Ok(outcome) => {
                     for file in outcome.moved_aside() {
-                        self.output.text(&texts::moved_aside(self.output.language(), entry.name.as_str(), file));
+                        self.output.text(&ui::texts::moved_aside(self.output.language(), entry.name.as_str(), file));
                     }
                 }
                 Err(problem) => self.output.explain(Some(entry.name.as_str()), problem),
@@ -279,15 +285,15 @@ impl Settled {
             return Err(ErrorCode::NotConfirmed.into());
         }
         let names: Vec<&str> = chosen.iter().map(|c| c.name.as_str()).collect();
-        eprintln!("This changes {}:", names.join(", "));
         let language = self.output.language();
-        for sentence in texts::confirmation(confirmation) {
-            eprintln!("  - {}", sentence.text(language));
+        say(&texts::changes(language, &names));
+        for sentence in ui::texts::confirmation(confirmation) {
+            say(&format!("  - {}", sentence.text(language)));
         }
         for remark in remarks {
-            eprintln!("  - {remark}");
+            say(&format!("  - {remark}"));
         }
-        eprint!("Go on? [y/N] ");
+        eprint!("{}", texts::go_on(self.output.language()));
         let mut answer = String::new();
         let read = std::io::stderr().flush().and_then(|()| std::io::stdin().read_line(&mut answer));
         match (read, answer.trim()) {

@@ -7,6 +7,7 @@ use super::batch::{Presentation, STATE, Shown};
 use super::output::{json_path, json_paths};
 use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
+use super::texts::{Cell, phrases};
 use super::{Ending, Settled};
 use crate::jobs::{
     CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, CreateCsr, CsrFields,
@@ -25,20 +26,24 @@ pub enum CertCommand {
     SelfSigned(SelfSignedArgs),
     /// Make a key and its signing request, saved as Cert/CSR/3_csr in the controller's folder of the workspace
     Csr(CsrArgs),
-    /// Import what a CA issued for the signing request; --yes also accepts what clients may complain about
+    /// Import what a CA issued for the signing request
     ImportCa {
         /// The certificate, for one controller only [default: the only .der in the controller's Cert/CASigned]
         #[arg(long)]
         file: Option<PathBuf>,
         #[command(flatten)]
+        warnings: WarningsArgs,
+        #[command(flatten)]
         select: Select,
     },
     /// Import key and certificate made with another tool into one controller with firmware below 8.0.0: FILE.pfx
-    /// CONTROLLER, or CERTIFICATE KEYFILE CONTROLLER; --yes also accepts what clients may complain about
+    /// CONTROLLER, or CERTIFICATE KEYFILE CONTROLLER
     ImportUser {
         /// File with the password of the .pfx or of the key, "-" for standard input
         #[arg(long, value_name = "FILE")]
         password_file: Option<PathBuf>,
+        #[command(flatten)]
+        warnings: WarningsArgs,
         #[command(flatten)]
         arguments: ThingsThenSelect,
     },
@@ -50,8 +55,7 @@ pub enum CertCommand {
         #[command(flatten)]
         select: Select,
     },
-    /// Put a backup of a key back into controllers with firmware below 8.0.0, as what it was made as; --yes also accepts
-    /// what clients may complain about
+    /// Put a backup of a key back into controllers with firmware below 8.0.0, as what it was made as
     Restore {
         /// What it is a backup of: a self-signed certificate with its key (Cert/SelfSigned/1_key.pfx), or a signing
         /// request with its key and the certificate from the CA (Cert/CASigned/3_key.pfx)
@@ -64,6 +68,8 @@ pub enum CertCommand {
         #[arg(long, value_name = "FILE")]
         password_file: Option<PathBuf>,
         #[command(flatten)]
+        warnings: WarningsArgs,
+        #[command(flatten)]
         select: Select,
     },
     /// Save the self-signed certificate as Cert/SelfSigned/1_cert in the controller's folder of the workspace
@@ -73,6 +79,14 @@ pub enum CertCommand {
         #[command(flatten)]
         select: Select,
     },
+}
+
+/// Agreement to import a certificate that is not as it should be. `--yes` does not include it.
+#[derive(Debug, Clone, Copy, Args)]
+pub struct WarningsArgs {
+    /// Import although clients may complain about the certificate; what they will say is listed
+    #[arg(long)]
+    pub accept_warnings: bool,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -168,7 +182,7 @@ pub struct SelfSignedArgs {
 }
 
 const CERTIFICATE: Presentation = Presentation {
-    header: &["STATUS", "COMMON NAME", "EXPIRY", "THUMBPRINT"],
+    header: &[phrases::STATUS, phrases::COMMON_NAME, phrases::EXPIRY, phrases::THUMBPRINT],
     show: |outcome, info| {
         let Outcome::Certificate { summary, saved } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -184,17 +198,17 @@ const CERTIFICATE: Presentation = Presentation {
                 "moved_aside": json_paths(outcome.moved_aside()),
             }),
             cells: vec![
-                info.status.as_str().to_owned(),
-                summary.issued_to.clone(),
-                summary.not_after.format("%Y-%m-%d").to_string(),
-                summary.thumbprint.clone(),
+                info.status.into(),
+                summary.issued_to.clone().into(),
+                summary.not_after.format("%Y-%m-%d").to_string().into(),
+                summary.thumbprint.clone().into(),
             ],
         }
     },
 };
 
 const CSR: Presentation = Presentation {
-    header: &["STATUS", "COMMON NAME", "FILE"],
+    header: &[phrases::STATUS, phrases::COMMON_NAME, phrases::FILE],
     show: |outcome, info| {
         let Outcome::Csr { common_name, saved } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -206,13 +220,20 @@ const CSR: Presentation = Presentation {
                 "saved": { "csr": json_path(&saved.csr), "key": saved.key.as_deref().map(json_path) },
                 "moved_aside": json_paths(outcome.moved_aside()),
             }),
-            cells: vec![info.status.as_str().to_owned(), common_name.clone(), saved.csr.display().to_string()],
+            cells: vec![info.status.into(), common_name.clone().into(), saved.csr.display().to_string().into()],
         }
     },
 };
 
 pub const IMPORTED: Presentation = Presentation {
-    header: &["STATUS", "ISSUED TO", "ISSUED BY", "EXPIRY", "THUMBPRINT", "WARNINGS"],
+    header: &[
+        phrases::STATUS,
+        phrases::ISSUED_TO,
+        phrases::ISSUED_BY,
+        phrases::EXPIRY,
+        phrases::THUMBPRINT,
+        phrases::WARNINGS,
+    ],
     show: |outcome, info| {
         let Outcome::Imported { summary, findings, moved_aside } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -225,19 +246,19 @@ pub const IMPORTED: Presentation = Presentation {
                 "moved_aside": json_paths(moved_aside),
             }),
             cells: vec![
-                info.status.as_str().to_owned(),
-                summary.issued_to.clone(),
-                summary.issued_by.clone(),
-                summary.not_after.format("%Y-%m-%d").to_string(),
-                summary.thumbprint.clone(),
-                findings.iter().map(Finding::status).collect::<Vec<_>>().join(" "),
+                info.status.into(),
+                summary.issued_to.clone().into(),
+                summary.issued_by.clone().into(),
+                summary.not_after.format("%Y-%m-%d").to_string().into(),
+                summary.thumbprint.clone().into(),
+                findings.iter().map(Finding::status).collect::<Vec<_>>().join(" ").into(),
             ],
         }
     },
 };
 
 const EXPORTED: Presentation = Presentation {
-    header: &["EXPIRY", "THUMBPRINT", "FILE"],
+    header: &[phrases::EXPIRY, phrases::THUMBPRINT, phrases::FILE],
     show: |outcome, _| {
         let Outcome::Exported { summary, saved } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -249,21 +270,21 @@ const EXPORTED: Presentation = Presentation {
                 "moved_aside": json_paths(&saved.moved_aside),
             }),
             cells: vec![
-                summary.not_after.format("%Y-%m-%d").to_string(),
-                summary.thumbprint.clone(),
-                saved.file.display().to_string(),
+                summary.not_after.format("%Y-%m-%d").to_string().into(),
+                summary.thumbprint.clone().into(),
+                saved.file.display().to_string().into(),
             ],
         }
     },
 };
 
 const RESTORED: Presentation = Presentation {
-    header: &["STATUS", "ISSUED TO", "EXPIRY", "THUMBPRINT", "WARNINGS"],
+    header: &[phrases::STATUS, phrases::ISSUED_TO, phrases::EXPIRY, phrases::THUMBPRINT, phrases::WARNINGS],
     show: |outcome, info| {
         let Outcome::Restored { summary, findings } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
-        let cell = |of: fn(&CertificateSummary) -> String| summary.as_ref().map_or("-".to_owned(), of);
+        let cell = |of: fn(&CertificateSummary) -> String| Cell::from(summary.as_ref().map_or("-".to_owned(), of));
         Shown {
             json: json!({
                 "status": info.status,
@@ -271,11 +292,11 @@ const RESTORED: Presentation = Presentation {
                 "findings": findings.iter().map(finding).collect::<Vec<_>>(),
             }),
             cells: vec![
-                info.status.as_str().to_owned(),
+                info.status.into(),
                 cell(|summary| summary.issued_to.clone()),
                 cell(|summary| summary.not_after.format("%Y-%m-%d").to_string()),
                 cell(|summary| summary.thumbprint.clone()),
-                findings.iter().map(Finding::status).collect::<Vec<_>>().join(" "),
+                findings.iter().map(Finding::status).collect::<Vec<_>>().join(" ").into(),
             ],
         }
     },
@@ -298,7 +319,7 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
     match command {
         CertCommand::SelfSigned(args) => self_signed(settled, &configuration, args),
         CertCommand::Csr(args) => csr(settled, &configuration, args),
-        CertCommand::ImportCa { file, select } => {
+        CertCommand::ImportCa { file, warnings, select } => {
             let chosen = select.resolve(&configuration)?;
             let source = match file {
                 None => CaCertificateSource::Folder(settled.workspace.certificate_files()),
@@ -312,9 +333,9 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
             };
             let check = CheckCaCertificate(source.clone());
             let import = |accept_warnings| ImportCaCertificate { source, accept_warnings };
-            settled.import(&configuration, &chosen, check, import, &IMPORTED)
+            settled.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
         }
-        CertCommand::ImportUser { password_file, arguments } => {
+        CertCommand::ImportUser { password_file, warnings, arguments } => {
             let (files, chosen) = arguments.resolve(&configuration)?;
             one_only(&chosen)?;
             let files = match files.as_slice() {
@@ -326,13 +347,13 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
             files.read(password.as_ref())?;
             let check = CheckUserCertificate { files: files.clone(), password: password.clone() };
             let import = |accept_warnings| ImportUserCertificate { files, password, accept_warnings };
-            settled.import(&configuration, &chosen, check, import, &IMPORTED)
+            settled.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
         }
         CertCommand::SelectType { kind, select } => {
             let chosen = select.resolve(&configuration)?;
             settled.batch(&configuration, &chosen, SelectCertificateType(kind.into()), &STATE)
         }
-        CertCommand::Restore { kind, file, password_file, select } => {
+        CertCommand::Restore { kind, file, password_file, warnings, select } => {
             let chosen = select.resolve(&configuration)?;
             if file.is_some() {
                 one_only(&chosen)?;
@@ -342,7 +363,7 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
                 KeyBackupSource { files: settled.workspace.certificate_files(), kind: kind.into(), chosen: file };
             let check = CheckCertificateBackup { source: source.clone(), password: password.clone() };
             let restore = |accept_warnings| RestoreCertificate { source, password, accept_warnings };
-            settled.import(&configuration, &chosen, check, restore, &RESTORED)
+            settled.import(&configuration, &chosen, check, restore, warnings.accept_warnings, &RESTORED)
         }
         CertCommand::Export { format, select } => {
             let chosen = select.resolve(&configuration)?;

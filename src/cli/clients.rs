@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use super::batch::{Presentation, Shown};
 use super::select::{Select, ThingsThenSelect};
+use super::texts::{Cell, phrases};
 use super::trust_files::{read_trust_files, show_move, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, Outcome, RemoveClients, TrustChange, TrustSnapshot};
@@ -54,15 +55,15 @@ pub enum AddTo {
 }
 
 const ALL_LISTS: Presentation = Presentation {
-    header: &["CERTIFICATES"],
+    header: &[phrases::CERTIFICATES],
     show: |outcome, _| shown(outcome, &[ClientList::Trusted, ClientList::Issuers, ClientList::Rejected]),
 };
 const TRUSTED: Presentation =
-    Presentation { header: &["TRUSTED"], show: |outcome, _| shown(outcome, &[ClientList::Trusted]) };
+    Presentation { header: &[phrases::TRUSTED], show: |outcome, _| shown(outcome, &[ClientList::Trusted]) };
 const ISSUERS: Presentation =
-    Presentation { header: &["ISSUERS"], show: |outcome, _| shown(outcome, &[ClientList::Issuers]) };
+    Presentation { header: &[phrases::ISSUERS], show: |outcome, _| shown(outcome, &[ClientList::Issuers]) };
 const REJECTED: Presentation =
-    Presentation { header: &["REJECTED"], show: |outcome, _| shown(outcome, &[ClientList::Rejected]) };
+    Presentation { header: &[phrases::REJECTED], show: |outcome, _| shown(outcome, &[ClientList::Rejected]) };
 
 /// What a list holds in one cell.
 pub fn listing(lines: &[String]) -> String {
@@ -81,7 +82,7 @@ fn shown(outcome: &Outcome, lists: &[ClientList]) -> Shown {
         let label = if lists.len() > 1 { format!("{}: ", list.as_str()) } else { String::new() };
         words.extend(lines.into_iter().map(|line| format!("{label}{line}")));
     }
-    Shown { json, cells: vec![listing(&words)] }
+    Shown { json, cells: vec![listing(&words).into()] }
 }
 
 fn listed(held: &TrustSnapshot, list: ClientList) -> (Value, Vec<String>) {
@@ -133,7 +134,15 @@ fn refused_line(rejected: &RejectedClient) -> String {
 
 /// A change of lists or CRLs: how many there are now, and who was disconnected.
 pub const CHANGE: Presentation = Presentation {
-    header: &["STATUS", "REVISION", "TRUSTED", "ISSUERS", "REJECTED", "CRLS", "DISCONNECTED"],
+    header: &[
+        phrases::STATUS,
+        phrases::REVISION,
+        phrases::TRUSTED,
+        phrases::ISSUERS,
+        phrases::REJECTED,
+        phrases::CRLS,
+        phrases::DISCONNECTED,
+    ],
     show: |outcome, info| {
         let Outcome::TrustChanged(change) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -149,10 +158,10 @@ pub const CHANGE: Presentation = Presentation {
             "crls": counts[3],
             "disconnected": cut,
         });
-        let mut cells = vec![info.status.as_str().to_owned(), lists.revision.to_string()];
-        cells.extend(counts.map(|count| count.to_string()));
+        let mut cells: Vec<Cell> = vec![info.status.into(), lists.revision.to_string().into()];
+        cells.extend(counts.map(|count| count.to_string().into()));
         let gone: Vec<String> = cut.iter().map(|cut| format!("{} ({})", cut.issued_to, cut.address)).collect();
-        cells.push(if gone.is_empty() { "-".to_owned() } else { gone.join(", ") });
+        cells.push(if gone.is_empty() { "-".to_owned() } else { gone.join(", ") }.into());
         Shown { json, cells }
     },
 };

@@ -4,7 +4,9 @@ use clap::{Args, Subcommand};
 use secrecy::SecretString;
 use serde_json::json;
 
+use super::output::say;
 use super::table::table;
+use super::texts::{self, phrases};
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Enrolled};
 use crate::model::{Address, ControllerName, ControllerSeries, ErrorCode, Problem, clock};
@@ -104,11 +106,13 @@ fn list(settled: &Settled) -> Result<Ending, Problem> {
             .iter()
             .map(|c| {
                 let seen = c.last.as_ref().map_or("-".into(), |l| l.at.format("%Y-%m-%d %H:%M UTC").to_string());
-                let identity = if c.fingerprint.is_some() { "confirmed" } else { "not confirmed" };
-                vec![c.name.to_string(), c.series.to_string(), c.address.to_string(), identity.to_owned(), seen]
+                let identity = if c.fingerprint.is_some() { phrases::CONFIRMED } else { phrases::NOT_CONFIRMED };
+                let identity = identity.text(settled.output.language()).to_owned();
+                vec![c.name.to_string(), c.series.to_string(), c.address.to_string(), identity, seen]
             })
             .collect();
-        settled.output.text(&table(&["NAME", "TYPE", "ADDRESS", "IDENTITY", "RETRIEVED"], &rows));
+        let headings = [phrases::NAME, phrases::TYPE, phrases::ADDRESS, phrases::IDENTITY, phrases::RETRIEVED];
+        settled.output.text(&table(&headings.map(|heading| heading.text(settled.output.language())), &rows));
     }
     Ok(Ending::AllDone)
 }
@@ -117,14 +121,15 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
     let bad = |code: ErrorCode, e: &dyn std::fmt::Display| Problem::with_detail(code, e);
     let name: ControllerName = args.name.parse().map_err(|e| bad(ErrorCode::BadName, &e))?;
     let address: Address = args.address.parse().map_err(|e| bad(ErrorCode::BadAddress, &e))?;
-    let series: ControllerSeries = args.series.parse().map_err(|e| bad(ErrorCode::BadName, &e))?;
+    let series: ControllerSeries = args.series.parse().map_err(|e| bad(ErrorCode::UnknownSeries, &e))?;
+    let language = settled.output.language();
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
     // Held from the check to the save, so that two commands cannot add the same name.
     let lock = settled.lock()?;
     let mut configuration = settled.configuration()?;
     configuration.check_new(&name, &address)?;
     let (entry, shown, text) = if args.unconfirmed {
-        let text = format!("Added {name}: {address}; confirm its identity with \"controllers trust\"");
+        let text = texts::added_unconfirmed(language, &name, &address);
         let entry = ControllerEntry::unconfirmed(name.clone(), address, series);
         (entry, json!({ "fingerprint": null }), text)
     } else {
@@ -133,15 +138,15 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
             Ok(Enrolled { fingerprint, info, .. }) => (fingerprint, info),
             Err(code) => {
                 if code.is_unreached() && !settled.output.is_json() {
-                    eprintln!("    To add it now and confirm its identity later, use --unconfirmed.");
+                    say(texts::add_unconfirmed(language));
                 }
                 return Ok(Ending::SomeFailed);
             }
         };
         if info.series != series {
-            eprintln!("{name}: the controller says that it is {} {}", info.series, info.serial);
+            say(&texts::other_series(language, &name, format!("{} {}", info.series, info.serial)));
         }
-        let text = format!("Added {name}: {} {} {fingerprint}", info.series, info.serial);
+        let text = texts::added(language, &name, format!("{} {} {fingerprint}", info.series, info.serial));
         let shown = json!({ "fingerprint": fingerprint, "info": info });
         let (series, last) = (info.series, Some(Retrieved { at: clock::now(), info }));
         (ControllerEntry { name: name.clone(), address, series, fingerprint: Some(fingerprint), last }, shown, text)
@@ -197,7 +202,8 @@ fn failed(settled: &Settled, name: &str, problem: &Problem) {
 }
 
 fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Ending, Problem> {
-    let series: ControllerSeries = series.parse().map_err(|e| Problem::with_detail(ErrorCode::BadName, e))?;
+    let series: ControllerSeries = series.parse().map_err(|e| Problem::with_detail(ErrorCode::UnknownSeries, e))?;
+    let language = settled.output.language();
     let path = file.unwrap_or_else(|| settled.workspace.connection_list_path());
     let list = ConnectionList::parse(&super::read_bounded(&path, MAX_CONNECTION_LIST_BYTES)?)?;
     let lock = settled.lock()?;
@@ -210,11 +216,11 @@ fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Endi
     let mut ending = Ending::AllDone;
     for PlannedConnection { line, name, verdict, .. } in &plan {
         let said = match verdict {
-            Ok(new) => (json!({ "line": line, "address": new.address }), format!("Added {name}: {}", new.address)),
+            Ok(new) => (json!({ "line": line, "address": new.address }), texts::added(language, name, &new.address)),
             Err(skipped) => match skipped.problem(*line) {
                 None => (
                     json!({ "line": line, "skipped": skipped.to_string() }),
-                    format!("Left out {name}, line {line}: {skipped}"),
+                    texts::left_out(language, name, *line, crate::ui::texts::skipped(language, skipped)),
                 ),
                 Some(problem) => {
                     failed(settled, name, &problem);
@@ -252,7 +258,8 @@ fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
     };
     let shown = json!({ "fingerprint": enrolled.fingerprint, "info": enrolled.info });
     let Enrolled { fingerprint, info, .. } = enrolled;
-    let text = format!("Trusted {}: {} {} {fingerprint}", entry.name, info.series, info.serial);
+    let what = format!("{} {} {fingerprint}", info.series, info.serial);
+    let text = texts::trusted(settled.output.language(), &entry.name, what);
     entry.series = info.series;
     entry.fingerprint = Some(fingerprint);
     entry.last = Some(Retrieved { at: clock::now(), info });
@@ -283,14 +290,12 @@ fn remove(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
         if settled.output.is_json() {
             settled.output.done(entry.name.as_str(), &json!({}));
         } else {
-            settled.output.text(&format!("Removed {}", entry.name));
+            settled.output.text(&texts::removed(settled.output.language(), &entry.name));
         }
     }
     let vault = passwords.store().map(|store| store.status().vault);
     if matches!(vault, Some(VaultState::Closed | VaultState::Declined)) {
-        eprintln!(
-            "The vault is not open: passwords in it stay; \"vault status\" lists them, \"vault forget\" deletes them."
-        );
+        say(texts::vault_keeps(settled.output.language()));
     }
     Ok(Ending::AllDone)
 }

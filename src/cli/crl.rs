@@ -6,6 +6,7 @@ use serde_json::json;
 use super::batch::{Presentation, Shown};
 use super::clients::{CHANGE, hexadecimal, listing};
 use super::select::{Select, ThingsThenSelect};
+use super::texts::phrases;
 use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, Outcome, RemoveCrls};
@@ -24,7 +25,7 @@ pub enum CrlCommand {
 }
 
 const CRLS: Presentation = Presentation {
-    header: &["CRLS"],
+    header: &[phrases::CRLS],
     show: |outcome, _| {
         let Outcome::TrustLists(held) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -37,7 +38,7 @@ const CRLS: Presentation = Presentation {
             .collect();
         let lines: Vec<String> = with_health().map(|(crl, health)| line(crl, health)).collect();
         let json = json!({ "revision": held.revision, "crls": json, "without_crl": held.health.without_crl });
-        Shown { json, cells: vec![listing(&lines)] }
+        Shown { json, cells: vec![listing(&lines).into()] }
     },
 };
 

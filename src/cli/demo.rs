@@ -3,8 +3,9 @@ use std::sync::Arc;
 
 use clap::Args;
 
+use super::output::say;
 use super::virtual_plant::VirtualPlant;
-use super::{Ending, Settled, window};
+use super::{Ending, Settled, texts, window};
 use crate::model::{ErrorCode, Language, Problem};
 use crate::virtual_controller::DEMO_COUNT;
 use crate::workspace::{Configuration, MemoryPasswords, Passwords, Workspace};
@@ -27,7 +28,7 @@ pub fn run(settled: &Settled, args: &DemoArgs, language: Option<Language>) -> Re
     let plant = VirtualPlant::new(folder.path().join("virtual"), args.controllers, args.seed)?;
     let passwords: Arc<dyn Passwords> = Arc::new(MemoryPasswords::default());
     let mut configuration = Configuration::default();
-    eprintln!("Starting {} virtual controllers…", args.controllers);
+    say(&texts::starting_virtual(settled.output.language(), args.controllers));
     plant.enter(&mut configuration, passwords.as_ref())?;
     let settled = Settled {
         workspace,

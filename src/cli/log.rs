@@ -3,6 +3,7 @@ use serde_json::json;
 
 use super::batch::{Presentation, STATE, Shown};
 use super::select::Select;
+use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{LogPart, Outcome, ReadLog, SetSettings, SettingsChange};
 use crate::model::{Problem, foreign_text};
@@ -22,14 +23,14 @@ pub enum LogCommand {
 }
 
 const LOG: Presentation = Presentation {
-    header: &["LOG"],
+    header: &[phrases::LOG],
     show: |outcome, _| {
         let Outcome::Log(log) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
             json: json!({ "size": log.size, "from": log.from, "next": log.next, "text": log.text }),
-            cells: vec![format!("{} bytes", log.size)],
+            cells: vec![log.size.to_string().into()],
         }
     },
 };

@@ -24,6 +24,7 @@ mod settings;
 mod settings_transfer;
 mod start_failure;
 mod table;
+mod texts;
 mod trust_files;
 mod users;
 mod vault;
@@ -38,7 +39,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Arc;
 
-use clap::{CommandFactory as _, Parser, Subcommand};
+use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::model::{Language, Problem};
 use crate::platform::console;
@@ -194,12 +195,13 @@ enum Ending {
 pub fn main() -> ExitCode {
     console::attach();
     start_failure::show_panics();
-    let cli = Cli::try_parse().unwrap_or_else(|error| {
+    let language = language_of(std::env::args_os()).unwrap_or_else(system_language);
+    let parsed = texts::localised(Cli::command(), language).try_get_matches();
+    let cli = parsed.and_then(|matches| Cli::from_arg_matches(&matches)).unwrap_or_else(|error| {
         start_failure::show_usage(&error);
         error.exit()
     });
     init_log(cli.verbose);
-    let language = cli.lang.unwrap_or_else(system_language);
     let output = Output::new(cli.json, language);
     let root = cli.workspace.clone();
     let settled = Settled {
@@ -235,7 +237,9 @@ pub fn main() -> ExitCode {
         Some(Command::Backup(command)) => backup::run(&settled, command),
         Some(Command::Vault(command)) => vault::run(&settled, command),
         Some(Command::Completions { shell }) => {
-            clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut std::io::stdout());
+            let mut script = Vec::new();
+            clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut script);
+            output.text(&String::from_utf8_lossy(&script));
             Ok(Ending::AllDone)
         }
     };
@@ -250,12 +254,24 @@ pub fn main() -> ExitCode {
     }
 }
 
+/// The language that was asked for: needed before the arguments are parsed, for the help.
+fn language_of(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> Option<Language> {
+    let mut arguments = arguments.into_iter().map(|argument| argument.to_string_lossy().into_owned());
+    let value = arguments.find_map(|argument| match argument.as_str() {
+        "--lang" => Some(None),
+        _ => argument.strip_prefix("--lang=").map(|value| Some(value.to_owned())),
+    })?;
+    parse_language(&value.or_else(|| arguments.next())?).ok()
+}
+
 fn system_language() -> Language {
     sys_locale::get_locale().map_or(Language::En, |locale| Language::from_locale(&locale))
 }
 
 /// `RUST_LOG` wins over `-v`. Logs never hold secrets: the types that carry them do not show them.
 fn init_log(verbose: u8) {
+    use std::io::IsTerminal as _;
+
     use tracing_subscriber::EnvFilter;
     let default = match verbose {
         // What the OPC UA library calls an error is a peer that refuses or hangs up; whoever asked is told.
@@ -265,7 +281,11 @@ fn init_log(verbose: u8) {
         _ => "debug",
     };
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(default));
-    tracing_subscriber::fmt().with_env_filter(filter).with_writer(std::io::stderr).init();
+    tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
+        .init();
 }
 
 /// Reads a file that is given on the command line, up to one byte more than `limit`.
@@ -296,7 +316,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_command_line_is_well_formed() {
-        Cli::command().debug_assert();
+    fn the_command_line_is_well_formed_in_every_language() {
+        for language in Language::ALL {
+            texts::localised(Cli::command(), language).debug_assert();
+        }
+    }
+
+    #[test]
+    fn the_language_is_known_before_the_arguments_are_parsed() {
+        let of = |arguments: &[&str]| language_of(arguments.iter().map(Into::into));
+        assert_eq!(of(&["program", "--lang", "zh", "info"]), Some(Language::Zh));
+        assert_eq!(of(&["program", "info", "--lang=zh", "--help"]), Some(Language::Zh));
+        for none in [&["program", "info"][..], &["program", "--lang"], &["program", "--lang", "ja"]] {
+            assert_eq!(of(none), None, "{none:?}");
+        }
     }
 }

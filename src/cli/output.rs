@@ -91,7 +91,7 @@ impl Output {
         let explained = problem.code.explain(self.language);
         let who = who.map(|w| format!("{w}: ")).unwrap_or_default();
         let detail = problem.detail.as_ref().map(|d| format!(" ({d})")).unwrap_or_default();
-        eprintln!("{who}{}{detail}\n    {}\n    {}", explained.message, explained.cause, explained.remedy);
+        say(&format!("{who}{}{detail}\n    {}\n    {}", explained.message, explained.cause, explained.remedy));
     }
 
     /// What clients will say about a certificate, on standard error.
@@ -103,7 +103,7 @@ impl Output {
                 (Severity::Error, Language::Zh) => "错误",
                 (Severity::Warning, Language::Zh) => "警告",
             };
-            eprintln!("{who}: {severity}: {} ({})", finding.explain(self.language), finding.status());
+            say(&format!("{who}: {severity}: {} ({})", finding.explain(self.language), finding.status()));
         }
     }
 
@@ -125,6 +125,11 @@ pub fn json_path(path: &Path) -> Value {
 /// Paths, each as [`json_path`] writes it.
 pub fn json_paths(paths: &[PathBuf]) -> Value {
     paths.iter().map(|path| json_path(path)).collect()
+}
+
+/// A line on standard error: progress, questions, explanations. A reader that went away is no reason to fail.
+pub fn say(text: &str) {
+    let _gone = writeln!(std::io::stderr().lock(), "{text}");
 }
 
 /// A reader that went away (`| head`) is no reason to fail.

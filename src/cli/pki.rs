@@ -4,7 +4,7 @@ use chrono::{DateTime, Utc};
 use clap::{Args, Subcommand, ValueEnum};
 use serde_json::json;
 
-use super::output::json_path;
+use super::output::{json_path, say};
 use super::secret_file::read_secret;
 use super::{Ending, Settled, read_bounded};
 use crate::model::{ErrorCode, Language, Problem, SecurityPolicy, clock};
@@ -166,7 +166,7 @@ fn rejected(settled: &Settled, rejection: &Rejection) -> Ending {
     } else {
         settled.output.text(status.as_str());
     }
-    eprintln!("{subject}: {}\n    {}", flaw.reason(language), flaw.remedy(language));
+    say(&format!("{subject}: {}\n    {}", flaw.reason(language), flaw.remedy(language)));
     Ending::SomeFailed
 }
 

@@ -2,33 +2,43 @@ use serde_json::json;
 
 use super::batch::{Presentation, STATE, Shown};
 use super::select::Select;
+use super::texts::{Cell, phrases};
 use super::{Ending, Settled};
 use crate::jobs::{GetInfo, StartServer, StopServer};
 use crate::model::{Problem, ServerCertificate};
 
 const INFO: Presentation = Presentation {
-    header: &["TYPE", "SERIAL", "FIRMWARE", "STATUS", "CERTIFICATE", "EXPIRY", "ACTIVATED", "ENDPOINT"],
+    header: &[
+        phrases::TYPE,
+        phrases::SERIAL,
+        phrases::FIRMWARE,
+        phrases::STATUS,
+        phrases::CERTIFICATE,
+        phrases::EXPIRY,
+        phrases::ACTIVATED,
+        phrases::ENDPOINT,
+    ],
     show: |_, info| {
         let (kind, expiry) = match &info.certificate {
             Some(ServerCertificate { kind, summary }) => {
-                (format!("{kind:?}"), summary.not_after.format("%Y-%m-%d").to_string())
+                (Cell::from(*kind), summary.not_after.format("%Y-%m-%d").to_string())
             }
-            None => ("-".to_owned(), "-".to_owned()),
+            None => (Cell::from("-".to_owned()), "-".to_owned()),
         };
         Shown {
             json: json!(info),
             cells: vec![
-                info.series.to_string(),
-                info.serial.to_string(),
-                info.firmware.to_string(),
+                info.series.to_string().into(),
+                info.serial.to_string().into(),
+                info.firmware.to_string().into(),
                 match info.error {
-                    Some(code) => format!("{} ({})", info.status.as_str(), code.as_str()),
-                    None => info.status.as_str().to_owned(),
+                    Some(code) => Cell::from(info.status).followed_by(format!(" ({})", code.as_str())),
+                    None => info.status.into(),
                 },
                 kind,
-                expiry,
-                if info.activated { "Yes" } else { "No" }.to_owned(),
-                info.endpoint.clone(),
+                expiry.into(),
+                info.activated.into(),
+                info.endpoint.clone().into(),
             ],
         }
     },

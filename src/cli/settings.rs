@@ -9,6 +9,7 @@ use super::batch::{Presentation, STATE, Shown};
 use super::passwords::ask_secret;
 use super::secret_file::read_secret;
 use super::select::Select;
+use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{Outcome, ReadSettings, SetSettings, SettingsChange};
 use crate::model::{
@@ -74,7 +75,7 @@ fn log_password(file: Option<&Path>) -> Result<String, Problem> {
 }
 
 const SETTINGS: Presentation = Presentation {
-    header: &["PORT", "STARTUP", "POLICIES", "TOKENS", "LOG"],
+    header: &[phrases::PORT, phrases::STARTUP, phrases::POLICIES, phrases::TOKENS, phrases::LOG],
     show: |outcome, _| {
         let Outcome::Settings(settings) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -84,11 +85,11 @@ const SETTINGS: Presentation = Presentation {
         Shown {
             json: json!(settings.value),
             cells: vec![
-                port.to_string(),
-                startup.as_str().to_owned(),
-                join(security_policies.iter().map(|p| p.as_str()).collect()),
-                join(user_tokens.iter().map(|t| t.as_str()).collect()),
-                if *server_log { "On" } else { "Off" }.to_owned(),
+                port.to_string().into(),
+                startup.as_str().to_owned().into(),
+                join(security_policies.iter().map(|p| p.as_str()).collect()).into(),
+                join(user_tokens.iter().map(|t| t.as_str()).collect()).into(),
+                if *server_log { phrases::ON } else { phrases::OFF }.into(),
             ],
         }
     },
@@ -120,7 +121,7 @@ pub fn run(settled: &Settled, command: SettingsCommand) -> Result<Ending, Proble
                 delete_log,
             };
             if change == SettingsChange::default() {
-                return Err(Problem::with_detail(ErrorCode::BadSettings, "nothing to change was given"));
+                return Err(ErrorCode::NothingToChange.into());
             }
             let log_password = match server_log {
                 Some(true) => Some(log_password(log_password_file.as_deref())?),

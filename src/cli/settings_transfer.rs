@@ -7,6 +7,7 @@ use super::batch::{Presentation, Shown};
 use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
+use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{ExportSettings, ImportSettings, Outcome};
 use crate::model::Problem;
@@ -23,14 +24,14 @@ pub struct TransferArgs {
 }
 
 const EXPORTED: Presentation = Presentation {
-    header: &["SERIAL", "FILE"],
+    header: &[phrases::SERIAL, phrases::FILE],
     show: |outcome, info| {
         let Outcome::SettingsExported { path } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
             json: json!({ "serial": info.serial, "file": json_path(path) }),
-            cells: vec![info.serial.to_string(), path.display().to_string()],
+            cells: vec![info.serial.to_string().into(), path.display().to_string().into()],
         }
     },
 };

@@ -3,11 +3,14 @@
 use std::io::{IsTerminal as _, Write as _};
 use std::path::Path;
 
+use super::output::say;
 use super::table::table;
+use super::texts::{self, Phrase, phrases};
 use super::{Settled, read_bounded};
-use crate::jobs::{Destination, Fate, Note, SkipReason, Target, Thing, TrustFile, TrustPlan, TrustSnapshot};
+use crate::jobs::{Destination, Fate, Note, Target, Thing, TrustFile, TrustPlan, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Language, ListLimits, Problem, clock};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
+use crate::ui;
 use crate::workspace::ControllerEntry;
 
 /// Reads them all; one that is no good, or has no CRL where CRLs are asked for, makes the request wrong.
@@ -42,10 +45,8 @@ pub fn show_plan(
 ) -> Result<(), Problem> {
     let now = clock::now();
     let mut unclear = false;
-    for (generation, says) in [
-        (FirmwareGeneration::Current, "firmware 8.0.0 and later"),
-        (FirmwareGeneration::Legacy, "firmware below 8.0.0"),
-    ] {
+    let language = settled.output.language();
+    for generation in [FirmwareGeneration::Current, FirmwareGeneration::Legacy] {
         let concerned = chosen.iter().any(|entry| {
             // One that was never read may be either.
             entry.last.as_ref().is_none_or(|last| last.info.generation() == generation)
@@ -56,7 +57,9 @@ pub fn show_plan(
         let plan = TrustPlan::new(files, destination, generation, ListLimits::of(generation), now, None);
         unclear |= plan.needs_a_look();
         if plan.needs_a_look() && !settled.output.is_json() {
-            eprintln!("Controllers with {says}:\n{}", table(&["FILE", "WHAT", "GOES TO", "NOTE"], &rows(&plan)));
+            let headings = [phrases::FILE, phrases::WHAT, phrases::GOES_TO, phrases::NOTE];
+            let plan = table(&headings.map(|heading| heading.text(language)), &rows(&plan, language));
+            say(&format!("{}\n{plan}", texts::controllers_with(language, generation)));
         }
     }
     if unclear { agreed(settled) } else { Ok(()) }
@@ -70,7 +73,7 @@ fn agreed(settled: &Settled) -> Result<(), Problem> {
     if !std::io::stdin().is_terminal() {
         return Err(ErrorCode::NotConfirmed.into());
     }
-    eprint!("Go on? [y/N] ");
+    eprint!("{}", texts::go_on(settled.output.language()));
     let mut answer = String::new();
     let read = std::io::stderr().flush().and_then(|()| std::io::stdin().read_line(&mut answer));
     match (read, answer.trim()) {
@@ -95,46 +98,39 @@ pub fn show_move(
     if rows.is_empty() {
         return Ok(());
     }
-    eprintln!("{}", table(&["NAME", "CERTIFICATE", "NOTE"], &rows));
+    let headings = [phrases::NAME, phrases::CERTIFICATES, phrases::NOTE];
+    say(&table(&headings.map(|heading| heading.text(settled.output.language())), &rows));
     agreed(settled)
 }
 
-fn rows(plan: &TrustPlan) -> Vec<Vec<String>> {
+fn rows(plan: &TrustPlan, language: Language) -> Vec<Vec<String>> {
     plan.items
         .iter()
         .map(|item| {
             let what = match &item.thing {
-                Thing::Certificate { summary, authority: true, .. } => format!("authority {}", summary.issued_to),
-                Thing::Certificate { summary, .. } => format!("application {}", summary.issued_to),
-                Thing::Crl { summary, .. } => format!("CRL of {}", summary.issuer),
+                Thing::Certificate { summary, authority: true, .. } => texts::authority(language, &summary.issued_to),
+                Thing::Certificate { summary, .. } => texts::application(language, &summary.issued_to),
+                Thing::Crl { summary, .. } => texts::crl_of(language, &summary.issuer),
             };
             let (to, note) = match &item.fate {
-                Fate::Goes { to, notes } => (target(*to), words(notes, Language::En)),
-                Fate::Skipped(reason) => ("-", skipped(*reason).to_owned()),
-                Fate::Refused(problem) => ("-", problem.to_string()),
+                Fate::Goes { to, notes } => (target(*to).text(language), words(notes, language)),
+                Fate::Skipped(reason) => ("-", ui::texts::skipped_thing(*reason).text(language).to_owned()),
+                Fate::Refused(problem) => ("-", texts::problem(language, problem)),
             };
             vec![item.file_name.clone(), what, to.to_owned(), note]
         })
         .collect()
 }
 
-const fn target(target: Target) -> &'static str {
+const fn target(target: Target) -> Phrase {
     match target {
-        Target::Trusted => "trusted",
-        Target::Issuers => "issuers",
-        Target::Crls => "CRLs",
+        Target::Trusted => phrases::TRUSTED,
+        Target::Issuers => phrases::ISSUERS,
+        Target::Crls => phrases::CRLS,
     }
 }
 
 fn words(notes: &[Note], language: Language) -> String {
     notes.iter().map(|note| note.text(language)).collect::<Vec<_>>().join("; ")
-}
-
-const fn skipped(reason: SkipReason) -> &'static str {
-    match reason {
-        SkipReason::Repeated => "left out: there twice",
-        SkipReason::AlreadyHeld => "left out: already held",
-        SkipReason::Outdated => "left out: there is a newer one",
-        SkipReason::NotAskedFor => "left out: not what was asked for",
     }
 }

@@ -7,6 +7,7 @@ use serde_json::json;
 use super::batch::{Presentation, STATE, Shown};
 use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
+use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{AddUser, ListUsers, Outcome, RemoveUsers};
 use crate::model::{Credential, CredentialError, ErrorCode, Problem, UserName, UserPassword};
@@ -29,13 +30,13 @@ pub enum UsersCommand {
 }
 
 const USERS: Presentation = Presentation {
-    header: &["USERS"],
+    header: &[phrases::USERS],
     show: |outcome, _| {
         let Outcome::Users(users) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         let names: Vec<&str> = users.value.iter().map(UserName::as_str).collect();
-        Shown { json: json!({ "users": names }), cells: vec![names.join(",")] }
+        Shown { json: json!({ "users": names }), cells: vec![names.join(",").into()] }
     },
 };
 

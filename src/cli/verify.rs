@@ -9,6 +9,7 @@ use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
 use super::table::table;
+use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{Outcome, Refusal, Verdict, Verify, VerifyReport};
 use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword, foreign_text};
@@ -196,10 +197,7 @@ fn words(report: &VerifyReport, language: Language) -> String {
         }
     }
     if !rows.is_empty() {
-        let header = match language {
-            Language::En => ["ENDPOINT", "USER TOKEN", "RESULT"],
-            Language::Zh => ["端点", "用户令牌", "结果"],
-        };
+        let header = [phrases::ENDPOINT, phrases::USER_TOKEN, phrases::RESULT].map(|heading| heading.text(language));
         text.push('\n');
         text.push_str(&table(&header, &rows));
     }

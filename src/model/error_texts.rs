@@ -451,6 +451,32 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text("请求过大", "发送的数据超过控制器一次可接收的大小。", "请减少文件数量或大小。"),
     ),
     (
+        ErrorCode::UnknownSeries,
+        text(
+            "There is no controller series of this name",
+            "The series are RC90, RC700, T/VT and RC800.",
+            "Give one of them, as it stands on the controller.",
+        ),
+        text(
+            "没有该名称的控制器类型",
+            "控制器类型为 RC90、RC700、T/VT 和 RC800。",
+            "请指定其中之一，与控制器上的标识一致。",
+        ),
+    ),
+    (
+        ErrorCode::NothingToChange,
+        text(
+            "Nothing to change was given",
+            "The command changes only the settings that are given as options, and there are none.",
+            "Give at least one option; --help lists them.",
+        ),
+        text(
+            "未指定要更改的内容",
+            "该命令仅更改以选项指定的设置，但未指定任何选项。",
+            "请至少指定一个选项，--help 可查看全部选项。",
+        ),
+    ),
+    (
         ErrorCode::BadName,
         text(
             "The name cannot be used",
@@ -613,11 +639,11 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
     (
         ErrorCode::CertificateNotStored,
         text(
-            "Update failed: the file does not exist",
-            "The controller holds no certificate of this type.",
+            "The controller holds no certificate of this type",
+            "None was created or imported yet, or it was removed.",
             "Create or import the certificate first.",
         ),
-        text("更新失败：文件不存在", "控制器中不存在选定的证书文件类型。", "请先创建或导入要用作服务器证书的证书。"),
+        text("控制器中没有该类型的证书", "尚未创建或导入该类型的证书，或已被删除。", "请先创建或导入证书。"),
     ),
     (
         ErrorCode::CertificateExpired,
@@ -713,10 +739,14 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ErrorCode::OneControllerOnly,
         text(
             "This works on one controller at a time",
-            "Each controller needs a certificate of its own.",
+            "What was given belongs to one controller: each has keys and a certificate of its own.",
             "Choose one controller only.",
         ),
-        text("此功能一次只能用于一台控制器", "每台控制器需要各自的证书。", "请只选择一台控制器。"),
+        text(
+            "此功能一次只能用于一台控制器",
+            "指定的内容仅属于一台控制器：每台控制器有各自的密钥和证书。",
+            "请只选择一台控制器。",
+        ),
     ),
     (
         ErrorCode::Preflight,
@@ -736,12 +766,12 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         text(
             "Some OPC UA clients may complain about the certificate",
             "It can be used, but not everything about it is as it should be. Nothing was sent.",
-            "See the detail, then have the certificate issued again, or import it all the same.",
+            "See the detail, then have the certificate issued again, or import it all the same (command line: --accept-warnings).",
         ),
         text(
             "部分 OPC UA 客户端可能对该证书发出警告",
             "证书可以使用，但并非完全符合要求。未发送任何内容。",
-            "请查看详细信息，然后重新签发证书，或确认后继续导入。",
+            "请查看详细信息，然后重新签发证书，或确认后继续导入 (命令行：--accept-warnings)。",
         ),
     ),
     (

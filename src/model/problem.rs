@@ -66,6 +66,8 @@ pub enum ErrorCode {
     LogPassword,
     RequestTooLarge,
     // input
+    UnknownSeries,
+    NothingToChange,
     BadName,
     BadAddress,
     BadPort,
@@ -194,6 +196,8 @@ impl ErrorCode {
                 | NameTaken
                 | AddressTaken
                 | UnknownController
+                | UnknownSeries
+                | NothingToChange
                 | FileUnreadable
                 | NotConfirmed
                 | VerifyFailed
@@ -323,7 +327,9 @@ mod tests {
             | Refused
             | LogPassword
             | RequestTooLarge => 20,
-            BadName
+            UnknownSeries
+            | NothingToChange
+            | BadName
             | BadAddress
             | BadPort
             | BadSettings
@@ -336,7 +342,7 @@ mod tests {
             | AddressTaken
             | UnknownController
             | FileUnreadable
-            | NotConfirmed => 14,
+            | NotConfirmed => 16,
             CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
             | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
             | Preflight | PreflightWarnings => 14,

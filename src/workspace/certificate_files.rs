@@ -93,6 +93,7 @@ impl CertificateFiles {
     ) -> Result<(), Problem> {
         key_password.map_or(Ok(()), check_protects_files)?;
         probe(&self.csr_folder(serial))?;
+        // Also where there is no key to keep: it is the folder that the CA's answer has to be put into.
         Ok(probe(&self.ca_signed_folder(serial))?)
     }
 

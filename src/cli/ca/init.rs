@@ -83,6 +83,6 @@ pub fn run(settled: &Settled, args: InitArgs) -> Result<Ending, Problem> {
     let passphrase = ca_passphrase(args.passphrase.passphrase_file.as_deref(), true)?;
     check_passphrase(&passphrase)?;
     let overview = files.create(&new, &passphrase, clock::now())?.overview()?;
-    settled.output.finished(&show::json(&overview), &show::text(&overview));
+    settled.output.finished(&show::json(&overview), &show::text(&overview, settled.output.language()));
     Ok(Ending::AllDone)
 }

@@ -15,7 +15,7 @@ use serde_json::json;
 
 use super::output::json_path;
 use super::passwords::ca_passphrase;
-use super::{Ending, Settled};
+use super::{Ending, Settled, texts};
 use crate::jobs::SharedAuthority;
 use crate::model::{Problem, clock};
 use crate::pki::{REVOCATION_REASONS, RevocationReason};
@@ -28,7 +28,7 @@ pub enum CaCommand {
     /// Sign certificate signing requests from files, DER or PEM
     Sign(sign::SignArgs),
     /// Sign what controllers ask for, and import the certificates: the signing request a controller holds, or a new
-    /// one where there is none. Can be repeated; --yes also accepts what clients may complain about
+    /// one where there is none. Can be repeated
     SignControllers(sign_controllers::SignControllersArgs),
     /// Revoke certificates and publish a CRL that says so; this cannot be taken back
     Revoke(RevokeArgs),
@@ -119,7 +119,7 @@ pub fn run(settled: &Settled, command: CaCommand) -> Result<Ending, Problem> {
             files.check_absent()?;
             let passphrase = ca_passphrase(passphrase.passphrase_file.as_deref(), false)?;
             let overview = files.restore(&file, &passphrase)?;
-            settled.output.finished(&show::json(&overview), &show::text(&overview));
+            settled.output.finished(&show::json(&overview), &show::text(&overview, settled.output.language()));
             Ok(Ending::AllDone)
         }
     }
@@ -132,7 +132,7 @@ fn revoke(settled: &Settled, args: &RevokeArgs) -> Result<Ending, Problem> {
     let crl = show::crl(&overview.folder, "ca", &overview.signing);
     settled.output.finished(
         &json!({ "revoked": args.serials, "reason": args.reason, "crl": crl }),
-        &format!("Revoked: {}\nGive the new CRL to every controller: ca crl --push", args.serials.join(", ")),
+        &texts::revoked(settled.output.language(), &args.serials),
     );
     Ok(Ending::AllDone)
 }

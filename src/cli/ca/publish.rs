@@ -70,7 +70,7 @@ pub fn run(settled: &Settled, args: &CrlArgs) -> Result<Ending, Problem> {
         "root_crl": overview.root.as_ref().map(|root| show::crl(&overview.folder, "root", root)),
         "saved": json_paths(&saved),
     });
-    settled.output.finished(&published, &show::text(&overview));
+    settled.output.finished(&published, &show::text(&overview, settled.output.language()));
     if chosen.is_empty() {
         return Ok(Ending::AllDone);
     }

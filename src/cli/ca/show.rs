@@ -5,13 +5,14 @@ use serde_json::{Value, json};
 
 use crate::cli::output::json_path;
 use crate::cli::table::table;
+use crate::cli::texts::phrases;
 use crate::cli::{Ending, Settled};
-use crate::model::{Problem, clock};
+use crate::model::{Language, Problem, clock};
 use crate::workspace::authority::{AuthorityOverview, IssuedCertificate, PublishedAuthority};
 
 pub fn run(settled: &Settled) -> Result<Ending, Problem> {
     let overview = settled.workspace.authority().overview()?;
-    settled.output.finished(&json(&overview), &text(&overview));
+    settled.output.finished(&json(&overview), &text(&overview, settled.output.language()));
     Ok(Ending::AllDone)
 }
 
@@ -47,7 +48,7 @@ fn entry(issued: &IssuedCertificate, now: DateTime<Utc>) -> Value {
     json
 }
 
-pub fn text(overview: &AuthorityOverview) -> String {
+pub fn text(overview: &AuthorityOverview, language: Language) -> String {
     let now = clock::now();
     let date = |at: DateTime<Utc>| at.format("%Y-%m-%d").to_string();
     let authorities: Vec<Vec<String>> = std::iter::once(&overview.signing)
@@ -65,7 +66,16 @@ pub fn text(overview: &AuthorityOverview) -> String {
             ]
         })
         .collect();
-    let header = ["CA", "ISSUED BY", "EXPIRY", "BITS", "REVOKED", "CRL NUMBER", "NEXT CRL BY"];
+    let header = [
+        phrases::CA,
+        phrases::ISSUED_BY,
+        phrases::EXPIRY,
+        phrases::BITS,
+        phrases::REVOKED,
+        phrases::CRL_NUMBER,
+        phrases::NEXT_CRL_BY,
+    ]
+    .map(|heading| heading.text(language));
     let mut text = format!("{}\n\n{}", overview.folder.display(), table(&header, &authorities));
     if !overview.issued.is_empty() {
         let rows: Vec<Vec<String>> = overview
@@ -87,7 +97,16 @@ pub fn text(overview: &AuthorityOverview) -> String {
             })
             .collect();
         text.push('\n');
-        text.push_str(&table(&["SERIAL NUMBER", "ISSUED TO", "PROFILE", "STATUS", "EXPIRY", "CONTROLLER"], &rows));
+        let header = [
+            phrases::SERIAL,
+            phrases::ISSUED_TO,
+            phrases::PROFILE,
+            phrases::STATUS,
+            phrases::EXPIRY,
+            phrases::CONTROLLER,
+        ]
+        .map(|heading| heading.text(language));
+        text.push_str(&table(&header, &rows));
     }
     text
 }

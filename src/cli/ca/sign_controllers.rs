@@ -3,7 +3,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::PassphraseArgs;
-use crate::cli::cert::IMPORTED;
+use crate::cli::cert::{IMPORTED, WarningsArgs};
 use crate::cli::select::Select;
 use crate::cli::{Ending, Settled};
 use crate::jobs::{CreateCsr, CsrFields, SignCsrs};
@@ -39,6 +39,8 @@ pub struct SignControllersArgs {
     #[arg(long, value_name = "N", default_value_t = 2048)]
     bits: u16,
     #[command(flatten)]
+    warnings: WarningsArgs,
+    #[command(flatten)]
     passphrase: PassphraseArgs,
     #[command(flatten)]
     select: Select,
@@ -71,7 +73,7 @@ pub fn run(settled: &Settled, args: SignControllersArgs) -> Result<Ending, Probl
         renew: args.renew,
         validity,
         allow_short_keys: args.allow_short_keys,
-        accept_warnings: settled.yes,
+        accept_warnings: args.warnings.accept_warnings,
     };
     settled.batch(&configuration, &chosen, operation, &IMPORTED)
 }
