@@ -36,14 +36,12 @@ fn chinese(command: Command, path: &str) -> Command {
 fn argument(arg: Arg, path: &str) -> Arg {
     let heading = if arg.is_positional() { "参数" } else { "选项" };
     let text = help_of(path, arg.get_id().as_str()).map(|text| format!("{text}{}", choices(&arg)));
+    let takes_values = arg.get_action().takes_values();
     let arg = arg.help_heading(heading);
-    match text {
-        // One text for -h and --help; clap's own remarks are English.
-        Some(text) => {
-            arg.help(text.clone()).long_help(text).hide_possible_values(true).hide_default_value(true).hide_env(true)
-        }
-        None => arg,
-    }
+    let Some(text) = text else { return arg };
+    // One text for -h and --help; clap's own remarks are English.
+    let arg = arg.help(text.clone()).long_help(text);
+    if takes_values { arg.hide_possible_values(true).hide_default_value(true).hide_env(true) } else { arg }
 }
 
 /// The values to choose from, the default and the environment variable, as clap would add them.
