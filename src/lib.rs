@@ -12,6 +12,7 @@
 //! | [`session`] | one session with one controller, over HTTPS |
 //! | [`jobs`] | what an engineer does to many controllers: plan, run side by side, report |
 //! | [`ui`] | the window: a model without egui, a reducer, views and dialogs |
+//! | [`licences`] | the licences of everything linked in, for window and command line |
 //! | [`cli`] | the same jobs from the command line |
 //! | [`virtual_controller`] | the bundled mock controller with its real OPC UA server; uses `model`, `pki`, `protocol` |
 //!
@@ -29,6 +30,7 @@
 
 pub mod cli;
 pub mod jobs;
+pub mod licences;
 pub mod model;
 pub mod pki;
 pub mod platform;

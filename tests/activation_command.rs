@@ -57,7 +57,7 @@ fn keys_are_typed_for_one_controller_only() {
     };
     let (code, lines) = typed(&["cell 1", "cell 2"]);
     assert_eq!(code, Some(2));
-    assert_error(&lines, "bad-activation-key");
+    assert_error(&lines, "one-controller-only");
     assert_eq!(typed(&["cell 1"]).0, Some(0));
     let (code, lines) = typed(&["cell 2"]);
     assert_eq!(code, Some(1));

@@ -75,7 +75,9 @@ fn a_request_that_is_wrong_sends_nothing_and_ends_with_2() {
         (&["settings", "set", "--port", "80", "--yes", "weld"], "bad-port"),
         (&["settings", "set", "--port", "70000", "--yes", "weld"], "bad-port"),
         (&["settings", "set", "--policies", "Basic512", "--yes", "weld"], "bad-settings"),
-        (&["settings", "set", "--yes", "weld"], "bad-settings"),
+        (&["settings", "set", "--yes", "weld"], "nothing-to-change"),
+        (&["controllers", "add", "x", "10.0.0.1", "--series", "RC9", "--trust-on-first-use"], "unknown-series"),
+        (&["licences", "no-such-crate"], "unknown-component"),
         (&["users", "add", "op", "--password-file", &user_password, "--yes", "weld"], "bad-credential"),
         (&["users", "add", "operator1", "--password-file", "/nowhere", "--yes", "weld"], "file-unreadable"),
         (&["stop", "weld"], "not-confirmed"),
@@ -119,6 +121,10 @@ fn a_controller_that_fails_ends_with_1_and_says_why() {
     }
     let people = desk.run(&["--lang", "zh", "start", "weld"]);
     assert!(people.stderr.contains("未配置服务器证书"), "{}", people.stderr);
+    let table = desk.run(&["info", "weld", "--lang", "zh"]).stdout;
+    assert!(table.contains("状态") && table.contains("停止") && !table.contains("STATUS"), "{table}");
+    let help = desk.run(&["--lang", "zh", "settings", "set", "--help"]).stdout;
+    assert!(help.contains("用法：") && help.contains("删除控制器中的服务器日志"), "{help}");
     fs::write(desk.folder.path().join("password"), "wrong").unwrap();
     let (code, lines) = desk.json(&["info", "weld"]);
     assert_eq!(code, Some(1));

@@ -13,6 +13,7 @@ mod connection_passwords;
 mod controllers;
 mod crl;
 mod demo;
+mod licences;
 mod log;
 mod output;
 mod passwords;
@@ -160,6 +161,8 @@ enum Command {
     /// Connection passwords sealed in the workspace, for a computer without a keyring
     #[command(subcommand)]
     Vault(vault::VaultCommand),
+    /// Show the licences of everything linked into this program
+    Licences(licences::LicencesArgs),
     /// Print a completion script for a shell
     Completions { shell: clap_complete::Shell },
 }
@@ -236,6 +239,7 @@ pub fn main() -> ExitCode {
         Some(Command::Verify(args)) => verify::run(&settled, &args),
         Some(Command::Backup(command)) => backup::run(&settled, command),
         Some(Command::Vault(command)) => vault::run(&settled, command),
+        Some(Command::Licences(args)) => licences::run(&settled, &args),
         Some(Command::Completions { shell }) => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut script);

@@ -37,14 +37,14 @@ const EXPORTED: Presentation = Presentation {
 };
 
 const IMPORTED: Presentation = Presentation {
-    header: &["STATUS", "REVISION", "FILE"],
+    header: &[phrases::STATUS, phrases::REVISION, phrases::FILE],
     show: |outcome, info| {
         let Outcome::SettingsImported { path } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
         };
         Shown {
             json: json!({ "status": info.status, "revision": info.revision, "file": json_path(path) }),
-            cells: vec![info.status.as_str().to_owned(), info.revision.to_string(), path.display().to_string()],
+            cells: vec![info.status.into(), info.revision.to_string().into(), path.display().to_string().into()],
         }
     },
 };

@@ -132,5 +132,4 @@ const fn target(target: Target) -> Phrase {
 
 fn words(notes: &[Note], language: Language) -> String {
     notes.iter().map(|note| note.text(language)).collect::<Vec<_>>().join("; ")
-    }
 }

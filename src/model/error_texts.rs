@@ -477,6 +477,15 @@ pub(super) const REGISTRY: &[(ErrorCode, Explanation, Explanation)] = &[
         ),
     ),
     (
+        ErrorCode::UnknownComponent,
+        text(
+            "No component of this name is linked in",
+            "The list of licences has no entry of this name.",
+            "See the names with: opcua-configurator licences",
+        ),
+        text("没有该名称的组件", "许可证列表中没有该名称。", "请使用 opcua-configurator licences 查看名称。"),
+    ),
+    (
         ErrorCode::BadName,
         text(
             "The name cannot be used",

@@ -68,6 +68,7 @@ pub enum ErrorCode {
     // input
     UnknownSeries,
     NothingToChange,
+    UnknownComponent,
     BadName,
     BadAddress,
     BadPort,
@@ -198,6 +199,7 @@ impl ErrorCode {
                 | UnknownController
                 | UnknownSeries
                 | NothingToChange
+                | UnknownComponent
                 | FileUnreadable
                 | NotConfirmed
                 | VerifyFailed
@@ -297,81 +299,21 @@ impl fmt::Display for Problem {
 mod tests {
     use super::*;
 
-    /// A match without a wildcard: a new code does not compile here until it is listed, and the test below fails
-    /// until the registry explains it.
-    fn counted(code: ErrorCode) -> usize {
-        use ErrorCode::*;
-        match code {
-            NotActivated | NoCertificate | InvalidParameter | PortConflict | ServerError | ServerLogOn
-            | ServerLogFull => 7,
-            Unreachable | Timeout | ConnectionLost | AnswerLost | HandshakeLost | NotAController | ProtocolVersion
-            | FingerprintChanged | FingerprintUnknown | WrongPassword | PasswordMissing | LockedOut
-            | SessionExpired => 13,
-            FirmwareNotSupported
-            | FirmwareTooNew
-            | FirmwareTooOld
-            | TaskRunning
-            | TeachPendantConnected
-            | ChangedMeanwhile
-            | TooManyUsers
-            | UserExists
-            | UserNotFound
-            | ListFull
-            | DuplicateCertificate
-            | NotInList
-            | NotAnAuthority
-            | TooManyCrls
-            | DuplicateCrl
-            | CrlOutdated
-            | DiskFull
-            | Refused
-            | LogPassword
-            | RequestTooLarge => 20,
-            UnknownSeries
-            | NothingToChange
-            | BadName
-            | BadAddress
-            | BadPort
-            | BadSettings
-            | BadCredential
-            | BadCertificateRequest
-            | BadCertificate
-            | BadCrl
-            | BadFingerprint
-            | NameTaken
-            | AddressTaken
-            | UnknownController
-            | FileUnreadable
-            | NotConfirmed => 16,
-            CsrMismatch | NoCsr | CertificateNotStored | CertificateExpired | KeyLengthNotAllowed | KeyMismatch
-            | WrongKeyPassword | FileNotFound | SeveralFiles | BadFileName | FileFormat | OneControllerOnly
-            | Preflight | PreflightWarnings => 14,
-            NoAuthority | AuthorityExists | AuthorityBusy | AuthorityDamaged | AuthorityPassphrase | NoPassphrase
-            | AuthorityExpired | CsrRefused | ShortKey | AlreadySigned | UnknownSerial | AlreadyRevoked
-            | BackupDamaged | BackupPassphrase => 14,
-            VaultMissing | VaultExists | VaultLocked | VaultPassphrase | VaultDamaged | VaultVersion | VaultFull
-            | BadPasswordList => 8,
-            VerifyFailed => 1,
-            WrongKeys | NotInFile | BadActivationKey | BadActivationFile => 4,
-            BadConnectionList => 1,
-            ExportMissing | ExportRenamed | ExportOfAnother | ExportVersion | ExportDamaged | WrongPassphrase
-            | BadPassphrase | UnprotectedFile => 8,
-            WorkspaceReadOnly | WorkspaceFull | WorkspaceBusy | FileInUse | ConfigurationDamaged
-            | KeyringUnavailable | CannotListen | NoDisplay | NoFilePicker | FolderNotOpened | FileTooLarge
-            | FileNotRecognised | Cancelled | Internal => 14,
-        }
+    /// Every variant of the enum, by the wire name that serde knows it by.
+    fn wire_names() -> Vec<String> {
+        let refusal = serde_json::from_str::<ErrorCode>("\"?\"").unwrap_err().to_string();
+        let known = refusal.split("expected one of ").nth(1).expect("serde lists the variants");
+        known.split('`').skip(1).step_by(2).map(str::to_owned).collect()
     }
 
     #[test]
     fn every_code_is_explained_once_in_both_languages() {
-        let mut codes: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
-        let all = 7 + 13 + 20 + 14 + 14 + 14 + 8 + 1 + 4 + 1 + 8 + 14;
-        assert_eq!(codes.len(), all);
-        codes.sort();
-        codes.dedup();
-        assert_eq!(codes.len(), all);
+        let mut explained: Vec<String> = ErrorCode::all().map(ErrorCode::as_str).collect();
+        let mut known = wire_names();
+        explained.sort();
+        known.sort();
+        assert_eq!(explained, known);
         for code in ErrorCode::all() {
-            assert!(counted(code) > 0);
             let (en, zh) = (code.explain(Language::En), code.explain(Language::Zh));
             for text in [en.message, en.cause, en.remedy, zh.message, zh.cause, zh.remedy] {
                 assert!(!text.is_empty(), "{code:?}");

@@ -35,13 +35,14 @@ pub enum UiCommand {
     CertificateAuthority,
     Verify,
     Shortcuts,
+    Licences,
     About,
     TickAll,
     Search,
 }
 
 impl UiCommand {
-    pub const ALL: [Self; 30] = [
+    pub const ALL: [Self; 31] = [
         Self::AddController,
         Self::DeleteControllers,
         Self::ConnectionList,
@@ -69,6 +70,7 @@ impl UiCommand {
         Self::CertificateAuthority,
         Self::Verify,
         Self::Shortcuts,
+        Self::Licences,
         Self::About,
         Self::TickAll,
         Self::Search,
@@ -111,6 +113,7 @@ impl UiCommand {
             Self::CertificateAuthority => (T::CertificateAuthority, T::CertificateAuthorityTip),
             Self::Verify => (T::Verify, T::VerifyTip),
             Self::Shortcuts => (T::Shortcuts, T::ShortcutsTip),
+            Self::Licences => (T::Licences, T::LicencesTip),
             Self::About => (T::About, T::AboutTip),
             Self::TickAll => (T::TickAll, T::TickAllTip),
             Self::Search => (T::Search, T::SearchTip),
@@ -175,6 +178,7 @@ impl UiCommand {
             | Self::Options
             | Self::CertificateAuthority
             | Self::Shortcuts
+            | Self::Licences
             | Self::About => None,
         }
     }

@@ -146,6 +146,7 @@ const COMMANDS: &[(&str, &str)] = &[
     ("backup on", "保留在此创建的证书和密钥的副本"),
     ("backup off", "不保留副本"),
     ("backup show", "显示是否保留副本以及保存位置"),
+    ("licences", "显示本程序所含全部组件的许可证"),
     ("completions", "输出 shell 的补全脚本"),
 ];
 
@@ -220,7 +221,11 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     ("cert import-ca", "file", "证书文件，仅用于一台控制器 [默认：控制器的 Cert/CASigned 中唯一的 .der 文件]"),
     ("cert import-user", "password_file", ".pfx 或私钥的密码文件，\"-\" 表示标准输入"),
     ("cert select", "kind", "证书类型"),
-    ("cert restore", "kind", "备份的内容：自签名证书及其密钥 (Cert/SelfSigned/1_key.pfx)，或签名请求、其密钥以及 CA 证书 (Cert/CASigned/3_key.pfx)"),
+    (
+        "cert restore",
+        "kind",
+        "备份的内容：自签名证书及其密钥 (Cert/SelfSigned/1_key.pfx)，或签名请求、其密钥以及 CA 证书 (Cert/CASigned/3_key.pfx)",
+    ),
     ("cert restore", "file", "改用此密钥文件，例如已移动到以日期命名的文件夹中的文件；仅用于一台控制器"),
     ("cert restore", "password_file", "密钥文件的密码文件，\"-\" 表示标准输入 [默认：连接密码]"),
     ("pki show", "file", "文件"),
@@ -284,6 +289,7 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     ("verify", "user", "在需要用户名时用于登录的用户；未指定时不尝试此类登录"),
     ("verify", "user_password_file", "用户密码文件，\"-\" 表示标准输入"),
     ("verify", "trust_me", "先将本配置工具的证书添加到各控制器的信任列表，并保留在其中"),
+    ("licences", "components", "要显示许可证文本的组件，all 表示全部 [默认：仅列表]"),
     ("completions", "shell", "shell 名称"),
 ];
 

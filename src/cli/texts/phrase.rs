@@ -114,6 +114,7 @@ phrases! {
     ISSUED_BY: "ISSUED BY", "颁发者";
     ISSUED_TO: "ISSUED TO", "颁发给";
     ISSUERS: "ISSUERS", "发行人";
+    LICENCE: "LICENCE", "许可证";
     LOG: "LOG", "服务器日志";
     NAME: "NAME", "名称";
     NEXT_CRL_BY: "NEXT CRL BY", "下次更新";
@@ -135,6 +136,7 @@ phrases! {
     TYPE: "TYPE", "控制器类型";
     USERS: "USERS", "用户";
     USER_TOKEN: "USER TOKEN", "用户令牌";
+    VERSION: "VERSION", "版本";
     WARNINGS: "WARNINGS", "警告";
     WHAT: "WHAT", "内容";
 

@@ -47,7 +47,7 @@ pub fn removed(language: Language, name: impl Display) -> String {
     either(language, format!("Removed {name}"), format!("已删除 {name}"))
 }
 
-pub fn left_out(language: Language, name: impl Display, line: u64, why: impl Display) -> String {
+pub fn left_out(language: Language, name: impl Display, line: impl Display, why: impl Display) -> String {
     either(language, format!("Left out {name}, line {line}: {why}"), format!("未导入 {name}，第 {line} 行：{why}"))
 }
 

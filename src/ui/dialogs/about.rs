@@ -1,12 +1,12 @@
 use egui::{Grid, Label, RichText, Ui, vec2};
 
 use crate::ui::command::UiCommand;
-use crate::ui::model::Model;
+use crate::ui::model::{Message, Model};
 use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Answer, Buttons, dialog, fine_print};
+use crate::ui::widgets::{Answer, Buttons, command_button, dialog, fine_print};
 
-pub fn about(ui: &Ui, model: &Model) -> Answer {
+pub fn about(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
     dialog(ui, "about", text(T::AppName), theme::DIALOG, buttons, |ui| {
@@ -21,6 +21,8 @@ pub fn about(ui: &Ui, model: &Model) -> Answer {
         );
         ui.add_space(theme::SPACE);
         fine_print(ui, text(T::AboutLicence));
+        ui.add_space(theme::SPACE);
+        command_button(ui, UiCommand::Licences, false, model, messages);
     })
 }
 

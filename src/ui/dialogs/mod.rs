@@ -13,6 +13,7 @@ mod error;
 mod export_self_signed;
 mod file;
 mod import_review;
+mod licences;
 mod options;
 mod password;
 mod processing;
@@ -129,7 +130,8 @@ fn one(ui: &Ui, dialog: &mut Dialog, on_top: bool, focus: bool, model: &Model, m
         Dialog::Backup { on } => options::backup(ui, on, model),
         Dialog::Options => options::options(ui, model, messages),
         Dialog::Error(problem) => error::show(ui, problem, model),
-        Dialog::About => about::about(ui, model),
+        Dialog::Licences(view) => licences::show(ui, view, focus, model),
+        Dialog::About => about::about(ui, model, messages),
         Dialog::Shortcuts => about::shortcuts(ui, model),
     }
 }

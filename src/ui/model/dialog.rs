@@ -3,8 +3,8 @@ use std::collections::BTreeSet;
 use super::trust::{AddTrustForm, DeleteTrust, DetailsView, MoveTrust, TrustForm};
 use super::{
     ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, DropForm,
-    ExportForm, FileForm, ImportReview, KeysForm, LogView, Purpose, RestoreForm, RowId, SaveLogForm, Task,
-    TransferForm, TypeSelectForm, UserSpecifiedForm, VaultForm, VerifyView,
+    ExportForm, FileForm, ImportReview, KeysForm, LicencesView, LogView, Purpose, RestoreForm, RowId, SaveLogForm,
+    Task, TransferForm, TypeSelectForm, UserSpecifiedForm, VaultForm, VerifyView,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -48,6 +48,7 @@ pub enum Dialog {
     Backup { on: bool },
     Options,
     Error(Problem),
+    Licences(LicencesView),
     About,
     Shortcuts,
 }

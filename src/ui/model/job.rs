@@ -217,6 +217,7 @@ impl Task {
             | Self::ListCertificates
             | Self::Check(_)
             | Self::ReadLog
+            | Self::SaveLog { .. }
             | Self::Verify { .. } => TextKey::Ok,
         }
     }

@@ -11,6 +11,7 @@ mod forms;
 mod identity;
 mod import;
 mod job;
+mod licences;
 mod reduce;
 mod reduce_dialogs;
 mod rows;
@@ -44,6 +45,7 @@ pub use import::{
     CaSignedForm, Checked, Checks, ImportReview, ImportSource, RestoreForm, UserFiles, UserSpecifiedForm,
 };
 pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, SigningWish, Task};
+pub use licences::LicencesView;
 pub use reduce::reduce;
 pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
 pub use server_log::{LogView, SaveLogForm};

@@ -4,8 +4,8 @@ use std::path::Path;
 
 use super::trust::Shows;
 use super::{
-    ActivationForm, AddController, CancelState, Column, Dialog, ExportForm, Job, JobId, JobRow, Message, Model,
-    PasswordForm, ProcessingView, Purpose, RowId, RowState, Task, Transfer, Typed,
+    ActivationForm, AddController, CancelState, Column, Dialog, ExportForm, Job, JobId, JobRow, LicencesView, Message,
+    Model, PasswordForm, ProcessingView, Purpose, RowId, RowState, Task, Transfer, Typed,
 };
 use crate::jobs::{JobController, JobEvent, Outcome, Report, Summary};
 use crate::model::{ErrorCode, FileFormat};
@@ -149,6 +149,7 @@ impl Model {
             UiCommand::Backup => Dialog::Backup { on: self.options.backup },
             UiCommand::Options => Dialog::Options,
             UiCommand::Shortcuts => Dialog::Shortcuts,
+            UiCommand::Licences => Dialog::Licences(LicencesView::new()),
             UiCommand::About => Dialog::About,
             // The views' own business, or not there yet.
             _ => return vec![],

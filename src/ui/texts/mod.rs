@@ -104,6 +104,8 @@ texts! {
     VerifyTip: "Connect to the OPC UA server as a client would, in every way it offers", "以客户端方式尝试 OPC UA 服务器提供的每种连接";
     Shortcuts: "Keyboard shortcuts", "键盘快捷键";
     ShortcutsTip: "Every key this window knows", "本窗口的全部快捷键";
+    Licences: "Licences…", "许可证…";
+    LicencesTip: "The licences of everything this program is made of", "本程序所含全部组件的许可证";
     About: "About", "关于";
     AboutTip: "Version and licence", "版本与许可证";
     TickAll: "Tick all", "全选";
@@ -649,7 +651,10 @@ texts! {
 
     // help
     AboutText: "Sets up the OPC UA servers inside robot controllers: settings, users and certificates", "设置机器人控制器内的 OPC UA 服务器：设置、用户和证书";
-    AboutLicence: "Licence: MIT or Apache 2.0. Chinese font: Noto Sans CJK, SIL Open Font License 1.1.", "许可证：MIT 或 Apache 2.0。中文字体：Noto Sans CJK，SIL Open Font License 1.1。";
+    AboutLicence: "Licence: MIT or Apache 2.0. The licences of all components are under Licences.", "许可证：MIT 或 Apache 2.0。全部组件的许可证请见[许可证]。";
+    LicencesTitle: "Licences", "许可证";
+    LicencesFilter: "Filter by name or licence", "按名称或许可证筛选";
+    LicencesNone: "Nothing matches the filter", "没有匹配的项";
     WorkspaceLabel: "Workspace", "工作区";
     KeyMove: "Move through the list", "在列表中移动";
     KeyTick: "Tick or untick the row", "勾选或取消勾选该行";

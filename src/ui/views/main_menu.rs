@@ -38,7 +38,7 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
         );
         ui.menu_button(text(T::MenuOptions), |ui| options(ui, model, messages));
         menu(ui, T::MenuTools, &[&[C::CertificateAuthority, C::Verify]], messages);
-        menu(ui, T::MenuHelp, &[&[C::Shortcuts, C::About]], messages);
+        menu(ui, T::MenuHelp, &[&[C::Shortcuts, C::Licences, C::About]], messages);
     });
 }
 
