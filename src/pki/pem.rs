@@ -1,12 +1,17 @@
 //! The text armour around DER (RFC 7468, RFC 1421).
 //!
-//! Written by hand: parsers for this format follow the strict form of RFC 7468, or pass over what they do not know, and
-//! files from practice are indented, wrapped otherwise, or on one line.
+//! Certificates, requests and revocation lists in the strict form of RFC 7468 are read by `rustls-pemfile`. That crate is
+//! archived (RUSTSEC-2025-0134: unmaintained, no known defect); it is a thin wrapper over the maintained parser in
+//! `rustls-pki-types`, and should it ever have to go, only this file changes.
+//!
+//! Private keys, and files from practice that are indented, wrapped otherwise or on one line, are read by hand: parsers
+//! for this format do not wipe what they read, follow the strict form, or pass over what they do not know.
 
 use base64::Engine as _;
 use base64::alphabet;
 use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig, STANDARD};
+use rustls_pemfile::Item;
 use zeroize::Zeroizing;
 
 use super::PkiError;
@@ -40,6 +45,35 @@ pub(super) struct Block {
 /// Takes lines of any length and indentation, ended by LF, CRLF or CR, and a block on one line. A block that has no end,
 /// or no base64 in it, is [`PkiError::BadPem`].
 pub(super) fn blocks(text: &[u8]) -> Result<Vec<Block>, PkiError> {
+    match strict_blocks(text) {
+        Some(blocks) => Ok(blocks),
+        None => lenient_blocks(text),
+    }
+}
+
+/// The blocks of a text that holds nothing but certificates, requests and revocation lists, in the strict form of
+/// RFC 7468. `None` for every other text.
+fn strict_blocks(text: &[u8]) -> Option<Vec<Block>> {
+    if !labels(text).all(|label| STRICT_LABELS.contains(&label.as_str())) {
+        return None;
+    }
+    let mut blocks = Vec::new();
+    let mut rest = text;
+    while let Some((item, after)) = rustls_pemfile::read_one_from_slice(rest).ok()? {
+        let (label, der) = match item {
+            Item::X509Certificate(der) => (STRICT_LABELS[0], der.to_vec()),
+            Item::Csr(der) => (STRICT_LABELS[1], der.to_vec()),
+            Item::Crl(der) => (STRICT_LABELS[2], der.to_vec()),
+            _ => return None,
+        };
+        blocks.push(Block { label: label.to_owned(), encrypted: false, der: Zeroizing::new(der) });
+        rest = after;
+    }
+    // The strict reader passes over what it does not take for a block.
+    (blocks.len() == labels(text).count()).then_some(blocks)
+}
+
+fn lenient_blocks(text: &[u8]) -> Result<Vec<Block>, PkiError> {
     let mut blocks = Vec::new();
     let mut rest = text;
     while let Some((label, body)) = next_begin(rest) {
@@ -151,6 +185,9 @@ pub(super) fn armour(label: &str, der: &[u8]) -> String {
     text.push_str(&format!("-----END {label}-----\n"));
     text
 }
+
+/// What `rustls-pemfile` knows and holds no secret.
+const STRICT_LABELS: [&str; 3] = ["CERTIFICATE", "CERTIFICATE REQUEST", "X509 CRL"];
 
 const BEGIN: &[u8] = b"-----BEGIN ";
 const DASHES: &[u8] = b"-----";
