@@ -154,7 +154,7 @@ fn is_pair(key: &Path, certificate: &Path) -> bool {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_new_certificate_never_stands_beside_the_old_key() {
     let bench = Bench::new(FleetFirmware::Legacy).await;
-    assert_eq!(moved(&bench.done(bench.self_signed(true)).await), [PathBuf::new(); 0]);
+    assert!(moved(&bench.done(bench.self_signed(true)).await).is_empty());
     bench.done(bench.export(FileFormat::Pem)).await;
     let all = ["SelfSigned/1_cert.der", "SelfSigned/1_cert.pem", "SelfSigned/1_key.pfx"];
     assert_eq!(bench.listing(), all, "both formats of the same certificate, and its key");

@@ -25,7 +25,7 @@ pub fn read_secret(path: &Path) -> Result<SecretString, Problem> {
         read(io::stdin().lock()).map_err(|error| error.of("standard input"))
     } else {
         let open = std::fs::File::open(path).map_err(Error::Unreadable);
-        open.and_then(read).map_err(|error| error.of(&path.display()))
+        open.and_then(read).map_err(|error| error.of(path.display()))
     }
 }
 

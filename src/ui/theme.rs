@@ -204,8 +204,7 @@ mod tests {
     /// Relative luminance and contrast ratio, WCAG 2.2.
     fn contrast(a: Color32, b: Color32) -> f32 {
         let luminance = |color: Color32| {
-            let [r, g, b] =
-                [color.r(), color.g(), color.b()].map(|channel| egui::ecolor::linear_f32_from_gamma_u8(channel));
+            let [r, g, b] = [color.r(), color.g(), color.b()].map(egui::ecolor::linear_f32_from_gamma_u8);
             0.2126 * r + 0.7152 * g + 0.0722 * b
         };
         let (a, b) = (luminance(a), luminance(b));

@@ -57,7 +57,7 @@ impl Reader<'_> {
     /// An AuthenticatedSafe.
     fn safes(&mut self, bytes: &[u8]) -> Result<(), PkiError> {
         let der = self.in_der(bytes)?;
-        for safe in self.all(&self.sequence(&der)?)? {
+        for safe in self.all(self.sequence(&der)?)? {
             match content_info(&safe).ok_or_else(|| self.otherwise.clone())? {
                 (DATA, content) => {
                     let bags = content_of_data(content).ok_or_else(|| self.otherwise.clone())?;
@@ -96,7 +96,7 @@ impl Reader<'_> {
     fn bags(&mut self, bytes: &[u8], depth: usize) -> Result<(), PkiError> {
         let depth = depth.checked_sub(1).ok_or_else(|| self.otherwise.clone())?;
         let der = self.in_der(bytes)?;
-        for bag in self.all(&self.sequence(&der)?)? {
+        for bag in self.all(self.sequence(&der)?)? {
             let parts = self.all(bag.content)?;
             let [kind, value, ..] = parts.as_slice() else { return Err(self.otherwise.clone()) };
             let Some((_, [kind])) = kind.content.split_at_checked(BAGS.len()).filter(|(start, _)| *start == BAGS)
@@ -114,7 +114,7 @@ impl Reader<'_> {
                     self.archive.keys.push(key);
                 }
                 CERTIFICATE_BAG => {
-                    let parts = self.all(&self.sequence(value.content)?)?;
+                    let parts = self.all(self.sequence(value.content)?)?;
                     let [kind, value] = parts.as_slice() else { return Err(self.otherwise.clone()) };
                     if kind.content != X509_CERTIFICATE {
                         return Err(unsupported("it holds a certificate that is not X.509"));

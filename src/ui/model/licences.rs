@@ -9,13 +9,15 @@ pub struct LicencesView {
     selected: usize,
 }
 
-impl LicencesView {
-    pub fn new() -> Self {
+impl Default for LicencesView {
+    fn default() -> Self {
         let mut view = Self { filter: String::new(), shown: Vec::new(), selected: 0 };
         view.find();
         view
     }
+}
 
+impl LicencesView {
     /// Applies the filter to names and licences; to be called when it has changed.
     pub fn find(&mut self) {
         let needle = self.filter.trim().to_lowercase();
@@ -52,7 +54,7 @@ mod tests {
 
     #[test]
     fn the_filter_finds_names_and_licences_and_selects_the_first() {
-        let mut view = LicencesView::new();
+        let mut view = LicencesView::default();
         assert_eq!(view.shown().len(), Licences::get().components().len());
         view.filter = "mpl".to_owned();
         view.find();

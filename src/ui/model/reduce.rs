@@ -149,7 +149,7 @@ impl Model {
             UiCommand::Backup => Dialog::Backup { on: self.options.backup },
             UiCommand::Options => Dialog::Options,
             UiCommand::Shortcuts => Dialog::Shortcuts,
-            UiCommand::Licences => Dialog::Licences(LicencesView::new()),
+            UiCommand::Licences => Dialog::Licences(LicencesView::default()),
             UiCommand::About => Dialog::About,
             // The views' own business, or not there yet.
             _ => return vec![],

@@ -12,6 +12,7 @@ use crate::ui::texts::{TextKey, Zone};
 
 /// What the dialog shows.
 #[derive(Debug)]
+#[allow(clippy::large_enum_variant, reason = "the dialog boxes it as a whole")]
 pub enum DetailsView {
     Certificate(CertificateView),
     Crl(CrlView),
