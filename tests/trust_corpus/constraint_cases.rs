@@ -8,7 +8,10 @@ const EMAIL: u8 = 0x81;
 const DIRECTORY: u8 = 0xa4;
 const REGISTERED_ID: u8 = 0x88;
 
-fn constraints(lists: &[(u8, &[(u8, &[u8])])]) -> Extension {
+/// Tag and content of the base of a subtree.
+type Base<'a> = (u8, &'a [u8]);
+
+fn constraints(lists: &[(u8, &[Base<'_>])]) -> Extension {
     let lists: Vec<Vec<u8>> = lists
         .iter()
         .map(|(tag, bases)| {

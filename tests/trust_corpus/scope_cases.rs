@@ -90,22 +90,52 @@ pub(super) fn scopes(table: &mut Table) {
             let here = named(&[uri(HERE)]);
             let point = |fields: &[Vec<u8>]| Some(points(fields));
             list("a list of one distribution point", unknown, Agrees, None, std::slice::from_ref(&here));
-            list("a list of the distribution point", None, Agrees, point(&[here.clone()]), std::slice::from_ref(&here));
+            list(
+                "a list of the distribution point",
+                None,
+                Agrees,
+                point(std::slice::from_ref(&here)),
+                std::slice::from_ref(&here),
+            );
             let both = named(&[uri("ldap://plant.example"), uri(HERE)]);
-            list("a list of two points, one the certificate's", None, Agrees, point(&[here.clone()]), &[both.clone()]);
-            list("a list of one of the certificate's points", None, Agrees, point(&[both]), &[here.clone()]);
+            list(
+                "a list of two points, one the certificate's",
+                None,
+                Agrees,
+                point(std::slice::from_ref(&here)),
+                std::slice::from_ref(&both),
+            );
+            list(
+                "a list of one of the certificate's points",
+                None,
+                Agrees,
+                point(&[both]),
+                std::slice::from_ref(&here),
+            );
             let elsewhere = named(&[uri("http://plant.example/2.crl")]);
-            list("a list of another point", unknown, Agrees, point(&[elsewhere]), &[here.clone()]);
+            list("a list of another point", unknown, Agrees, point(&[elsewhere]), std::slice::from_ref(&here));
             let shouted = named(&[uri("HTTP://PLANT.example/1.crl")]);
             let by_letter = Differs("OpenSSL compares schemes and hosts letter by letter");
-            list("a list of the point, its host in capitals", None, by_letter, point(&[shouted]), &[here.clone()]);
+            list(
+                "a list of the point, its host in capitals",
+                None,
+                by_letter,
+                point(&[shouted]),
+                std::slice::from_ref(&here),
+            );
             let small = named(&[uri("http://plant.example/1.CRL")]);
-            list("a list of a point in other letters", unknown, Agrees, point(&[small]), &[here.clone()]);
+            list("a list of a point in other letters", unknown, Agrees, point(&[small]), std::slice::from_ref(&here));
             let of_another = tlv(0xa2, &[&directory(&name("Another CA"))]);
             let theirs = point(&[here.clone(), of_another]);
-            list("a list of a point where another CA's lists are", unknown, Agrees, theirs, &[here.clone()]);
+            list(
+                "a list of a point where another CA's lists are",
+                unknown,
+                Agrees,
+                theirs,
+                std::slice::from_ref(&here),
+            );
             let few = point(&[here.clone(), vec![0x81, 2, 5, 0x60]]);
-            list("a list of a point for some reasons", unknown, Agrees, few, &[here.clone()]);
+            list("a list of a point for some reasons", unknown, Agrees, few, std::slice::from_ref(&here));
 
             table.one(
                 &format!("the list of the issuer's own name, for {at}"),
