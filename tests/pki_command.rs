@@ -156,6 +156,12 @@ fn the_reason_decides_what_is_said_and_not_the_status() {
             "BadCertificateChainIncomplete",
             &["is there and signed it", "another key identifier", "0B8711F296A2EE4423B81175F2B2AE50A2732A1D"],
         ),
+        (
+            "07-crl-idp/crl-idp-dp-only-no-cdp",
+            None,
+            "BadCertificateRevocationUnknown",
+            &["does not cover this certificate", "the distribution point", "add the list of a distribution point"],
+        ),
     ] {
         let folder = cases.join(case);
         let mut arguments = vec!["pki", "verify", "--trusted", "trusted", "--at", "2026-12-01T00:00:00Z"];

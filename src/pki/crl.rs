@@ -13,8 +13,9 @@ use x509_parser::prelude::{
 use super::certificate::check_size;
 use super::distribution_point::{OutOfScope, Reasons, Scope};
 use super::facts::{date, range_within, significant};
+use super::flaw::quoted;
 use super::signature::{SignatureAlgorithm, Verdict};
-use super::{Certificate, PkiError, name, pem, tlv};
+use super::{Certificate, CrlUnusable, PkiError, name, pem, tlv};
 use crate::model::CrlSummary;
 
 /// The largest revocation list that is read, in bytes of DER: room for 150,000 entries with long serial numbers.
@@ -43,7 +44,7 @@ struct Facts {
     next_update: Option<DateTime<Utc>>,
     /// Sorted by serial number.
     entries: Vec<Entry>,
-    unusable: Option<String>,
+    unusable: Option<CrlUnusable>,
     scope: Scope,
     signature_algorithm: SignatureAlgorithm,
     signed: Range<usize>,
@@ -167,8 +168,8 @@ impl Crl {
 
     /// Why it can say of no certificate by itself that it is not revoked, if it cannot: it is a delta or indirect list,
     /// it is only about some reasons, or something in it is critical and not understood (RFC 5280 §5.2).
-    pub fn unusable(&self) -> Option<&str> {
-        self.facts.unusable.as_deref().or(self.facts.scope.unusable())
+    pub fn unusable(&self) -> Option<CrlUnusable> {
+        self.facts.unusable.clone().or(self.facts.scope.unusable())
     }
 
     /// Which certificates of its authority it leaves out; `None` if none.
@@ -183,9 +184,8 @@ impl Crl {
     }
 
     /// Why nothing in it counts as a full list, even together with others.
-    pub(super) fn not_understood(&self) -> Option<&str> {
-        let scope = self.facts.scope.indirect.then(|| self.facts.scope.unusable()).flatten();
-        self.facts.unusable.as_deref().or(scope)
+    pub(super) fn not_understood(&self) -> Option<CrlUnusable> {
+        self.facts.unusable.clone().or(self.facts.scope.indirect.then_some(CrlUnusable::Indirect))
     }
 
     pub(super) fn is_only_about_authorities(&self) -> bool {
@@ -364,11 +364,10 @@ impl Facts {
             }
             ParsedExtension::ParseError { .. } => return Err(damaged),
             _ if extension.oid.to_id_string() == DELTA_CRL_INDICATOR => {
-                self.unusable("it is a delta list, which says only what changed since another list".to_owned());
+                self.unusable(CrlUnusable::Delta);
             }
             _ if extension.critical => {
-                let oid = extension.oid.to_id_string();
-                self.unusable(format!("its extension {oid} is critical and not understood"));
+                self.unusable(CrlUnusable::CriticalExtension(quoted(&extension.oid.to_id_string())));
             }
             _ => {}
         }
@@ -387,8 +386,7 @@ impl Facts {
                     self.scope.indirect = true;
                 }
                 _ if extension.critical => {
-                    let oid = extension.oid.to_id_string();
-                    self.unusable(format!("an entry's extension {oid} is critical and not understood"));
+                    self.unusable(CrlUnusable::CriticalEntryExtension(quoted(&extension.oid.to_id_string())));
                 }
                 _ => {}
             }
@@ -404,7 +402,7 @@ impl Facts {
         Ok(())
     }
 
-    fn unusable(&mut self, why: String) {
+    fn unusable(&mut self, why: CrlUnusable) {
         self.unusable.get_or_insert(why);
     }
 }

@@ -289,7 +289,7 @@ impl Crl {
             authority_key_id: self.authority_key_id().map(hex::encode_upper),
             signature_algorithm: self.signature_algorithm().to_owned(),
             signed_by: signer.map(Certificate::thumbprint_sha1),
-            unusable: self.unusable().map(str::to_owned),
+            unusable: self.unusable().map(|why| why.to_string()),
             limits: self.limits().map(|limits| limits.to_string()),
             sha1: self.id(),
             entries: self

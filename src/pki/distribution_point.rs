@@ -2,12 +2,13 @@
 //! certificates (RFC 5280 §5.2.5, §4.2.1.13).
 
 use std::collections::BTreeSet;
-use std::fmt;
 
+use serde::{Deserialize, Serialize};
 use x509_parser::prelude::{FromDer, GeneralName, X509Name};
 
+use super::flaw::quoted;
 use super::tlv::{self, SEQUENCE};
-use super::{Certificate, RevocationReason, name};
+use super::{Certificate, CrlUnusable, RevocationReason, name};
 
 /// A set of reasons for a revocation, those of ReasonFlags.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,8 +116,9 @@ impl Default for Scope {
     }
 }
 
-/// Why a list does not say whether a certificate was revoked.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// Which certificates a list leaves out.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum OutOfScope {
     /// It is only about certificates of applications; this one is an authority's.
     OnlyApplications,
@@ -128,19 +130,6 @@ pub enum OutOfScope {
     OtherDistributionPoint(String),
 }
 
-impl fmt::Display for OutOfScope {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::OnlyApplications => f.write_str("it is only about certificates of applications"),
-            Self::OnlyAuthorities => f.write_str("it is only about certificates of authorities"),
-            Self::OnlyAttributeCertificates => f.write_str("it is only about attribute certificates"),
-            Self::OtherDistributionPoint(point) => {
-                write!(f, "it is only about certificates with the distribution point {point}")
-            }
-        }
-    }
-}
-
 impl Scope {
     /// `issuer`: of the list. `None` if the extension is damaged.
     pub fn read(extension: &[u8], issuer: &X509Name<'_>) -> Option<Self> {
@@ -148,7 +137,7 @@ impl Scope {
         let point = fields.take(0xa0);
         let points = optional(point, |content| point_names(content, issuer))?;
         let scope = Self {
-            points_text: point.and_then(first_name).unwrap_or_default(),
+            points_text: point.and_then(first_name).map(|name| quoted(&name)).unwrap_or_default(),
             points: points.map(|names| names.into_iter().collect()),
             only_users: fields.take_boolean(0x81)?,
             only_authorities: fields.take_boolean(0x82)?,
@@ -161,15 +150,15 @@ impl Scope {
     }
 
     /// Why it can say of no certificate by itself that it is not revoked.
-    pub fn unusable(&self) -> Option<&'static str> {
+    pub fn unusable(&self) -> Option<CrlUnusable> {
         if self.indirect {
-            Some("it is an indirect list, which speaks for other authorities")
+            Some(CrlUnusable::Indirect)
         } else if self.only_attributes {
-            Some("it is only about attribute certificates")
+            Some(CrlUnusable::OnlyAttributeCertificates)
         } else if self.only_users && self.only_authorities {
-            Some("it is only about applications and only about authorities, which is about nothing")
+            Some(CrlUnusable::AboutNothing)
         } else if self.reasons != Reasons::ALL {
-            Some("it is a partitioned list, only about some reasons")
+            Some(CrlUnusable::OnlySomeReasons)
         } else {
             None
         }

@@ -97,7 +97,7 @@ pub use error::PkiError;
 pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use file_content::{FileContent, Wanted};
 pub use fingerprint::{Fingerprint, FingerprintError};
-pub use flaw::{CertificateFlaw, RefusalCause, explain_refusal};
+pub use flaw::{CertificateFlaw, CrlFlaw, CrlUnusable, RefusalCause, explain_refusal};
 pub use identity::{TlsIdentity, tls_identity};
 pub use issuers::{Issuers, issuers_of};
 pub use key::PrivateKey;
@@ -109,5 +109,5 @@ pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_k
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealCost, SealError, Sealed, SealingKey, open, seal};
 pub use self_signed::{ServerNames, self_signed};
-pub use trust::{CrlFlaw, Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};
+pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};
 pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

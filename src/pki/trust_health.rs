@@ -2,7 +2,7 @@ use chrono::{DateTime, Utc};
 use serde::Serialize;
 
 use super::signature::Verdict;
-use super::{Certificate, Crl, KeyUsage, TrustLists, is_authority};
+use super::{Certificate, Crl, CrlFlaw, KeyUsage, TrustLists, is_authority};
 
 /// What is wrong with CRLs and the authorities they are for, before a client is refused because of it.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
@@ -46,6 +46,25 @@ pub enum CrlDates {
 }
 
 impl CrlHealth {
+    /// Why nothing can be checked with that list, if its issuer is held: what [`TrustLists::validate`] says as well.
+    /// `held`: certificates with the name of its issuer and others.
+    pub fn flaw(&self, crl: &Crl, mut held: impl Iterator<Item = Certificate>, now: DateTime<Utc>) -> Option<CrlFlaw> {
+        let of_signature = match &self.issuer {
+            CrlIssuer::NotSignedBy { .. } if held.any(|authority| crl.is_of(&authority)) => Some(CrlFlaw::NotSigned),
+            CrlIssuer::NotSignedBy { .. } => Some(CrlFlaw::KeyNotHeld),
+            CrlIssuer::MayNotSign { .. } => Some(CrlFlaw::MayNotSign),
+            CrlIssuer::Held { .. } | CrlIssuer::Missing => None,
+        };
+        let of_content = || crl.unusable().map(|because| CrlFlaw::Unusable { because });
+        let of_dates = || match (self.dates, crl.next_update()) {
+            (CrlDates::Current, _) => None,
+            (CrlDates::NotYetValid, _) => Some(CrlFlaw::NotYetValid { from: crl.this_update(), now }),
+            (CrlDates::Expired, Some(until)) => Some(CrlFlaw::Expired { until, now }),
+            (CrlDates::Expired, None) | (CrlDates::NoEnd, _) => Some(CrlFlaw::NoEnd),
+        };
+        of_signature.or_else(of_content).or_else(of_dates)
+    }
+
     /// Whether certificates can be checked with it.
     pub fn is_usable(&self) -> bool {
         matches!(self.issuer, CrlIssuer::Held { .. }) && self.dates == CrlDates::Current

@@ -68,7 +68,8 @@ pub const MAX_ENTRIES: usize = 100;
 pub const MAX_BYTES: usize = 1024 * 1024;
 /// Certificates of the chain that are kept of one entry. Chains of more than a root and two more are not seen.
 const MAX_CHAIN: usize = 4;
-const MAX_REASON_CHARS: usize = 300;
+/// More than is said of names of the usual length, so that a reason is not cut short.
+const MAX_REASON_CHARS: usize = 1500;
 pub const WRITE_PAUSE: Duration = Duration::from_secs(5);
 const FILE: &str = "rejected.json";
 const MAX_FILE_BYTES: u64 = 4 * 1024 * 1024;

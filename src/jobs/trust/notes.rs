@@ -1,7 +1,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use chrono::{DateTime, Utc};
+use chrono::{DateTime, SecondsFormat, Utc};
 
 use super::{Target, TrustSnapshot};
 use crate::model::{ClientList, Language};
@@ -20,6 +20,9 @@ pub enum Note {
     CrlAmongCertificates,
     /// It takes the place of the older CRL of the same issuer.
     ReplacesOlder,
+    /// It is newer than another CRL of the same issuer, but its number is lower: numbers go up (RFC 5280 §5.2.3) unless the
+    /// authority was set up anew.
+    NumberStartsAgain { number: String, date: DateTime<Utc>, before: String, date_before: DateTime<Utc> },
     /// Its validity is over, or a newer CRL should have come.
     Expired,
     /// Its validity has not begun.
@@ -31,6 +34,9 @@ impl Note {
     pub fn text(&self, language: Language) -> Cow<'static, str> {
         let (en, zh) = match self {
             Self::NeverAccepted { authority, flaw } => return never(*authority, flaw, language).into(),
+            Self::NumberStartsAgain { number, date, before, date_before } => {
+                return starts_again((number, date), (before, date_before), language).into();
+            }
             Self::TrustsAllItIssues => {
                 ("lets in every client with a certificate from it", "允许其签发的所有客户端连接")
             }
@@ -44,6 +50,24 @@ impl Note {
             Language::En => en.into(),
             Language::Zh => zh.into(),
         }
+    }
+}
+
+fn starts_again(
+    (number, date): (&str, &DateTime<Utc>),
+    (before, date_before): (&str, &DateTime<Utc>),
+    language: Language,
+) -> String {
+    let text = |date: &DateTime<Utc>| date.to_rfc3339_opts(SecondsFormat::Secs, true);
+    let (date, date_before) = (text(date), text(date_before));
+    match language {
+        Language::En => format!(
+            "its number starts again: {number} of {date}, after {before} of {date_before}; ask the authority whether it was \
+             set up anew"
+        ),
+        Language::Zh => format!(
+            "编号重新开始：{date} 的编号为 {number}，此前 {date_before} 的编号为 {before}；请向颁发者确认是否已重新建立"
+        ),
     }
 }
 

@@ -323,6 +323,7 @@ impl Sorter<'_> {
                 return Fate::Skipped(SkipReason::Outdated);
             }
         }
+        notes.extend(self.number_starts_again(crl));
         if !asked_for {
             notes.push(Note::CrlAmongCertificates);
         }
@@ -332,6 +333,16 @@ impl Sorter<'_> {
             notes.push(Note::NotYetValid);
         }
         Fate::Goes { to: Target::Crls, notes }
+    }
+
+    /// Compared with what is held and with what comes along.
+    fn number_starts_again(&self, crl: &Crl) -> Option<Note> {
+        let same_scope =
+            self.held_crls.iter().chain(self.offered_crls.iter().copied()).filter(|other| crl.has_same_scope_as(other));
+        same_scope.into_iter().find_map(|other| {
+            let (number, before) = crl.number_starts_again_after(other)?;
+            Some(Note::NumberStartsAgain { number, date: crl.this_update(), before, date_before: other.this_update() })
+        })
     }
 }
 
@@ -478,6 +489,41 @@ mod tests {
         assert_eq!(fates(&along), [goes(Target::Issuers, &[]), Skipped(SkipReason::Outdated)]);
         let both = planned(&[file("1.crl", &[], &[&old]), file("3.crl", &[], &[&new])], Destination::Crls);
         assert_eq!(fates(&both), [Skipped(SkipReason::Outdated), goes(Target::Crls, &[Note::ReplacesOlder])]);
+    }
+
+    /// Made by OpenSSL; the authority was set up anew with the same key.
+    #[test]
+    fn a_crl_whose_number_starts_again_is_taken_with_both_numbers_and_dates() {
+        let read = |der: &[u8]| Crl::from_der(der).unwrap();
+        let before = read(include_bytes!("../../../tests/cases/12-crl-number-reset/crls/0.crl"));
+        let after = read(include_bytes!("../../../tests/cases/12-crl-number-reset/crls/1.crl"));
+        let note = Note::NumberStartsAgain {
+            number: "1".to_owned(),
+            date: after.this_update(),
+            before: "500".to_owned(),
+            date_before: before.this_update(),
+        };
+        let mut held = snapshot(Current);
+        held.clock = "2026-11-27T12:00:00Z".parse().unwrap();
+        held.crls.push(listed_crl(&before));
+        let planned = TrustPlan::for_controller(&[file("1.crl", &[], &[&after])], Destination::Crls, &held);
+        assert_eq!(fates(&planned), [goes(Target::Crls, &[Note::ReplacesOlder, note.clone()])]);
+        assert!(planned.needs_a_look());
+        assert_eq!(planned.check(), Ok(()));
+        for language in crate::model::Language::ALL {
+            let said = note.text(language);
+            for part in ["500", "2026-10-18T15:16:44Z", "2026-11-26T15:16:44Z", " 1"] {
+                assert!(said.contains(part), "no {part} in {said}");
+            }
+        }
+        held.crls.clear();
+        let files = [file("0.crl", &[], &[&before]), file("1.crl", &[], &[&after])];
+        let planned = TrustPlan::for_controller(&files, Destination::Crls, &held);
+        assert_eq!(fates(&planned), [Skipped(SkipReason::Outdated), goes(Target::Crls, &[note])], "both come at once");
+        held.crls = vec![listed_crl(&after)];
+        let planned = TrustPlan::for_controller(&files[..1], Destination::Crls, &held);
+        let [Fate::Refused(problem)] = &fates(&planned)[..] else { panic!("{planned:?}") };
+        assert_eq!(problem.code, ErrorCode::CrlOutdated);
     }
 
     #[test]

@@ -70,7 +70,7 @@ impl CertificateFlaw {
             Self::MayNotIssue => "该证书签发了证书，但其密钥不能签发证书".to_owned(),
             Self::MayNotIssueFor { role } => format!("该证书不能为{}签发证书", who(*role)),
             Self::TooManyAuthoritiesBelow { most, found } => format!("其下最多允许 {most} 个 CA，实际有 {found} 个"),
-            Self::RevocationUnknown { why } => format!("无法确定是否已吊销：{why}"),
+            Self::RevocationUnknown { authority, crl } => format!("无法确定是否已吊销：{}", crl.chinese(authority)),
             Self::Revoked { on, because } => format!("已于 {} 吊销 ({})", date(on), because.as_str()),
             Self::NotThatOfTheChannel => "会话使用的证书与安全通道的证书不同".to_owned(),
         }
@@ -124,7 +124,7 @@ impl CertificateFlaw {
             | Self::MayNotIssue
             | Self::MayNotIssueFor { .. }
             | Self::TooManyAuthoritiesBelow { .. } => "请由有权签发的 CA 签发证书",
-            Self::RevocationUnknown { .. } => "请添加该 CA 的最新吊销列表",
+            Self::RevocationUnknown { crl, .. } => return crl.chinese_remedy(),
             Self::Revoked { .. } => "请勿继续使用，请重新申请证书",
             Self::NotThatOfTheChannel => "请修正客户端，它出示了两个证书",
         }

@@ -85,7 +85,7 @@ impl CertificateFlaw {
             Self::TooManyAuthoritiesBelow { most, found } => {
                 format!("at most {most} authorities may stand below it, but {found} do")
             }
-            Self::RevocationUnknown { why } => why.clone(),
+            Self::RevocationUnknown { authority, crl } => crl.english(authority),
             Self::Revoked { on, because } => format!("it was revoked on {} ({})", date(on), because.as_str()),
             Self::NotThatOfTheChannel => {
                 "the session was opened with another certificate than the secure channel".to_owned()
@@ -157,7 +157,7 @@ impl CertificateFlaw {
             | Self::MayNotIssue
             | Self::MayNotIssueFor { .. }
             | Self::TooManyAuthoritiesBelow { .. } => "have the certificate issued by an authority that may do so",
-            Self::RevocationUnknown { .. } => "add an up-to-date revocation list of the authority",
+            Self::RevocationUnknown { crl, .. } => return crl.english_remedy(),
             Self::Revoked { .. } => "do not use it any more; ask for a new certificate",
             Self::NotThatOfTheChannel => "mend the client; it shows two certificates",
         }

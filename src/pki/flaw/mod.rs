@@ -3,9 +3,16 @@
 //! | file | content |
 //! |---|---|
 //! | `english`, `chinese` | what is wrong and what to do, in these languages |
+//! | `crl` | [`CrlFlaw`]: what can be wrong with a revocation list |
+//! | `crl_english`, `crl_chinese` | its words in these languages |
 
 mod chinese;
+mod crl;
+mod crl_chinese;
+mod crl_english;
 mod english;
+
+pub use crl::{CrlFlaw, CrlUnusable};
 
 use chrono::{DateTime, SecondsFormat, Utc};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -176,8 +183,11 @@ pub enum CertificateFlaw {
     },
 
     // steps 10 and 11: revocation
+    /// No list that counts says whether it was revoked. `authority`: its issuer; `crl`: the flaw of the list that comes
+    /// nearest to saying it.
     RevocationUnknown {
-        why: String,
+        authority: String,
+        crl: CrlFlaw,
     },
     Revoked {
         on: DateTime<Utc>,
@@ -314,9 +324,10 @@ fn capital(text: &str) -> String {
     chars.next().map(|first| first.to_uppercase().chain(chars).collect()).unwrap_or_default()
 }
 
-/// A cause may come from a controller: its texts are not to be trusted more than a certificate's.
+/// A cause may come from a controller: its texts are not to be trusted more than a certificate's. Longer than what is said
+/// of names that are [`quoted`], so that only what nothing here made is cut.
 fn printable(text: String) -> String {
-    const MOST: usize = 1000;
+    const MOST: usize = 2500;
     name::printable(&text).chars().take(MOST).collect()
 }
 

@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 
 use super::*;
+use crate::pki::OutOfScope;
 
 fn all() -> Vec<CertificateFlaw> {
     use CertificateFlaw as F;
@@ -55,10 +56,96 @@ fn all() -> Vec<CertificateFlaw> {
         F::MayNotIssue,
         F::MayNotIssueFor { role: Role::Client },
         F::TooManyAuthoritiesBelow { most: 0, found: 2 },
-        F::RevocationUnknown { why: "no list".to_owned() },
         F::Revoked { on: when(), because: RevocationReason::KeyCompromise },
         F::NotThatOfTheChannel,
     ]
+    .into_iter()
+    .chain(of_lists(&text()).map(|crl| F::RevocationUnknown { authority: text(), crl }))
+    .collect()
+}
+
+/// Every way in which a list is of no use; the texts in it are that one.
+fn of_lists(text: &str) -> impl Iterator<Item = CrlFlaw> {
+    let text = || text.to_owned();
+    let (from, until, now) = (DateTime::UNIX_EPOCH, DateTime::UNIX_EPOCH, DateTime::UNIX_EPOCH);
+    let unusable = [
+        CrlUnusable::Delta,
+        CrlUnusable::Indirect,
+        CrlUnusable::OnlyAttributeCertificates,
+        CrlUnusable::AboutNothing,
+        CrlUnusable::OnlySomeReasons,
+        CrlUnusable::CriticalExtension(text()),
+        CrlUnusable::CriticalEntryExtension(text()),
+    ];
+    let out_of_scope = [
+        OutOfScope::OnlyApplications,
+        OutOfScope::OnlyAuthorities,
+        OutOfScope::OnlyAttributeCertificates,
+        OutOfScope::OtherDistributionPoint(text()),
+    ];
+    let nested = CrlFlaw::OutOfScope { because: OutOfScope::OtherDistributionPoint(text()) };
+    let nested = CertificateFlaw::RevocationUnknown { authority: text(), crl: nested };
+    let others = [
+        CrlFlaw::Missing,
+        CrlFlaw::NotSigned,
+        CrlFlaw::SignatureUnverifiable { why: text() },
+        CrlFlaw::KeyNotHeld,
+        CrlFlaw::KeyNotAccepted { subject: text(), because: Box::new(CertificateFlaw::NotAnAuthority) },
+        CrlFlaw::KeyNotAccepted { subject: text(), because: Box::new(nested) },
+        CrlFlaw::MayNotSign,
+        CrlFlaw::WeakHash { algorithm: text() },
+        CrlFlaw::NotYetValid { from, now },
+        CrlFlaw::NoEnd,
+        CrlFlaw::Expired { until, now },
+        CrlFlaw::SomeReasons,
+    ];
+    let unusable = unusable.map(|because| CrlFlaw::Unusable { because });
+    let out_of_scope = out_of_scope.map(|because| CrlFlaw::OutOfScope { because });
+    unusable.into_iter().chain(out_of_scope).chain(others)
+}
+
+#[test]
+fn each_flaw_of_a_list_has_a_remedy_of_its_own() {
+    for language in Language::ALL {
+        let mut remedies = BTreeSet::new();
+        for crl in of_lists("x") {
+            let flaw = CertificateFlaw::RevocationUnknown { authority: "CN=Plant CA".to_owned(), crl };
+            assert!(flaw.reason(language).contains("CN=Plant CA"), "{flaw:?}");
+            remedies.insert(flaw.remedy(language));
+        }
+        // A list about attribute certificates is of no use and out of scope; the two extensions have one remedy.
+        assert_eq!(remedies.len() + 2, of_lists("x").count(), "{remedies:#?}");
+    }
+}
+
+#[test]
+fn what_is_said_of_a_list_is_whole_however_long_the_names_are() {
+    let name = quoted(&"长".repeat(300));
+    for language in Language::ALL {
+        for crl in of_lists(&name) {
+            let flaw = CertificateFlaw::RevocationUnknown { authority: name.clone(), crl: crl.clone() };
+            let long = match language {
+                Language::En => crl.english(&name),
+                Language::Zh => crl.chinese(&name),
+            };
+            assert!(flaw.reason(language).ends_with(&long), "{long}");
+            let cause = RefusalCause { flaw, at_fault: Some(name.clone()) };
+            assert!(cause.explain(language).contains(&long), "{long}");
+        }
+    }
+}
+
+#[test]
+fn a_flaw_of_a_list_is_told_by_name() {
+    let json = r#"{"flaw":"revocation-unknown","authority":"CN=Plant CA","crl":{"flaw":"key-not-accepted",
+        "subject":"CN=New","because":{"flaw":"not-an-authority"}}}"#;
+    let because = Box::new(CertificateFlaw::NotAnAuthority);
+    let crl = CrlFlaw::KeyNotAccepted { subject: "CN=New".to_owned(), because };
+    let flaw = CertificateFlaw::RevocationUnknown { authority: "CN=Plant CA".to_owned(), crl };
+    assert_eq!(serde_json::from_str::<RefusalCause>(json).unwrap(), RefusalCause { flaw, at_fault: None });
+    let before = r#"{"flaw":"revocation-unknown","why":"there is no revocation list"}"#;
+    let before = RefusalCause::if_known(&mut serde_json::Deserializer::from_str(before)).unwrap();
+    assert_eq!(before, None, "as controllers said it before");
 }
 
 #[test]

@@ -42,7 +42,6 @@
 
 mod chain;
 pub(super) mod checks;
-mod crl_flaw;
 mod lists;
 mod names;
 mod never;
@@ -54,7 +53,6 @@ mod revocation;
 mod tests;
 
 pub use checks::check_application_uri;
-pub use crl_flaw::CrlFlaw;
 pub use lists::TrustLists;
 pub use never::never_accepted;
 pub use policy::{Presented, Role, TrustPolicy};

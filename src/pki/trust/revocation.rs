@@ -1,11 +1,11 @@
 use super::chain::{Budget, Search};
 use super::checks::{Failure, Step, accepts_hash};
-use super::{CrlFlaw, Presented, Rejection, TrustLists, TrustPolicy};
+use super::{Presented, Rejection, TrustLists, TrustPolicy};
 use crate::pki::crl::Revoked;
 use crate::pki::distribution_point::Reasons;
 use crate::pki::flaw::quoted;
 use crate::pki::signature::{PublicKey, Verdict};
-use crate::pki::{Certificate, CertificateFlaw, Crl, KeyUsage};
+use crate::pki::{Certificate, CertificateFlaw, Crl, CrlFlaw, KeyUsage};
 
 /// How many other certificates of an issuer are tried as the signer of one list.
 const MAX_SIGNERS: usize = 8;
@@ -46,10 +46,9 @@ impl Revocation<'_, '_> {
                     let flaw = CertificateFlaw::Revoked { on: revoked.date, because: revoked.reason };
                     return Err((Step::Revocation, Rejection::new(flaw, certificate, depth)));
                 }
-                Answer::Unknown(flaw) => {
-                    let why = quoted(&flaw.explain(issuer.subject()));
-                    let rejection = Rejection::new(CertificateFlaw::RevocationUnknown { why }, certificate, depth);
-                    unknown.get_or_insert((Step::FindRevocationList, rejection));
+                Answer::Unknown(crl) => {
+                    let flaw = CertificateFlaw::RevocationUnknown { authority: quoted(issuer.subject()), crl };
+                    unknown.get_or_insert((Step::FindRevocationList, Rejection::new(flaw, certificate, depth)));
                 }
             }
         }
@@ -150,39 +149,42 @@ impl Revocation<'_, '_> {
             Presented { certificate: signer, chain: &above, application_uri: None, host: None, ..*self.presented };
         match Search::for_a_signer_of_lists(self.lists, &presented, self.policy, root, budget).run() {
             Ok(_) => Ok(()),
-            Err(rejection) => Err(CrlFlaw::AnotherKey(format!("{}: {}", rejection.subject, rejection.reason()))),
+            Err(rejection) => {
+                Err(CrlFlaw::KeyNotAccepted { subject: quoted(&rejection.subject), because: Box::new(rejection.flaw) })
+            }
         }
     }
 
     /// Whether the list is what the owner of that certificate says.
     fn is_signed_by(&self, index: usize, crl: &Crl, signer: &Certificate) -> Result<(), CrlFlaw> {
         if !crl.is_of(signer) {
-            return Err(CrlFlaw::AnotherKey("no certificate with that key is held".to_owned()));
+            return Err(CrlFlaw::KeyNotHeld);
         }
         match self.lists.crl_signature(index, signer) {
             Verdict::Right if signer.key_usages().is_some_and(|usages| !usages.contains(&KeyUsage::CrlSign)) => {
                 Err(CrlFlaw::MayNotSign)
             }
             Verdict::Right if accepts_hash(crl.algorithm().hash(), self.presented, self.policy) => Ok(()),
-            Verdict::Right => Err(CrlFlaw::TooWeak(crl.signature_algorithm().to_owned())),
+            Verdict::Right => Err(CrlFlaw::WeakHash { algorithm: quoted(crl.signature_algorithm()) }),
             Verdict::Wrong => Err(CrlFlaw::NotSigned),
-            Verdict::CannotSay(why) => Err(CrlFlaw::CannotSay(why)),
+            Verdict::CannotSay(why) => Err(CrlFlaw::SignatureUnverifiable { why: quoted(&why) }),
         }
     }
 
     /// The reasons for which the list would name the certificate.
     fn covers(&self, crl: &Crl, certificate: &Certificate) -> Result<Reasons, CrlFlaw> {
-        if let Some(why) = crl.not_understood() {
-            return Err(CrlFlaw::Unusable(why.to_owned()));
+        let now = self.presented.now;
+        if let Some(because) = crl.not_understood() {
+            return Err(CrlFlaw::Unusable { because });
         }
-        let reasons = crl.covers(certificate).map_err(CrlFlaw::OutOfScope)?;
-        if self.presented.now < crl.this_update() {
-            return Err(CrlFlaw::NotYetValid(crl.this_update()));
+        let reasons = crl.covers(certificate).map_err(|because| CrlFlaw::OutOfScope { because })?;
+        if now < crl.this_update() {
+            return Err(CrlFlaw::NotYetValid { from: crl.this_update(), now });
         }
         match crl.next_update() {
             _ if self.policy.allow_expired_crls => Ok(reasons),
             None => Err(CrlFlaw::NoEnd),
-            Some(until) if self.presented.now.timestamp() > until.timestamp() => Err(CrlFlaw::Expired(until)),
+            Some(until) if now.timestamp() > until.timestamp() => Err(CrlFlaw::Expired { until, now }),
             Some(_) => Ok(reasons),
         }
     }

@@ -3,7 +3,7 @@ use chrono::Duration;
 use super::*;
 use crate::model::CertificateStatus as Status;
 use crate::pki::samples::{self, TestCa};
-use crate::pki::{Certificate, Crl};
+use crate::pki::{Certificate, CertificateFlaw, Crl, CrlFlaw};
 
 fn presented(certificate: &Certificate) -> Presented<'_> {
     Presented {
@@ -14,6 +14,14 @@ fn presented(certificate: &Certificate) -> Presented<'_> {
         application_uri: None,
         host: None,
         security_policy: None,
+    }
+}
+
+/// Why the lists do not say whether the certificate was revoked.
+fn flaw_of_lists(lists: &TrustLists, presented: &Presented<'_>) -> CrlFlaw {
+    match lists.validate(presented, &TrustPolicy::default()).unwrap_err().flaw {
+        CertificateFlaw::RevocationUnknown { crl, .. } => crl,
+        flaw => panic!("{flaw:?}"),
     }
 }
 
@@ -106,6 +114,39 @@ fn a_list_about_some_certificates_counts_where_it_covers_the_one_asked_about() {
         let now = "2026-11-27T12:00:00Z".parse().unwrap();
         assert_eq!(status(&lists, &Presented { now, ..presented(&certificate) }), expected, "{:?}", lists.crls());
     }
+}
+
+#[test]
+fn a_list_that_is_of_no_use_says_why() {
+    let (ca, new) = (TestCa::new("Plant CA"), TestCa::new("Plant CA"));
+    let application = ca.application(&[0x11]);
+    let lists = |issuers: &[&Certificate], crls: &[&[u8]]| {
+        let issuers = issuers.iter().map(|one| (*one).clone()).collect();
+        let crls = crls.iter().map(|der| Crl::from_der(der).unwrap()).collect();
+        TrustLists::new(vec![ca.certificate.clone()], issuers, crls)
+    };
+    let now = samples::now();
+    let at = |day: i64| Presented { now: now + Duration::days(day), ..presented(&application) };
+    assert_eq!(flaw_of_lists(&lists(&[], &[]), &at(0)), CrlFlaw::Missing);
+
+    let good = ca.crl(1, []);
+    let (from, until) = (now - Duration::days(1), now + Duration::days(30));
+    let held = lists(&[], &[&good]);
+    assert_eq!(status(&held, &at(0)), None);
+    let later = at(31);
+    assert_eq!(flaw_of_lists(&held, &later), CrlFlaw::Expired { until, now: later.now });
+    let earlier = at(-2);
+    assert_eq!(flaw_of_lists(&held, &earlier), CrlFlaw::NotYetValid { from, now: earlier.now });
+    let mut forged = good.clone();
+    *forged.last_mut().unwrap() ^= 1;
+    assert_eq!(flaw_of_lists(&lists(&[], &[&forged]), &at(0)), CrlFlaw::NotSigned);
+
+    let of_new_key = new.crl(1, []);
+    assert_eq!(flaw_of_lists(&lists(&[], &[&of_new_key]), &at(0)), CrlFlaw::KeyNotHeld);
+    let flaw = flaw_of_lists(&lists(&[&new.certificate], &[&of_new_key]), &at(0));
+    let CrlFlaw::KeyNotAccepted { because, .. } = &flaw else { panic!("{flaw:?}") };
+    let expected = CertificateFlaw::IssuerMissing { issuer: "CN=Plant CA".to_owned() };
+    assert_eq!(**because, expected, "another authority of the same name, which the root did not certify");
 }
 
 /// Sixty certificates of the name of the issuer, each of another key and none of them the signer.

@@ -119,10 +119,10 @@ fn chain(ui: &mut Ui, nodes: &[ChainNode], model: &Model) {
 
 fn crl(ui: &mut Ui, view: &CrlView, model: &Model) {
     let (language, palette) = (model.language, palette(ui));
-    if let Some(why) = &view.unusable {
+    if let Some(flaw) = &view.flaw {
         note(ui, palette.error, |ui| {
             ui.label(RichText::new(T::CrlUnusable.text(language)).strong());
-            fine_print(ui, why);
+            fine_print(ui, &flaw.explain(&view.title, language));
         });
         ui.add_space(theme::SPACE);
     }

@@ -5,7 +5,7 @@ use chrono::{DateTime, Utc};
 use super::{PaneKind, Refusal, Shows};
 use crate::jobs::TrustSnapshot;
 use crate::model::{CertificateSummary, ErrorCode, Problem};
-use crate::pki::{self, AlternativeName, Certificate, RevocationReason};
+use crate::pki::{self, AlternativeName, Certificate, CrlFlaw, RevocationReason};
 use crate::protocol::ListedCertificate;
 use crate::ui::model::{Dialog, Model};
 use crate::ui::texts::{TextKey, Zone};
@@ -70,8 +70,8 @@ pub enum ChainState {
 pub struct CrlView {
     pub title: String,
     pub fields: Vec<Field>,
-    /// Why nothing can be checked with it, in English words.
-    pub unusable: Option<String>,
+    /// Why nothing can be checked with it.
+    pub flaw: Option<CrlFlaw>,
     /// By serial number.
     pub entries: Vec<CrlLine>,
 }
@@ -244,11 +244,15 @@ impl CrlView {
     /// Of the CRL with this id; `None` if it is not held any more.
     pub fn of(held: &TrustSnapshot, id: &str, zone: Zone) -> Option<Result<Self, Problem>> {
         use TextKey as T;
-        let listed = held.crls.iter().find(|listed| listed.summary.id == id)?;
+        let at = held.crls.iter().position(|listed| listed.summary.id == id)?;
+        let listed = &held.crls[at];
         let crl = match pki::Crl::from_der(&listed.crl.as_ref()?.0) {
             Ok(crl) => crl,
             Err(error) => return Some(Err(Problem::with_detail(ErrorCode::BadCrl, error))),
         };
+        let authorities = held.trusted.iter().chain(&held.issuers);
+        let authorities = authorities.filter_map(|listed| Certificate::from_der(&listed.certificate.0).ok());
+        let flaw = held.health.crls.get(at).and_then(|health| health.flaw(&crl, authorities, held.clock));
         let date = |at: DateTime<Utc>| zone.date_time(at);
         let one = |label, text: String| Field { label, lines: vec![text], monospace: false };
         let fields = vec![
@@ -276,12 +280,7 @@ impl CrlView {
             reason: revoked.reason,
             serial_number,
         });
-        Some(Ok(Self {
-            title: listed.summary.issuer.clone(),
-            fields,
-            unusable: crl.unusable().map(ToOwned::to_owned),
-            entries: entries.collect(),
-        }))
+        Some(Ok(Self { title: listed.summary.issuer.clone(), fields, flaw, entries: entries.collect() }))
     }
 }
 

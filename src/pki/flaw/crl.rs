@@ -1,0 +1,130 @@
+use std::fmt;
+
+use chrono::{DateTime, Utc};
+use serde::{Deserialize, Serialize};
+
+use super::{CertificateFlaw, quoted};
+use crate::model::Language;
+use crate::pki::OutOfScope;
+
+/// Why a revocation list does not say whether a certificate was revoked.
+///
+/// Part of [`CertificateFlaw::RevocationUnknown`], which names the authority. In JSON it has the field `flaw` with its
+/// name in kebab case, and its own fields beside it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "flaw", rename_all = "kebab-case")]
+pub enum CrlFlaw {
+    /// There is no list of the authority.
+    Missing,
+    /// It has the name of the authority, but the key of the authority did not sign it.
+    NotSigned,
+    /// The algorithm is not supported, or proves nothing.
+    SignatureUnverifiable {
+        why: String,
+    },
+    /// It names another key of the authority than the one that signed the certificate, and no certificate of that key
+    /// is at hand.
+    KeyNotHeld,
+    /// It is signed with another key of the authority, and the chain of that key's certificate is not good (RFC 5280
+    /// §6.3.3 (f)). `subject`: the certificate of that chain which is at fault.
+    KeyNotAccepted {
+        subject: String,
+        because: Box<CertificateFlaw>,
+    },
+    /// The certificate of its signer does not allow the signing of lists.
+    MayNotSign,
+    WeakHash {
+        algorithm: String,
+    },
+    /// It does not count by itself, whichever certificate is asked about.
+    Unusable {
+        because: CrlUnusable,
+    },
+    /// It is about other certificates.
+    OutOfScope {
+        because: OutOfScope,
+    },
+    NotYetValid {
+        from: DateTime<Utc>,
+        now: DateTime<Utc>,
+    },
+    /// It does not say until when it is valid.
+    NoEnd,
+    Expired {
+        until: DateTime<Utc>,
+        now: DateTime<Utc>,
+    },
+    /// The lists that count are only about some reasons for a revocation, and there is none about the others.
+    SomeReasons,
+}
+
+/// Why a revocation list can say of no certificate by itself that it is not revoked (RFC 5280 §5.2).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum CrlUnusable {
+    /// RFC 5280 §5.2.4.
+    Delta,
+    /// RFC 5280 §5.2.5.
+    Indirect,
+    OnlyAttributeCertificates,
+    /// Only about applications, and only about authorities.
+    AboutNothing,
+    OnlySomeReasons,
+    /// The object identifier of an extension that is critical and not supported.
+    CriticalExtension(String),
+    /// The same, of an entry.
+    CriticalEntryExtension(String),
+}
+
+impl CrlFlaw {
+    /// What is wrong with the list of that authority and what to do.
+    pub fn explain(&self, authority: &str, language: Language) -> String {
+        let flaw = CertificateFlaw::RevocationUnknown { authority: quoted(authority), crl: self.clone() };
+        flaw.explain(language)
+    }
+
+    /// The one to tell of two lists: the one that comes nearer to an answer, the first if none does.
+    pub(in crate::pki) fn or_nearer(self, other: Self) -> Self {
+        if other.rank() > self.rank() { other } else { self }
+    }
+
+    fn rank(&self) -> u8 {
+        match self {
+            Self::Missing => 0,
+            Self::NotSigned => 1,
+            Self::SignatureUnverifiable { .. } => 2,
+            Self::KeyNotHeld => 3,
+            Self::KeyNotAccepted { .. } => 4,
+            Self::MayNotSign => 5,
+            Self::WeakHash { .. } => 6,
+            Self::Unusable { .. } => 7,
+            Self::OutOfScope { .. } => 8,
+            Self::NotYetValid { .. } => 9,
+            Self::NoEnd => 10,
+            Self::Expired { .. } => 11,
+            Self::SomeReasons => 12,
+        }
+    }
+}
+
+impl CrlUnusable {
+    /// What is wrong, as the end of a sentence about the list.
+    pub fn reason(&self, language: Language) -> String {
+        match language {
+            Language::En => self.english(),
+            Language::Zh => self.chinese(),
+        }
+    }
+}
+
+impl fmt::Display for CrlUnusable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.reason(Language::En))
+    }
+}
+
+impl fmt::Display for OutOfScope {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.english())
+    }
+}
