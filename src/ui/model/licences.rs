@@ -56,7 +56,7 @@ mod tests {
     fn the_filter_finds_names_and_licences_and_selects_the_first() {
         let mut view = LicencesView::default();
         assert_eq!(view.shown().len(), Licences::get().components().len());
-        view.filter = "mpl".to_owned();
+        view.filter = "mpl-2".to_owned();
         view.find();
         assert!(view.selected().unwrap().licence.contains("MPL"));
         view.filter = " EGUI ".to_owned();
