@@ -122,7 +122,7 @@ fn a_controller_that_fails_ends_with_1_and_says_why() {
     let people = desk.run(&["--lang", "zh", "start", "weld"]);
     assert!(people.stderr.contains("未配置服务器证书"), "{}", people.stderr);
     let table = desk.run(&["info", "weld", "--lang", "zh"]).stdout;
-    assert!(table.contains("状态") && table.contains("停止") && !table.contains("STATUS"), "{table}");
+    assert!(table.contains("状态") && table.contains("错误 (7931)") && !table.contains("STATUS"), "{table}");
     let help = desk.run(&["--lang", "zh", "settings", "set", "--help"]).stdout;
     assert!(help.contains("用法：") && help.contains("删除控制器中的服务器日志"), "{help}");
     fs::write(desk.folder.path().join("password"), "wrong").unwrap();
