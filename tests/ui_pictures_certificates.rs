@@ -95,7 +95,7 @@ fn export_self_signed() {
     click(&mut window, "pem");
     click(&mut window, "Export");
     picture(&mut window, "confirm_export_self_signed");
-    click(&mut window, "Overwrite");
+    click(&mut window, "Export");
     let file = window.state().model.workspace.root().join("SN0000123/Cert/SelfSigned/1_cert.pem");
     let moved_aside = vec![file.with_file_name("20260301_120000").join("1_cert.pem")];
     let exported = Outcome::Exported { summary: summary(), saved: SavedFile { file, moved_aside } };

@@ -37,7 +37,7 @@ fn export() {
     click(&mut window, "Export");
     chinese(&mut window);
     picture(&mut window, "export_settings_confirm_chinese");
-    click(&mut window, "确定");
+    click(&mut window, "导出");
     let job = job(&window);
     let path = window.state().model.workspace.root().join("SN0001460/option.json");
     let report = Box::new(Report { result: Ok(Outcome::SettingsExported { path }), info: None });

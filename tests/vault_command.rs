@@ -148,12 +148,12 @@ fn a_controller_is_added_before_it_can_be_reached_and_trusted_later() {
     let add = ["controllers", "add", "weld", word("management"), "--series", word("series"), "--unconfirmed"];
     assert_eq!(desk.json(&add).0, Some(0));
     let listed = desk.run(&["controllers", "list"]).stdout;
-    assert_eq!(listed.matches("not confirmed").count(), 2, "{listed}");
+    assert_eq!(listed.matches("Not confirmed").count(), 2, "{listed}");
     let (code, lines) = desk.json(&["info", "weld"]);
     assert_eq!(code, Some(1));
     assert_error(&lines, "fingerprint-unknown");
     assert_eq!(desk.json(&["controllers", "trust", "weld", "--fingerprint", word("fingerprint")]).0, Some(0));
     assert_eq!(desk.json(&["info", "weld"]).0, Some(0));
     let listed = desk.run(&["controllers", "list"]).stdout;
-    assert_eq!(listed.matches("not confirmed").count(), 1, "{listed}");
+    assert_eq!(listed.matches("Not confirmed").count(), 1, "{listed}");
 }

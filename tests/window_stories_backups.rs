@@ -13,7 +13,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use ca::Ca;
-use common::window::{choose, is_enabled, shows, type_into, wait_until};
+use common::window::{agree, choose, is_enabled, shows, type_into, wait_until};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::model::{CertificateType, ServerStatus};
 use opcua_configurator::pki::Csr;
@@ -47,7 +47,7 @@ impl Desk {
         type_into(&mut self.window, "Organisation", "Example");
         let label = button.into_iter().find(|label| is_enabled(&self.window, label)).unwrap();
         self.click(label);
-        self.click("OK");
+        agree(&mut self.window);
     }
 
     fn make_csr(&mut self) {
@@ -101,7 +101,7 @@ fn a_former_certificate_is_kept_with_its_key_and_put_back_from_there() {
     choose(&mut desk.window, &["Certificate", "Export self-signed…"]);
     desk.click("Export");
     assert!(shows(&desk.window, "and their keys, are kept: they are moved into a folder named after their date"));
-    desk.click("OK");
+    desk.click("Export");
     desk.wait_for("Completed");
     assert!(shows(&desk.window, "Former files were moved to"));
     let former = desk.former_key("SelfSigned", "1_key.pfx");
@@ -118,7 +118,7 @@ fn a_former_certificate_is_kept_with_its_key_and_put_back_from_there() {
     desk.click("Restore…");
     desk.wait_for("Issued to");
     assert!(shows(&desk.window, "The certificate of this type in the controller is replaced"));
-    desk.click("OK");
+    desk.click("Restore");
     desk.finish("1 done");
     assert_eq!(desk.in_use(), Some(first), "type 1, with its own key");
 }
@@ -133,7 +133,7 @@ fn a_request_comes_back_with_its_key_and_what_the_ca_issued_for_it() {
     fs::write(desk.cert("CASigned/from_ca.der"), Ca::new().sign(&csr)).unwrap();
     desk.click("Import…");
     desk.wait_for("Issued to");
-    desk.click("OK");
+    desk.click("Import");
     desk.finish("1 done");
     let issued = desk.in_use().unwrap();
     desk.click("Start");
@@ -147,7 +147,7 @@ fn a_request_comes_back_with_its_key_and_what_the_ca_issued_for_it() {
     for said in ["a server that uses it stops, connected clients are cut off", "stays stopped until"] {
         assert!(shows(&desk.window, said), "{said}");
     }
-    desk.click("OK");
+    desk.click("Create CSR");
     desk.wait_for("Completed");
     assert!(shows(&desk.window, "Former files were moved to"));
     desk.finish("1 done");
@@ -159,7 +159,7 @@ fn a_request_comes_back_with_its_key_and_what_the_ca_issued_for_it() {
     desk.restore(CA_SIGNED, None, "");
     desk.wait_for("CSR and key, without a certificate from the CA");
     assert!(shows(&desk.window, "The CSR in the controller and its key are replaced"));
-    desk.click("OK");
+    desk.click("Restore");
     desk.finish("1 done");
 
     let former = desk.former_key("CASigned", "3_key.pfx");
@@ -169,7 +169,7 @@ fn a_request_comes_back_with_its_key_and_what_the_ca_issued_for_it() {
     type_into(&mut desk.window, "Password of the file", plant::PASSWORD);
     desk.click("Restore…");
     desk.wait_for("Issued to");
-    desk.click("OK");
+    desk.click("Restore");
     desk.finish("1 done");
     assert_eq!(desk.in_use(), Some(issued));
 }
@@ -184,7 +184,7 @@ fn an_empty_connection_password_is_refused_with_its_reason() {
     choose(&mut desk.window, &["Server settings", "Export…"]);
     assert!(shows(&desk.window, "A controller without a connection password needs a passphrase"));
     desk.click("Export");
-    desk.click("OK");
+    desk.click("Export");
     desk.wait_for("The connection password is empty and protects no file");
     assert!(shows(&desk.window, "give a passphrase"));
     desk.click("Close");

@@ -217,8 +217,8 @@ fn self_signed_certificates_are_exported() {
     choose(&mut desk.window, &["Certificate", "Export self-signed…"]);
     desk.click("pem");
     desk.click("Export");
-    assert!(shows(&desk.window, "Files of the same name on this computer are overwritten"));
-    desk.click("Overwrite");
+    assert!(shows(&desk.window, "are kept: they are moved into a folder named after their date"));
+    desk.click("Export");
     desk.wait_for("Completed");
     assert!(shows(&desk.window, "Saved in"));
     desk.click("Copy");

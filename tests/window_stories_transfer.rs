@@ -52,7 +52,7 @@ fn settings_of_many_are_exported_and_put_back() {
     desk.click("Export");
     assert!(shows(&desk.window, "A settings export of the same name in the workspace is overwritten"));
     assert!(!shows(&desk.window, "ackup"), "it is an export");
-    desk.click("OK");
+    desk.click("Export");
     desk.wait_for("Completed");
     // Each file, and the folder that holds them all.
     for index in 0..2 {
@@ -103,7 +103,7 @@ fn the_file_of_one_controller_is_looked_at_before_it_is_imported() {
     desk.choose("Import…");
     desk.wait_for(&format!("firmware {}", desk.plant.controller(0).firmware()));
     desk.click("Import");
-    desk.click("OK");
+    desk.click("Replace settings");
     desk.wait_for("Completed");
     assert!(shows(&desk.window, "Imported from") && shows(&desk.window, &folder.display().to_string()));
     desk.finish("1 done");

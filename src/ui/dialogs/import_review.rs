@@ -11,7 +11,7 @@ use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, note, word};
 pub fn show(ui: &Ui, review: &ImportReview, model: &Model) -> Answer {
     let text = |key: T| key.text(model.language);
     let importable = review.importable().len();
-    let submit = if review.warns() { T::ImportAnyway } else { T::ImportButton };
+    let submit = if review.warns() { T::ImportAnyway } else { review.source.act() };
     let why = (importable == 0).then(|| text(T::NoneToImport));
     let buttons = Buttons { submit: Some((text(submit), why)), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, review.source.title(), &review.names);

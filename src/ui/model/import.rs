@@ -39,6 +39,14 @@ pub enum ImportSource {
 }
 
 impl ImportSource {
+    /// What the button that agrees to it says: the act itself.
+    pub const fn act(&self) -> TextKey {
+        match self {
+            Self::Ca(_) | Self::User { .. } => TextKey::ImportButton,
+            Self::Backup { .. } => TextKey::CaRestoreNow,
+        }
+    }
+
     /// Looks at the certificates and changes nothing.
     pub fn check(&self, workspace: &Workspace) -> Arc<dyn Operation> {
         match self {

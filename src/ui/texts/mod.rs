@@ -255,7 +255,6 @@ texts! {
     ActSelfSigned: "Create certificate", "创建证书";
     ActActivate: "Activate", "激活";
     ActSelectType: "Switch certificate", "切换证书";
-    ActOverwrite: "Overwrite", "覆盖";
     ActCreateCsr: "Create CSR", "创建 CSR";
     ActImportSettings: "Replace settings", "替换设置";
     ActSignAndImport: "Sign and import", "签发并导入";
