@@ -58,7 +58,7 @@ impl Desk {
         wait_until(&mut self.window, PATIENCE, |window| is_enabled(window, "Create and save"));
         type_into(&mut self.window, "Organisation", "Example");
         self.click("Create and save");
-        assert!(shows(&self.window, "The present CA-signed certificate becomes invalid"));
+        assert!(shows(&self.window, "the present CA-signed certificate becomes invalid at once"));
         self.click("Create CSR");
         self.finish(summary);
     }

@@ -9,7 +9,7 @@ use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, mistake, word};
 /// Which of the certificates it holds a server uses (manual 2.7.2).
 pub fn show(ui: &Ui, form: &mut TypeSelectForm, model: &Model) -> Answer {
     let text = |key: T| key.text(model.language);
-    let not_stored = ErrorCode::CertificateNotStored.explain(model.language).cause;
+    let not_stored = ErrorCode::CertificateNotStored.explain(model.language).message;
     let why = match (form.task(), form.selected) {
         (Some(_), _) => None,
         _ if form.reading => Some(text(T::Reading)),
