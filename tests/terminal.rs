@@ -118,8 +118,12 @@ fn warnings_about_a_certificate_are_asked_in_the_persons_language_and_not_demand
 
     let refused = desk.typing("n\n", &import);
     assert_eq!(refused.code, Some(2));
-    assert!(refused.stderr.contains("weld: 警告: ") && refused.stderr.contains("Go on? [y/N]"), "{}", refused.stderr);
-    assert!(refused.stderr.contains("clients may complain"), "{}", refused.stderr);
+    assert!(
+        refused.stderr.contains("weld: 警告: ") && refused.stderr.contains("是否继续？[y/N]"),
+        "{}",
+        refused.stderr
+    );
+    assert!(refused.stderr.contains("客户端可能对以上各项发出警告"), "{}", refused.stderr);
     assert_ne!(kind(&desk), "ca-signed");
 
     // Without a terminal, as ever: nothing is asked.
