@@ -374,6 +374,19 @@ fn the_language_changes_at_once_and_is_remembered() {
 }
 
 #[test]
+fn the_licences_of_everything_linked_in_are_shown_and_searched() {
+    let mut desk = Desk::empty(0, FleetFirmware::Current);
+    choose(&mut desk.window, &["Help", "About", "Licences…"]);
+    type_into(&mut desk.window, "Filter by name or licence", "MPL-2.0");
+    assert!(shows(&desk.window, "Mozilla Public License"));
+    type_into(&mut desk.window, "Filter by name or licence", "noto sans");
+    desk.click("Noto Sans CJK SC (subset) 2.004");
+    assert!(shows(&desk.window, "SIL OPEN FONT LICENSE"));
+    type_into(&mut desk.window, "Filter by name or licence", "no such thing");
+    assert!(shows(&desk.window, "Nothing matches the filter"));
+}
+
+#[test]
 fn a_damaged_configuration_is_told_at_the_start() {
     let mut desk = Desk::empty(0, FleetFirmware::Current);
     std::fs::write(desk.workspace.root().join("epson_opcua_config.json"), "{").unwrap();

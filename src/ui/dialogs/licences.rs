@@ -48,9 +48,11 @@ fn components(ui: &mut Ui, view: &mut LicencesView, height: f32, model: &Model) 
             for at in range {
                 let index = view.shown()[at];
                 let component = &Licences::get().components()[index];
+                let size = vec2(ui.available_width(), theme::LIST_ROW);
+                let version = RichText::new(&component.version).size(theme::SMALL_TEXT).color(palette(ui).weak);
+                let button = egui::Button::selectable(view.is_selected(index), &component.name).right_text(version);
                 let line = format!("{} {}", component.name, component.version);
-                let button = egui::Button::selectable(view.is_selected(index), line).truncate();
-                if ui.add_sized(vec2(ui.available_width(), theme::LIST_ROW), button).clicked() {
+                if ui.add_sized(size, button.truncate()).accessible_name(&line).clicked() {
                     clicked = Some(index);
                 }
             }
