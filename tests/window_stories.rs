@@ -15,6 +15,7 @@ use opcua_configurator::jobs::{AddUser, SelfSigned, SelfSignedFields};
 use opcua_configurator::model::{Credential, KeyLength, Language, Problem, ServerStatus, UserPassword, Validity};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::ui::backend::{NewVirtual, VirtualFleetStarter};
+use opcua_configurator::ui::model::Dialog;
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{Configuration, ControllerEntry};
@@ -371,6 +372,30 @@ fn the_language_changes_at_once_and_is_remembered() {
     desk.click("关闭");
     assert!(shows(&desk.window, "控制器"));
     desk.wait_until_saved(|configuration| configuration.options.language == Some(Language::Zh));
+}
+
+/// egui keeps the former texts of a field for Ctrl+Z, also those of a password, under the field's place in the dialog.
+#[test]
+fn undo_does_not_bring_a_password_back() {
+    let mut desk = Desk::empty(0, FleetFirmware::Current);
+    let password = |desk: &Desk| match desk.window.state().model.dialogs.last() {
+        Some(Dialog::AddController(form)) => form.password.0.clone(),
+        other => panic!("{other:?}"),
+    };
+    choose(&mut desk.window, &["Controller", "Add controller…"]);
+    type_into(&mut desk.window, "Connection password", "secret of the cell");
+    // Longer than a text must stay as it is to become a step of undo.
+    desk.window.run_steps(20);
+    assert_eq!(password(&desk), "secret of the cell");
+    desk.click("Cancel");
+
+    choose(&mut desk.window, &["Controller", "Add controller…"]);
+    type_into(&mut desk.window, "Connection password", "x");
+    for _ in 0..3 {
+        desk.window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        desk.window.run_ok();
+        assert!(!password(&desk).contains("secret"), "{:?}", password(&desk));
+    }
 }
 
 #[test]

@@ -39,7 +39,8 @@ pub fn text_field(ui: &mut Ui, text: &mut String, hint: &str) -> Response {
     ui.add(TextEdit::singleline(text).hint_text(hint.to_owned()).desired_width(width).margin(theme::SEARCH_MARGIN))
 }
 
-/// A masked field with a button that shows what is typed.
+/// A masked field with a button that shows what is typed. It has no undo: egui would keep former texts in clear, and
+/// bring them back in the same dialog later.
 pub fn secret_field(ui: &mut Ui, text: &mut String, shown: &mut bool, hint: &str, language: Language) -> Response {
     ui.horizontal(|ui| {
         let word = if *shown { T::Hide } else { T::Show }.text(language);
@@ -50,6 +51,10 @@ pub fn secret_field(ui: &mut Ui, text: &mut String, shown: &mut bool, hint: &str
             .desired_width(ui.available_width() - room)
             .margin(theme::SEARCH_MARGIN);
         let response = ui.add(edit);
+        if let Some(mut state) = TextEdit::load_state(ui.ctx(), response.id) {
+            state.clear_undoer();
+            state.store(ui.ctx(), response.id);
+        }
         if ui.add(egui::Button::new(word).min_size(vec2(room - theme::SPACE, theme::BUTTON_HEIGHT))).clicked() {
             *shown = !*shown;
         }
