@@ -1,8 +1,8 @@
 //! # OPC UA Configurator
 //!
-//! The map of this house. A room may only use the rooms above it:
+//! The modules. Each may use only those above it:
 //!
-//! | room | what lives there |
+//! | module | contents |
 //! |---|---|
 //! | [`platform`] | what differs between operating systems: private files, replacing files, console, display |
 //! | [`model`] | what a controller is and may have: plain types, rules, limits, errors |
@@ -11,19 +11,19 @@
 //! | [`workspace`] | the folder on the PC: configuration, per-serial folders, secrets; atomic writes |
 //! | [`session`] | one session with one controller, over HTTPS |
 //! | [`jobs`] | what an engineer does to many controllers: plan, run side by side, report |
-//! | [`ui`] | the window: a model without egui, a reducer, views and dialogs |
 //! | [`licences`] | the licences of everything linked in, for window and command line |
+//! | [`ui`] | the window: a model without egui, a reducer, views and dialogs |
 //! | [`cli`] | the same jobs from the command line |
 //! | [`virtual_controller`] | the bundled mock controller with its real OPC UA server; uses `model`, `pki`, `protocol` |
 //!
 //! `ui` and `cli` never reach past [`jobs`], [`workspace`] and [`session`]; only `main` and [`cli`] know both the
 //! configurator and the virtual controller, because the demo needs both.
 //!
-//! ## The walk of one change
+//! ## How one change is made
 //! A dialog's form or a command line's arguments become an operation of [`jobs`]; the runner opens a
 //! [`session`] to each controller, up to sixteen side by side; a request of [`protocol`] reaches the controller, which
-//! checks it, stages it and applies it whole or not at all; events walk back to the row, the progress dialog and the
-//! summary.
+//! checks it, stages it and applies it whole or not at all; events report progress and result to the row, the progress
+//! dialog and the summary.
 
 #![warn(missing_debug_implementations, clippy::unwrap_used, clippy::dbg_macro)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
