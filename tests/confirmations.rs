@@ -202,7 +202,8 @@ impl Watch {
         if seen == Undisturbed {
             self.client = Some(client);
         } else {
-            client.ended().await;
+            // Not waited for to end by itself: a client that finds the server running again may be connected anew.
+            client.close().await;
         }
 
         let Confirmation {
