@@ -201,9 +201,11 @@ impl Watch {
         assert_eq!(seen, expected, "{name}");
         if seen == Undisturbed {
             self.client = Some(client);
+        } else if seen == Restarted {
+            // Not waited for: a client that finds the server running again may be connected anew.
+            client.abandon();
         } else {
-            // Not waited for to end by itself: a client that finds the server running again may be connected anew.
-            client.close().await;
+            client.ended().await;
         }
 
         let Confirmation {

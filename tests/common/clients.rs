@@ -230,6 +230,11 @@ impl Client {
         timeout(PATIENCE, self.events).await.expect("still connected").unwrap();
     }
 
+    /// Ends the client at once, without a word to the server.
+    pub fn abandon(self) {
+        self.events.abort();
+    }
+
     pub async fn close(self) {
         let _ = timeout(PATIENCE, self.session.disconnect()).await;
         let _ = timeout(PATIENCE, self.events).await;
