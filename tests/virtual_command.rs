@@ -24,6 +24,10 @@ fn switch(data: &str, arguments: &[&str]) -> Vec<Value> {
 fn until(desk: &Desk, arguments: &[&str], holds: impl Fn(&Value) -> bool) {
     let end = Instant::now() + Duration::from_secs(60);
     loop {
+        // A server that was started before the switch was seen would stay so.
+        if arguments[0] == "start" {
+            desk.json(&["stop", "cell", "--yes"]);
+        }
         let (_, lines) = desk.json(arguments);
         if holds(&lines[0]) {
             return;

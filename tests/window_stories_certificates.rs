@@ -153,7 +153,7 @@ fn warnings_are_asked_about_and_errors_stop_an_import() {
     fs::write(&file, ca.sign_changed(&csr, nowhere)).unwrap();
     type_into(&mut desk.window, "Certificate file", &format!(" \"{}\" ", file.display()));
     desk.click("Import…");
-    desk.wait_for("Warning: the certificate names no address or host");
+    desk.wait_for("Warning: It is for no host; the application is reached as");
     assert_eq!(desk.in_use(0), None, "nothing was sent");
     desk.click("Import anyway");
     desk.finish("1 done");
