@@ -298,7 +298,7 @@ fn read_bounded(path: &Path, limit: usize) -> Result<Vec<u8>, Problem> {
     let read = || -> std::io::Result<Vec<u8>> {
         let file = std::fs::File::open(path)?;
         let length = file.metadata()?.len().min(limit as u64) + 1;
-        // Room for all of it at once: a vector that grows leaves copies of passwords behind.
+        // Capacity for all of it at once: a vector that grows leaves copies of passwords in memory.
         let mut bytes = Vec::with_capacity(usize::try_from(length).unwrap_or_default());
         file.take(limit as u64 + 1).read_to_end(&mut bytes)?;
         Ok(bytes)

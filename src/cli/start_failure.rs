@@ -1,4 +1,4 @@
-//! Tells why the program does not start to somebody who started it without a terminal, such as by a double click.
+//! Shows why the program does not start when it was started without a terminal, such as by a double click.
 
 use std::io::IsTerminal as _;
 
@@ -6,7 +6,7 @@ use crate::model::{ErrorCode, Language, Problem};
 use crate::platform::console;
 use crate::ui::texts::TextKey;
 
-/// Shows a problem in a window if nobody reads standard error. `is_window`: the window was to be opened.
+/// Shows a problem in a window if standard error goes nowhere. `is_window`: the window was to be opened.
 pub(super) fn show(problem: &Problem, language: Language, is_window: bool) {
     if !console::has_error_stream() {
         console::message_box(TextKey::AppName.text(language), &problem_text(problem, language));
