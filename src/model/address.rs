@@ -112,7 +112,7 @@ fn other_form(text: &str) -> Option<AddressError> {
         return Some(AddressError::NotAscii(text.to_owned()));
     }
     let host = text.split(':').next().unwrap_or_default();
-    let numbers: Option<Vec<u8>> = host.split('.').map(|number| number.parse().ok()).collect();
+    let numbers: Option<Vec<u8>> = host.split('.').map(|number| number.parse::<u8>().ok()).collect();
     let meant = <[u8; 4]>::try_from(numbers?).ok().map(|numbers| IpAddr::from(numbers).to_string())?;
     let has_zeros = host.split('.').any(|number| number.len() > 1 && number.starts_with('0'));
     has_zeros.then(|| AddressError::LeadingZeros { found: host.to_owned(), meant })
