@@ -16,6 +16,7 @@ use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Operation, Outcome, Report};
 use crate::model::{ControllerInfo, ErrorCode, Problem, clock};
 use crate::pki::Severity;
+use crate::platform::stop_signal::StopSignals;
 use crate::session::ManagementConnector;
 use crate::ui;
 use crate::workspace::{Configuration, ControllerEntry, Retrieved, WorkspaceLock};
@@ -28,7 +29,7 @@ pub struct Shown {
     pub cells: Vec<Cell>,
 }
 
-/// What a shell makes of a program that Ctrl-C ended.
+/// The exit code of a command that was asked to end twice: what a shell reports of a program that Ctrl-C ended.
 const INTERRUPTED: i32 = 130;
 
 /// How an operation's outcomes are shown.
@@ -197,20 +198,19 @@ impl Settled {
         let (runtime, language) = (runtime()?, self.output.language());
         runtime.block_on(async {
             let cancel = CancellationToken::new();
-            let on_interrupt = {
+            let mut stop = StopSignals::listen();
+            let on_stop = {
                 let cancel = cancel.clone();
                 tokio::spawn(async move {
-                    if tokio::signal::ctrl_c().await.is_ok() {
-                        say(texts::stopping(language));
-                        cancel.cancel();
-                    }
-                    if tokio::signal::ctrl_c().await.is_ok() {
-                        std::process::exit(INTERRUPTED);
-                    }
+                    stop.received().await;
+                    say(texts::stopping(language));
+                    cancel.cancel();
+                    stop.received().await;
+                    std::process::exit(INTERRUPTED);
                 })
             };
             jobs::run(controllers, operation, context, cancel, on_event).await;
-            on_interrupt.abort();
+            on_stop.abort();
         });
         // What was given up may still hold a thread: a keyring that asks for its password, a name that is looked up.
         runtime.shutdown_background();

@@ -8,7 +8,7 @@ use super::secret_file::read_secret;
 use super::{Ending, runtime, virtual_switch};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};
-use crate::platform::stop_signal::stop_signal;
+use crate::platform::stop_signal::StopSignals;
 use crate::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, demo_keys};
 
 #[derive(Debug, Args)]
@@ -136,13 +136,15 @@ fn fleet(args: &FleetArgs) -> Result<Ending, Problem> {
         seed: args.seed,
     };
     runtime()?.block_on(async {
+        // Before the lines that say the controllers are ready: from then on a caller may ask the program to end.
+        let mut stop = StopSignals::listen();
         let fleet = Fleet::start(config).await.map_err(Problem::from)?;
         for controller in fleet.controllers() {
             let line = serde_json::to_string(&controller.ready_line())
                 .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
             super::output::line(&line);
         }
-        stop_signal().await;
+        stop.received().await;
         fleet.shutdown().await;
         Ok(Ending::AllDone)
     })

@@ -1,46 +1,84 @@
-//! Waits until the system or the user asks the program to end.
+//! The requests of the system and of the user that the program end.
 
-/// Returns when the program is to end properly:
+/// The requests to end that this process receives.
 ///
 /// - Unix: SIGINT (Ctrl-C), SIGTERM (a service manager), SIGHUP (the terminal was closed; not under `nohup`).
 /// - Windows: Ctrl-C, Ctrl-Break, the console window was closed, log-off, shutdown, `taskkill`. Windows allows about 5 s from then.
 ///
-/// Never returns if the system allows the program to receive none of them.
-pub async fn stop_signal() {
+/// From [`StopSignals::listen`] on none of them ends the process by itself, and none is lost between two calls of
+/// [`StopSignals::received`].
+#[derive(Debug)]
+pub struct StopSignals {
     #[cfg(unix)]
-    unix::stop_signal().await;
+    inner: unix::StopSignals,
     #[cfg(windows)]
-    super::windows::session_end::stop_signal().await;
+    inner: super::windows::session_end::StopSignals,
+}
+
+impl StopSignals {
+    /// Begins to receive the requests, so call it before anything is announced that a caller may answer with one.
+    ///
+    /// # Panics
+    /// Outside a Tokio runtime.
+    #[must_use]
+    pub fn listen() -> Self {
+        Self {
+            #[cfg(unix)]
+            inner: unix::StopSignals::listen(),
+            #[cfg(windows)]
+            inner: super::windows::session_end::StopSignals::listen(),
+        }
+    }
+
+    /// Returns at the next request. Never returns if the system allows the program to receive none of them.
+    pub async fn received(&mut self) {
+        self.inner.received().await;
+    }
 }
 
 #[cfg(unix)]
 mod unix {
     use std::future::pending;
 
-    use tokio::signal::unix::{SignalKind, signal};
+    use tokio::signal::unix::{Signal, SignalKind, signal};
 
-    pub(super) async fn stop_signal() {
-        tokio::select! {
-            () = one(SignalKind::interrupt()) => {}
-            () = one(SignalKind::terminate()) => {}
-            () = hang_up() => {}
+    #[derive(Debug)]
+    pub(super) struct StopSignals {
+        interrupt: Option<Signal>,
+        terminate: Option<Signal>,
+        hang_up: Option<Signal>,
+    }
+
+    impl StopSignals {
+        pub(super) fn listen() -> Self {
+            let hang_up_counts = !is_ignored(libc::SIGHUP);
+            Self {
+                interrupt: listen_for(SignalKind::interrupt()),
+                terminate: listen_for(SignalKind::terminate()),
+                hang_up: hang_up_counts.then(|| listen_for(SignalKind::hangup())).flatten(),
+            }
+        }
+
+        pub(super) async fn received(&mut self) {
+            tokio::select! {
+                () = next(self.interrupt.as_mut()) => {}
+                () = next(self.terminate.as_mut()) => {}
+                () = next(self.hang_up.as_mut()) => {}
+            }
         }
     }
 
-    async fn one(kind: SignalKind) {
-        match signal(kind) {
-            Ok(mut signal) => {
+    fn listen_for(kind: SignalKind) -> Option<Signal> {
+        signal(kind).inspect_err(|error| tracing::warn!(?kind, %error, "the program does not receive this signal")).ok()
+    }
+
+    async fn next(signal: Option<&mut Signal>) {
+        match signal {
+            Some(signal) => {
                 signal.recv().await;
             }
-            Err(error) => {
-                tracing::warn!(?kind, %error, "the program does not receive this signal");
-                pending().await
-            }
+            None => pending().await,
         }
-    }
-
-    async fn hang_up() {
-        if is_ignored(libc::SIGHUP) { pending().await } else { one(SignalKind::hangup()).await }
     }
 
     /// Whether the program was started with this signal ignored.

@@ -5,7 +5,9 @@ use std::sync::OnceLock;
 use std::thread;
 use std::time::Duration;
 
-use tokio::signal::windows::{ctrl_break, ctrl_c, ctrl_close, ctrl_logoff, ctrl_shutdown};
+use tokio::signal::windows::{
+    CtrlBreak, CtrlC, CtrlClose, CtrlLogoff, CtrlShutdown, ctrl_break, ctrl_c, ctrl_close, ctrl_logoff, ctrl_shutdown,
+};
 use tokio::sync::Notify;
 use windows_sys::Win32::Foundation::{HWND, LPARAM, LRESULT, WPARAM};
 use windows_sys::Win32::System::LibraryLoader::GetModuleHandleW;
@@ -16,38 +18,64 @@ use windows_sys::Win32::UI::WindowsAndMessaging::{
 
 use super::wide;
 
-/// See [`crate::platform::stop_signal::stop_signal`].
+/// See [`crate::platform::stop_signal::StopSignals`].
 ///
 /// A program that uses windows gets no log-off and shutdown event at its console (SetConsoleCtrlHandler, remarks), so
 /// a hidden window waits for WM_ENDSESSION.
-pub async fn stop_signal() {
-    let ended = ENDED.get_or_init(Notify::new);
-    if let Err(error) = thread::Builder::new().name("session end".to_owned()).spawn(watch) {
-        tracing::warn!(%error, "the end of the session is not noticed");
-    }
-    macro_rules! event {
-        ($listen:ident) => {
-            async {
-                match $listen() {
-                    Ok(mut event) => {
-                        event.recv().await;
-                    }
-                    Err(error) => {
-                        tracing::warn!(%error, concat!(stringify!($listen), " is not noticed"));
-                        std::future::pending().await
-                    }
+#[derive(Debug)]
+pub struct StopSignals {
+    ctrl_c: Option<CtrlC>,
+    ctrl_break: Option<CtrlBreak>,
+    ctrl_close: Option<CtrlClose>,
+    ctrl_logoff: Option<CtrlLogoff>,
+    ctrl_shutdown: Option<CtrlShutdown>,
+    ended: &'static Notify,
+}
+
+/// The next event of a console, or never where it cannot be received.
+macro_rules! next {
+    ($event:expr) => {
+        async {
+            match $event.as_mut() {
+                Some(event) => {
+                    event.recv().await;
                 }
+                None => std::future::pending().await,
             }
-        };
+        }
+    };
+}
+
+impl StopSignals {
+    pub fn listen() -> Self {
+        let ended = ENDED.get_or_init(Notify::new);
+        if let Err(error) = thread::Builder::new().name("session end".to_owned()).spawn(watch) {
+            tracing::warn!(%error, "the end of the session is not noticed");
+        }
+        Self {
+            ctrl_c: noticed(ctrl_c(), "Ctrl-C"),
+            ctrl_break: noticed(ctrl_break(), "Ctrl-Break"),
+            ctrl_close: noticed(ctrl_close(), "the end of the console"),
+            ctrl_logoff: noticed(ctrl_logoff(), "log-off"),
+            ctrl_shutdown: noticed(ctrl_shutdown(), "shutdown"),
+            ended,
+        }
     }
-    tokio::select! {
-        () = event!(ctrl_c) => {}
-        () = event!(ctrl_break) => {}
-        () = event!(ctrl_close) => {}
-        () = event!(ctrl_logoff) => {}
-        () = event!(ctrl_shutdown) => {}
-        () = ended.notified() => {}
+
+    pub async fn received(&mut self) {
+        tokio::select! {
+            () = next!(self.ctrl_c) => {}
+            () = next!(self.ctrl_break) => {}
+            () = next!(self.ctrl_close) => {}
+            () = next!(self.ctrl_logoff) => {}
+            () = next!(self.ctrl_shutdown) => {}
+            () = self.ended.notified() => {}
+        }
     }
+}
+
+fn noticed<T>(event: std::io::Result<T>, name: &str) -> Option<T> {
+    event.inspect_err(|error| tracing::warn!(%error, "{name} is not noticed")).ok()
 }
 
 static ENDED: OnceLock<Notify> = OnceLock::new();
