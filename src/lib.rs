@@ -12,6 +12,7 @@
 //! | [`session`] | one session with one controller, over HTTPS |
 //! | [`jobs`] | what an engineer does to many controllers: plan, run side by side, report |
 //! | [`licences`] | the licences of everything linked in, for window and command line |
+//! | [`texts`] | every sentence for a person, in every language |
 //! | [`ui`] | the window: a model without egui, a reducer, views and dialogs |
 //! | [`cli`] | the same jobs from the command line |
 //! | [`virtual_controller`] | the bundled mock controller with its real OPC UA server; uses `model`, `pki`, `protocol` |
@@ -36,6 +37,7 @@ pub mod pki;
 pub mod platform;
 pub mod protocol;
 pub mod session;
+pub mod texts;
 pub mod ui;
 pub mod virtual_controller;
 pub mod workspace;

@@ -18,7 +18,6 @@ use crate::model::{ControllerInfo, ErrorCode, Problem, clock};
 use crate::pki::Severity;
 use crate::platform::stop_signal::StopSignals;
 use crate::session::ManagementConnector;
-use crate::ui;
 use crate::workspace::{Configuration, ControllerEntry, Retrieved, WorkspaceLock};
 
 /// What is shown of one controller's success.
@@ -268,7 +267,7 @@ impl Settled {
             match &report.result {
                 Ok(outcome) => {
                     for file in outcome.moved_aside() {
-                        self.output.text(&ui::texts::moved_aside(self.output.language(), entry.name.as_str(), file));
+                        self.output.text(&crate::texts::moved_aside(self.output.language(), entry.name.as_str(), file));
                     }
                 }
                 Err(problem) => self.output.explain(Some(entry.name.as_str()), problem),
@@ -287,7 +286,7 @@ impl Settled {
         let names: Vec<&str> = chosen.iter().map(|c| c.name.as_str()).collect();
         let language = self.output.language();
         say(&texts::changes(language, &names));
-        for sentence in ui::texts::confirmation(confirmation) {
+        for sentence in crate::texts::confirmation(confirmation) {
             say(&format!("  - {}", sentence.text(language)));
         }
         for remark in remarks {

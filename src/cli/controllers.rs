@@ -220,7 +220,7 @@ fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Endi
             Err(skipped) => match skipped.problem(*line) {
                 None => (
                     json!({ "line": line, "skipped": skipped.to_string() }),
-                    texts::left_out(language, name, *line, crate::ui::texts::skipped(language, skipped)),
+                    texts::left_out(language, name, *line, crate::texts::skipped(language, skipped)),
                 ),
                 Some(problem) => {
                     failed(settled, name, &problem);

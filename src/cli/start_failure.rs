@@ -4,7 +4,7 @@ use std::io::IsTerminal as _;
 
 use crate::model::{ErrorCode, Language, Problem};
 use crate::platform::console;
-use crate::ui::texts::TextKey;
+use crate::texts::TextKey;
 
 /// Shows a problem in a window if standard error goes nowhere. `is_window`: the window was to be opened.
 pub(super) fn show(problem: &Problem, language: Language, is_window: bool) {

@@ -10,7 +10,6 @@ use super::{Settled, read_bounded};
 use crate::jobs::{Destination, Fate, Note, Target, Thing, TrustFile, TrustPlan, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Language, ListLimits, Problem, clock};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
-use crate::ui;
 use crate::workspace::ControllerEntry;
 
 /// Reads them all; one that is no good, or has no CRL where CRLs are asked for, makes the request wrong.
@@ -114,7 +113,7 @@ fn rows(plan: &TrustPlan, language: Language) -> Vec<Vec<String>> {
             };
             let (to, note) = match &item.fate {
                 Fate::Goes { to, notes } => (target(*to).text(language), words(notes, language)),
-                Fate::Skipped(reason) => ("-", ui::texts::skipped_thing(*reason).text(language).to_owned()),
+                Fate::Skipped(reason) => ("-", crate::texts::skipped_thing(*reason).text(language).to_owned()),
                 Fate::Refused(problem) => ("-", texts::problem(language, problem)),
             };
             vec![item.file_name.clone(), what, to.to_owned(), note]

@@ -3,7 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::model::Model;
-use super::texts::TextKey as T;
+use crate::texts::TextKey as T;
 
 /// An action of the main window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]

@@ -14,7 +14,6 @@
 //! | `drops` | files dropped onto the window |
 //! | [`model`] | rows, dialogs and their forms, the running job, the reducer |
 //! | `views`, `dialogs`, `widgets` | what is drawn |
-//! | `texts` | every word, in English and Chinese |
 //! | `theme`, `fonts` | every colour and size |
 
 mod app;
@@ -28,7 +27,6 @@ mod keys;
 pub mod model;
 mod notice;
 pub mod picker;
-pub mod texts;
 mod theme;
 mod views;
 mod widgets;
@@ -37,11 +35,11 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 
+use crate::texts::TextKey;
 pub use app::App;
 use backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
 use model::Model;
 pub use notice::show_notice;
-use texts::TextKey;
 
 use crate::model::{ErrorCode, Language, Problem, clock};
 use crate::session::Connector;

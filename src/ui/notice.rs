@@ -1,6 +1,6 @@
-use super::texts::TextKey;
 use super::{fonts, native_options, no_display, theme, viewport};
 use crate::model::{Language, Problem};
+use crate::texts::TextKey;
 
 /// Shows a text in a small window of its own, and returns when it is closed. Not while the main window is open.
 pub fn show_notice(text: &str, language: Language) -> Result<(), Problem> {

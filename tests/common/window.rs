@@ -8,10 +8,10 @@ use egui::accesskit::Role;
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::model::Language;
+use opcua_configurator::texts::Zone;
 use opcua_configurator::ui::App;
 use opcua_configurator::ui::backend::Backend;
 use opcua_configurator::ui::model::Model;
-use opcua_configurator::ui::texts::Zone;
 use opcua_configurator::workspace::{Configuration, Workspace};
 
 use super::soft_renderer::SoftRenderer;

@@ -1,8 +1,8 @@
 use egui::{Grid, Label, RichText, Ui, vec2};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::command::UiCommand;
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, command_button, dialog, fine_print};
 

@@ -2,8 +2,8 @@ use egui::{Label, RichText, Ui};
 
 use super::file;
 use crate::model::activation::{ActivationKey, KeyError, LicenceKey, Verdict};
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{ActivationForm, ActivationPreview, KeysForm, Message, Model, Typed, key_error};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{
     Answer, Buttons, cell, dialog, fine_print, form, labelled, list, list_title, mistake, note, text_field,

@@ -2,8 +2,8 @@ use egui::{Button, ComboBox, Frame, Label, RichText, Stroke, Ui};
 
 use crate::model::ControllerSeries;
 use crate::pki::Fingerprint;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{AddController, AddStage, Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{
     Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, secret_field, text_field,

@@ -2,8 +2,8 @@ use chrono::{DateTime, Utc};
 use egui::{Button, Color32, Frame, Label, RichText, Stroke, Ui};
 
 use crate::model::CertificateProfile;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{AuthorityCommand, AuthorityView, Expiry, Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, Palette, palette};
 use crate::ui::widgets::{Answer, Buttons, cell, chip, dialog, list, list_title, note, path_line, word};
 use crate::workspace::authority::{AuthorityOverview, CertificateState, IssuedCertificate, PublishedAuthority};

@@ -4,10 +4,10 @@ use super::confirm::names;
 use super::{error, file};
 use crate::model::{AuthorityValidity, CertificateProfile, KeyLength, Validity};
 use crate::pki::REVOCATION_REASONS;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{
     AuthorityAction, AuthorityForm, CreateAuthorityForm, Message, Model, SignControllersForm, SignFileForm, Typed,
 };
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{
     Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, note, secret_field, text_field,

@@ -1,7 +1,7 @@
 use egui::{Frame, Label, RichText, Stroke, Ui};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{CaSignedForm, Message, Model, PathField};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, path_field, path_line};
 

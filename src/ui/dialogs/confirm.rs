@@ -1,8 +1,8 @@
 use egui::{Label, Ui};
 
 use crate::jobs::Confirmation;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Model, Task};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, list, note};
 use crate::workspace::VaultState;

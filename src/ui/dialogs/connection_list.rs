@@ -2,8 +2,8 @@ use egui::{ComboBox, Label, RichText, Ui};
 
 use super::file;
 use crate::model::ControllerSeries;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{ConnectionListForm, Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, cell, dialog, fine_print, form, labelled, list, list_title};
 

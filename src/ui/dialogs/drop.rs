@@ -1,8 +1,8 @@
 use egui::{Label, RichText, Ui};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::drops;
 use crate::ui::model::{DropForm, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, list_title, note};
 

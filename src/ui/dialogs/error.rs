@@ -1,8 +1,8 @@
 use egui::{Label, RichText, Ui};
 
 use crate::model::{Language, Problem};
+use crate::texts::TextKey as T;
 use crate::ui::model::Model;
-use crate::ui::texts::TextKey as T;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog};
 

@@ -1,8 +1,8 @@
 use egui::{Label, Ui};
 
 use crate::model::FileFormat;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{ExportForm, Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme;
 use crate::ui::widgets::{Answer, Buttons, choices, dialog, form, labelled, path_line};
 

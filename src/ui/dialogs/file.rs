@@ -1,7 +1,7 @@
 use egui::{Button, RichText, TextEdit, Ui, vec2};
 
+use crate::texts::TextKey as T;
 use crate::ui::model::{FileForm, Message, Model};
-use crate::ui::texts::TextKey as T;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{form, labelled, note};
 

@@ -2,8 +2,8 @@ use egui::{Frame, Label, RichText, Stroke, Ui};
 
 use crate::model::Problem;
 use crate::pki::{Finding, Issuers, Severity};
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Checked, ImportReview, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, note, word};
 

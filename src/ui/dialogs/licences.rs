@@ -1,8 +1,8 @@
 use egui::{Align, Label, Layout, RichText, ScrollArea, TextEdit, Ui, vec2};
 
 use crate::licences::Licences;
+use crate::texts::TextKey as T;
 use crate::ui::model::{LicencesView, Model};
-use crate::ui::texts::TextKey as T;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print};
 

@@ -1,8 +1,8 @@
 use egui::{DragValue, Label, RichText, Ui};
 
 use crate::model::Language;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, labelled};
 use crate::workspace::{MAX_PARALLELISM, ThemeChoice};

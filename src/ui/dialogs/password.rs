@@ -2,8 +2,8 @@ use egui::{Label, Ui};
 
 use super::confirm;
 use crate::model::ErrorCode;
+use crate::texts::TextKey as T;
 use crate::ui::model::{Model, PasswordForm};
-use crate::ui::texts::TextKey as T;
 use crate::ui::theme;
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, secret_field};
 

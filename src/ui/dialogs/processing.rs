@@ -4,9 +4,9 @@ use egui::{Align, Frame, Label, Layout, ProgressBar, RichText, ScrollArea, Sense
 
 use super::{error, trust};
 use crate::protocol::CutClient;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::trust::TrustAction;
 use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState, Task};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, chip, dialog, note, path_line};
 

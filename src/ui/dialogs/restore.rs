@@ -1,7 +1,7 @@
 use egui::{Label, RichText, Ui};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Message, Model, PathField, RestoreForm};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, path_field, path_line, secret_field};
 use crate::workspace::BackupKind;

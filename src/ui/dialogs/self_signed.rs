@@ -1,8 +1,8 @@
 use egui::{ComboBox, DragValue, Popup, PopupCloseBehavior, Response, RichText, ScrollArea, TextEdit, Ui};
 
 use crate::model::{COUNTRIES, Country, Language, Validity};
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Model, SelfSignedForm};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, note, text_field};
 

@@ -1,7 +1,7 @@
 use egui::{Button, Frame, Label, RichText, ScrollArea, Stroke, TextEdit, TextStyle, TextWrapMode, Ui, vec2};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{LogView, Message, Model, PathField, SaveLogForm};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, path_field};
 

@@ -1,8 +1,8 @@
 use egui::{RichText, Ui};
 
 use crate::model::{SecurityPolicy, StartupMode, UserTokenPolicy};
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Model, SettingsForm};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{
     Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, note, text_field, word,

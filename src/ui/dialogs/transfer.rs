@@ -1,8 +1,8 @@
 use egui::{Label, RichText, Ui};
 
 use super::error;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Message, Model, Preview, Transfer, TransferForm};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, path_line, secret_field};
 

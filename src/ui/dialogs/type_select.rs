@@ -1,8 +1,8 @@
 use egui::{Frame, Label, RichText, Stroke, Ui};
 
 use crate::model::{CertificateType, ErrorCode};
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Model, TypeSelectForm};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, mistake, word};
 

@@ -1,7 +1,7 @@
 use egui::{RichText, Ui};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Message, Model, PathField, UserFiles, UserSpecifiedForm};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, form, labelled, mistake, path_field, path_line, secret_field};
 

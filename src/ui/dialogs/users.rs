@@ -1,8 +1,8 @@
 use egui::{Button, Frame, RichText, Stroke, Ui};
 
 use crate::model::MAX_USERS;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{AddUserForm, Message, Model, UsersForm};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{
     Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, secret_field, text_field,

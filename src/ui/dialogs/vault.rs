@@ -1,8 +1,8 @@
 use egui::{Button, Label, RichText, Ui};
 
 use super::error;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Message, Model, Typed, VaultAction, VaultForm, VaultRequest};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, labelled, mistake, note, secret_field};
 use crate::workspace::{PasswordPlace, StoreStatus, VaultState};

@@ -4,8 +4,8 @@ use crate::jobs::{CertificateVerdict, EndpointVerdict, Verdict, VerifyReport};
 use crate::model::Problem;
 use crate::pki::Severity;
 use crate::session::opcua_client::TokenKind;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Message, Model, VerifyView};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, Palette, palette};
 use crate::ui::widgets::{
     Answer, Buttons, dialog, fine_print, form, labelled, mistake, note, path_line, secret_field, text_field, word,

@@ -10,9 +10,9 @@ use crate::model::activation::{
     self, ActivationFile, ActivationKey, ActivationKeys, KeyError, LicenceKey, MAX_ACTIVATION_FILE_BYTES, Plan,
 };
 use crate::model::{ErrorCode, FirmwareGeneration, Problem};
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
 use crate::ui::picker::FileKind;
-use crate::ui::texts::TextKey;
 
 #[derive(Debug)]
 pub struct ActivationForm {

@@ -11,9 +11,9 @@ use crate::model::{
     AuthorityRequest, AuthorityValidity, CertificateProfile, KeyLength, Problem, Subject, SubjectError, Validity,
 };
 use crate::pki::{Csr, IssueRequest, MAX_CERTIFICATE_FILE_BYTES, RevocationReason};
+use crate::texts::TextKey;
 use crate::ui::backend::{AuthorityDone, AuthorityWork, Command};
 use crate::ui::picker::FileKind;
-use crate::ui::texts::TextKey;
 use crate::workspace::MIN_PASSPHRASE_CHARS;
 use crate::workspace::authority::{AuthorityOverview, CertificateState, DEFAULT_CRL_DAYS, NewAuthority};
 

@@ -8,8 +8,8 @@ use crate::jobs::Outcome;
 use crate::model::{CertificateSummary, CertificateType, FileFormat, FirmwareGeneration, Problem, SerialNumber};
 use crate::pki::Certificate;
 use crate::protocol::HeldCertificates;
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::ui::texts::TextKey;
 use crate::workspace::CertificateFiles;
 
 /// Where the self-signed certificates are saved, and how (manual 2.7.1.3).

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use super::files::first_path;
 use super::{FileForm, Model};
 use crate::model::{ControllerSeries, Problem};
+use crate::texts::{self, TextKey};
 use crate::ui::backend::Command;
 use crate::ui::picker::FileKind;
-use crate::ui::texts::{self, TextKey};
 use crate::workspace::{ConnectionList, MAX_CONNECTION_LIST_BYTES, NewConnection, Skipped};
 
 #[derive(Debug)]

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 use super::{Dialog, JobId, Model};
 use crate::model::Problem;
 use crate::pki::PkiKind;
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
 use crate::ui::command::UiCommand;
-use crate::ui::texts::TextKey;
 use crate::workspace::Recognised;
 
 /// More files at once are not looked at.

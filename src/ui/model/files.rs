@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use super::{Dialog, JobId, Model};
 use crate::model::{ErrorCode, Problem};
+use crate::texts::TextKey;
 use crate::ui::backend::{Command, FileContents};
 use crate::ui::picker::FileKind;
-use crate::ui::texts::TextKey;
 
 /// A field for the path of a file that is read later, by the operation itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

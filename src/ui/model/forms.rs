@@ -11,7 +11,7 @@ use crate::model::{
     SecurityPolicy, ServerPort, ServerSettings, Subject, SubjectError, UserName, UserPassword, Validity,
     offered_key_lengths,
 };
-use crate::ui::texts::TextKey;
+use crate::texts::TextKey;
 
 impl AddController {
     pub fn new() -> Self {

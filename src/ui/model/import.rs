@@ -15,8 +15,8 @@ use crate::jobs::{
 };
 use crate::model::{CertificateSummary, Problem};
 use crate::pki::{Finding, Issuers, Severity};
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::ui::texts::TextKey;
 use crate::workspace::{BackupKind, KeyBackupSource, Workspace};
 
 /// What is imported.

@@ -10,7 +10,7 @@ use crate::jobs::{self, CsrFields, Operation, SelfSignedFields, Step, Summary};
 use crate::model::{CertificateType, Credential, ErrorCode, FileFormat, Problem, Validity};
 use crate::protocol::CutClient;
 use crate::session::opcua_client::Patience;
-use crate::ui::texts::TextKey;
+use crate::texts::TextKey;
 use crate::workspace::Workspace;
 
 /// Tells the events of one job from those of another.

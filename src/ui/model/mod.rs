@@ -55,8 +55,8 @@ pub use verify::VerifyView;
 
 use super::backend::Event;
 use super::command::UiCommand;
-use super::texts::Zone;
 use crate::model::{Language, Problem};
+use crate::texts::Zone;
 use crate::workspace::{Configuration, Options, StoreStatus, ThemeChoice, Workspace};
 use trust::TrustAction;
 

@@ -9,9 +9,9 @@ use super::{
 };
 use crate::jobs::{JobController, JobEvent, Outcome, Report, Summary};
 use crate::model::{ErrorCode, FileFormat};
+use crate::texts;
 use crate::ui::backend::{Command, Event};
 use crate::ui::command::UiCommand;
-use crate::ui::texts;
 
 /// Takes one message in; what comes out is for the backend.
 pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {

@@ -12,8 +12,8 @@ use super::{
 use crate::jobs::{Enrolled, Outcome, RemoveUsers};
 use crate::model::{FileFormat, Problem};
 use crate::pki::Fingerprint;
+use crate::texts;
 use crate::ui::backend::Command;
-use crate::ui::texts;
 use crate::workspace::{ControllerEntry, Retrieved};
 
 impl Model {

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use super::{Dialog, Model, Purpose, RowId, Task};
 use crate::model::foreign_text;
 use crate::protocol::LogChunk;
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::ui::texts::TextKey;
 
 /// The end of the log, as it was read last.
 #[derive(Debug)]

@@ -13,8 +13,8 @@ use crate::jobs::{JobEvent, Outcome, Report, Step, Summary};
 use crate::model::{ControllerInfo, ErrorCode, ServerSettings};
 use crate::pki::Fingerprint;
 use crate::protocol::Revisioned;
+use crate::texts::TextKey;
 use crate::ui::backend::{Command, FileContents};
-use crate::ui::texts::TextKey;
 use crate::workspace::ControllerEntry;
 
 fn now() -> DateTime<Utc> {

@@ -7,8 +7,8 @@ use secrecy::SecretString;
 
 use super::{Dialog, JobId, Model, RowId, Task, Typed};
 use crate::model::{ControllerInfo, FirmwareVersion, Problem};
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::ui::texts::TextKey;
 use crate::workspace::MIN_PASSPHRASE_CHARS;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -4,8 +4,8 @@ use secrecy::SecretString;
 
 use super::{Dialog, Model, Purpose, RowId, Task, Typed};
 use crate::model::{ErrorCode, Problem};
+use crate::texts::TextKey;
 use crate::ui::backend::{Command, VaultWork};
-use crate::ui::texts::TextKey;
 use crate::workspace::{MIN_PASSPHRASE_CHARS, PasswordPlace, StoreStatus, VaultState};
 
 /// What can be asked for in the options and the status bar.

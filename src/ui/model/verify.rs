@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use super::{Dialog, Model, Purpose, RowId, RowState, Task, Typed};
 use crate::jobs::{Outcome, VerifyReport};
 use crate::model::{Credential, ErrorCode, Problem, ServerStatus, UserName, UserPassword};
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::ui::texts::TextKey;
 
 /// The reports of one or more controllers. Not to be seen before all of them are there.
 #[derive(Debug)]

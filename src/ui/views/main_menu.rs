@@ -1,9 +1,9 @@
 use egui::{MenuBar, Ui};
 
 use crate::model::Language;
+use crate::texts::{TextKey as T, theme};
 use crate::ui::command::UiCommand as C;
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::{TextKey as T, theme};
 use crate::ui::widgets::command_item;
 use crate::workspace::ThemeChoice;
 

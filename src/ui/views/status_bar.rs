@@ -1,7 +1,7 @@
 use egui::{Align, Button, Layout, RichText, Ui};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Message, Model, VaultRequest};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 
 pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {

@@ -4,8 +4,8 @@ use egui::{Align, Checkbox, Label, Layout, RichText, ScrollArea, Sense, Ui, vec2
 use egui_extras::{Column as TableColumn, TableBuilder, TableRow};
 
 use crate::model::ServerStatus;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Column, Expiry, Message, Model, Row, RowState};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, Palette, palette};
 use crate::ui::widgets::{chip, sort_heading, word};
 

@@ -1,8 +1,8 @@
 use egui::{Align, Id, Layout, TextEdit, Ui};
 
+use crate::texts::TextKey as T;
 use crate::ui::command::UiCommand as C;
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::TextKey as T;
 use crate::ui::theme;
 use crate::ui::widgets::command_button;
 

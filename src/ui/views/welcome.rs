@@ -1,8 +1,8 @@
 use egui::{Button, RichText, Ui, vec2};
 
+use crate::texts::TextKey as T;
 use crate::ui::command::UiCommand as C;
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::TextKey as T;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{fine_print, primary};
 

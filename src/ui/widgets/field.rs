@@ -3,8 +3,8 @@ use std::path::Path;
 use egui::{Grid, Response, RichText, TextEdit, Ui, vec2};
 
 use crate::model::Language;
+use crate::texts::TextKey as T;
 use crate::ui::model::{Message, PathField};
-use crate::ui::texts::TextKey as T;
 use crate::ui::theme::{self, palette};
 
 /// A form: labels on the left, fields on the right. Each row is made by [`labelled`].

@@ -1,7 +1,7 @@
 use egui::{Color32, Label, RichText, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 
 use crate::model::Language;
-use crate::ui::texts::{self, TextKey as T};
+use crate::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 
 /// The heading of a column that can be sorted by. `ascending`: how it is sorted by this column now. Whether it was

@@ -2,9 +2,9 @@ use egui::{Align, Button, Frame, Label, Layout, RichText, ScrollArea, Stroke, Te
 
 use crate::jobs::{Destination, Fate, Planned, Target, Thing};
 use crate::model::FirmwareGeneration;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::trust::{AddTrustForm, PaneKind, Shows, TrustAction};
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, list_title, note, word};
 

@@ -5,9 +5,9 @@ use std::borrow::Cow;
 use egui::Color32;
 
 use crate::pki::CrlHealth;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::Model;
 use crate::ui::model::trust::{Crl, Entry, Life, TrustColumn};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::Palette;
 
 /// At first; it can be changed.

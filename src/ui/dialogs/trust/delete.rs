@@ -1,8 +1,8 @@
 use egui::{Label, Ui};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::Model;
 use crate::ui::model::trust::{DeleteTrust, PaneKind};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, list, note};
 

@@ -1,8 +1,8 @@
 use egui::{Frame, Grid, Label, RichText, Stroke, Ui, vec2};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::Model;
 use crate::ui::model::trust::{CertificateView, ChainNode, ChainState, CrlView, DetailsView, Field, PaneKind};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, cell, dialog, fine_print, list, list_title, note, word};
 

@@ -5,9 +5,9 @@ use egui::text::{LayoutJob, TextFormat, TextWrapping};
 use egui::{Checkbox, Color32, FontId, Rect, Sense, TextStyle, Ui, WidgetInfo, pos2, vec2};
 
 use super::cell::{self, Look, Part};
+use crate::texts;
 use crate::ui::model::Model;
 use crate::ui::model::trust::{Pane, TrustColumn};
-use crate::ui::texts;
 use crate::ui::theme::{self, Palette};
 
 /// What all lines of a list share.

@@ -18,9 +18,9 @@ pub use move_anyway::show as move_anyway;
 
 use egui::{Align, Id, Label, Layout, RichText, TextEdit, Ui, vec2};
 
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::trust::{Link, PaneKind, Shows, TrustAction, TrustForm};
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, chip, dialog, note};
 

@@ -3,9 +3,9 @@ use egui_extras::{Column, TableBuilder};
 
 use super::line::{self, Click, Lines};
 use super::{cell, moves};
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::trust::{Pane, PaneKind, TrustAction, TrustForm};
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{chip, sort_heading};
 

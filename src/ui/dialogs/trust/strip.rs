@@ -1,9 +1,9 @@
 use egui::{Align, Frame, Label, Layout, RichText, Stroke, Ui, vec2};
 
 use super::cell::health_words;
+use crate::texts::{self, TextKey as T};
 use crate::ui::model::trust::{Entry, TrustAction, TrustForm};
 use crate::ui::model::{Message, Model};
-use crate::ui::texts::{self, TextKey as T};
 use crate::ui::theme::{self, Palette, palette};
 
 /// Of the frame and its lines; in a low window the lines scroll.

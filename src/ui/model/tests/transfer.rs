@@ -25,13 +25,13 @@ fn form(model: &mut Model) -> &mut TransferForm {
 fn only_legacy_firmware_has_its_settings_exported() {
     let mut model = model();
     let why = |model: &Model| UiCommand::ExportSettings.why_disabled(model);
-    assert_eq!(why(&model), Some(crate::ui::texts::TextKey::WhyTick));
+    assert_eq!(why(&model), Some(crate::texts::TextKey::WhyTick));
     tick(&mut model, &["Paint", "Weld 2"]);
     assert_eq!(why(&model), None, "nothing is known yet; the controllers say so themselves");
     know(&mut model, "Paint", legacy());
     assert_eq!(why(&model), None);
     know(&mut model, "Weld 2", FirmwareVersion::new(8, 0, 0));
-    assert_eq!(why(&model), Some(crate::ui::texts::TextKey::WhyLegacyOnly));
+    assert_eq!(why(&model), Some(crate::texts::TextKey::WhyLegacyOnly));
     tick(&mut model, &["Weld 2"]);
     assert_eq!(why(&model), None);
 }

@@ -6,10 +6,10 @@ use std::sync::Arc;
 use super::{Done, PaneKind, Shows, TrustTask};
 use crate::jobs::{AddTrust, Destination, Fate, TrustFile, TrustPlan, TrustSnapshot};
 use crate::model::{FirmwareGeneration, ListLimits, Problem};
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
 use crate::ui::model::{Dialog, JobId, Model, RowId, Task};
 use crate::ui::picker::FileKind;
-use crate::ui::texts::TextKey;
 
 /// More files at once are not read.
 pub const MAX_TRUST_FILES: usize = 100;

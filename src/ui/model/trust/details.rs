@@ -7,8 +7,8 @@ use crate::jobs::TrustSnapshot;
 use crate::model::{CertificateSummary, ErrorCode, Problem};
 use crate::pki::{self, AlternativeName, Certificate, CrlFlaw, RevocationReason};
 use crate::protocol::ListedCertificate;
+use crate::texts::{TextKey, Zone};
 use crate::ui::model::{Dialog, Model};
-use crate::ui::texts::{TextKey, Zone};
 
 /// What the dialog shows.
 #[derive(Debug)]

@@ -6,8 +6,8 @@ use super::TrustColumn;
 use crate::model::{CertificateStatus, CertificateSummary, Language};
 use crate::pki::{CrlHealth, RefusalCause, explain_refusal};
 use crate::protocol::{ListedCertificate, ListedCrl, RejectedClient};
+use crate::texts::Zone;
 use crate::ui::model::EXPIRES_SOON;
-use crate::ui::texts::Zone;
 
 /// A point in time, and how it is shown.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -7,8 +7,8 @@ use crate::jobs::{TrustSnapshot, TrustUndo};
 use crate::model::{FirmwareGeneration, Problem};
 use crate::pki::CrlIssuer;
 use crate::protocol::CutClient;
+use crate::texts::Zone;
 use crate::ui::model::{JobId, RowId};
-use crate::ui::texts::Zone;
 
 /// Which lists a dialog shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use crate::jobs::{self, Operation};
-use crate::ui::texts::TextKey;
+use crate::texts::TextKey;
 
 /// What a job does to the lists and CRLs of its controllers.
 #[derive(Debug, Clone)]
