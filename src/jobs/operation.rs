@@ -29,6 +29,13 @@ pub trait Operation: Send + Sync {
         None
     }
 
+    /// Whether the program has to stay until the step in hand has ended, because a controller or a file on the PC would
+    /// be left half changed, or a file that was asked for would be missing. Default: whatever asks for a confirmation or
+    /// changes the server's status.
+    fn must_be_finished(&self) -> bool {
+        self.confirmation().is_some() || self.wanted_status().is_some()
+    }
+
     /// The information the runner reads afterwards is all that is wanted. Default: it is not.
     fn is_information(&self) -> bool {
         false

@@ -66,6 +66,10 @@ impl Operation for SaveLog {
         None
     }
 
+    fn must_be_finished(&self) -> bool {
+        true
+    }
+
     async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
         run.begin(Step::Read)?;
         let text = read_from(0, run).await?.text;

@@ -279,6 +279,16 @@ texts! {
     CancelYes: "Stop", "中止";
     CancelNo: "Go on", "继续";
     Stopping: "Stopping after the step in hand…", "当前步骤完成后中止…";
+
+    // closing the window while work goes on
+    CloseTitle: "Close the window?", "是否关闭窗口？";
+    CloseWarning: "Controllers or files are being changed. A change that is cut off can leave a controller without a usable certificate.", "正在更改控制器或文件。更改被中断可能导致控制器没有可用的证书。";
+    CloseOtherWork: "Files are still being written", "仍在写入文件";
+    CloseFinish: "Finish, then close", "完成后关闭";
+    CloseStop: "Stop after this step, then close", "当前步骤完成后中止并关闭";
+    CloseStay: "Stay open", "不关闭";
+    CloseFinishing: "The window closes when all controllers are done. If one fails, the window stays open and shows why.", "所有控制器处理完成后窗口将关闭。如有控制器失败，窗口将保持打开并显示原因。";
+    CloseStopping: "The window closes when the step in hand has ended.", "当前步骤结束后窗口将关闭。";
     EnterPassword: "Enter password…", "输入密码…";
 
     // basic settings

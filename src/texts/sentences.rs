@@ -131,6 +131,15 @@ pub fn summary(language: Language, summary: Summary) -> String {
 }
 
 /// What the status bar says after a job that needs no dialog.
+/// How far a running job is.
+pub fn job_running(language: Language, title: T, done: usize, all: usize) -> String {
+    let title = title.text(language).trim_end_matches('…');
+    match language {
+        Language::En => format!("{title}: {done} of {all} controllers done"),
+        Language::Zh => format!("{title}：已完成 {done} / {all} 台控制器"),
+    }
+}
+
 pub fn job_done(language: Language, title: T, count: usize) -> String {
     let title = title.text(language).trim_end_matches('…');
     match language {

@@ -5,8 +5,9 @@ use chrono::{DateTime, Utc};
 use egui::ThemePreference;
 
 use super::backend::{Backend, Command};
+use super::closing::CloseChoice;
 use super::model::{Message, Model, reduce};
-use super::{dialogs, drops, fonts, keys, theme, views};
+use super::{closing, dialogs, drops, fonts, keys, theme, views};
 use crate::model::clock;
 use crate::workspace::ThemeChoice;
 
@@ -72,6 +73,8 @@ impl<B: Backend> App<B> {
         self.dialogs_shown = open.len();
         dialogs::show(ui, &mut open, opened, &self.model, &mut messages);
         self.model.dialogs = open;
+        let enter = self.model.closing.is_some() && dialogs::enter_confirms(ui);
+        closing::show(ui, enter, &self.model, &mut messages);
         drops::overlay(ui.ctx(), &self.model);
         self.remember_size(ui.ctx(), &mut messages);
 
@@ -93,6 +96,23 @@ impl<B: Backend> App<B> {
             messages.push(Message::Event(event));
         }
         self.take_in(&mut messages, ctx);
+        self.close_in_order(ctx);
+    }
+
+    /// The window does not close before the work that must not be cut off has ended.
+    fn close_in_order(&mut self, ctx: &egui::Context) {
+        let unfinished = self.backend.has_unfinished_work();
+        if ctx.input(|input| input.viewport().close_requested()) {
+            if unfinished {
+                ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+                self.take_in(&mut vec![Message::Closing(CloseChoice::Ask)], ctx);
+            }
+        } else if !unfinished && self.model.closes_when_idle() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        } else if !unfinished {
+            // Nothing is left to ask about: the work ended while the dialog waited for an answer.
+            self.model.closing = None;
+        }
     }
 
     fn take_in(&mut self, messages: &mut Vec<Message>, ctx: &egui::Context) {

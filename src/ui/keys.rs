@@ -10,7 +10,7 @@ use super::views;
 const PAGE: isize = 15;
 
 pub fn read(ctx: &Context, model: &Model, messages: &mut Vec<Message>) {
-    if !model.dialogs.is_empty() || egui::Popup::is_any_open(ctx) {
+    if model.closing.is_some() || !model.dialogs.is_empty() || egui::Popup::is_any_open(ctx) {
         return;
     }
     let typing = ctx.text_edit_focused();

@@ -9,6 +9,7 @@
 //! |---|---|
 //! | [`app`](App) | one frame |
 //! | [`backend`] | jobs, saving |
+//! | [`closing`] | closing the window while work goes on |
 //! | [`command`] | what can be asked for: text, tooltip, key, and why it is disabled |
 //! | [`picker`] | the desktop's dialog for choosing a file, and its file manager |
 //! | `drops` | files dropped onto the window |
@@ -18,6 +19,7 @@
 
 mod app;
 pub mod backend;
+pub mod closing;
 pub mod command;
 mod dialogs;
 mod drops;
@@ -117,6 +119,7 @@ fn create(creation: &eframe::CreationContext<'_>, options: WindowOptions) -> std
     };
     let virtual_available = backend.starter.is_some();
     let backend = TokioBackend::new(backend, move || ctx.request_repaint())?;
+    backend.receive_stop_signals();
     let mut model = Model::new(options.configuration, options.workspace, options.language, clock::now());
     model.virtual_available = virtual_available;
     if let Some(notice) = options.notice {

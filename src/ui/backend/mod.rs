@@ -3,6 +3,7 @@
 mod authority;
 mod tokio_backend;
 mod trust_files;
+mod unfinished;
 mod vault;
 
 use std::collections::VecDeque;
@@ -178,6 +179,8 @@ pub enum Event {
     FolderNotOpened(Problem),
     /// The program was started again on the same workspace.
     StartedAgain,
+    /// The system asks the program to end: log-off, shutdown, Ctrl-C in the terminal it was started from.
+    StopRequested,
 }
 
 /// What is in a file. There may be keys in it, so `Debug` tells its length only.
@@ -194,6 +197,8 @@ impl std::fmt::Debug for FileContents {
 pub trait Backend {
     fn send(&mut self, command: Command);
     fn poll(&mut self) -> Option<Event>;
+    /// Whether work goes on that would leave a controller or a file half changed if the program ended now.
+    fn has_unfinished_work(&self) -> bool;
 }
 
 /// A virtual controller to be added to the list.
@@ -214,6 +219,7 @@ pub trait VirtualFleetStarter: Send + Sync {
 pub struct RecordingBackend {
     pub sent: Vec<Command>,
     pub events: VecDeque<Event>,
+    pub unfinished_work: bool,
 }
 
 impl Backend for RecordingBackend {
@@ -223,5 +229,9 @@ impl Backend for RecordingBackend {
 
     fn poll(&mut self) -> Option<Event> {
         self.events.pop_front()
+    }
+
+    fn has_unfinished_work(&self) -> bool {
+        self.unfinished_work
     }
 }

@@ -9,18 +9,27 @@ use secrecy::SecretString;
 use tokio::runtime::Runtime;
 use tokio_util::sync::CancellationToken;
 
+use super::unfinished::{Unfinished, UnfinishedWork};
 use super::vault::StoreReporter;
 use super::{Backend, Command, Event, FileContents, VirtualFleetStarter, trust_files};
 use crate::jobs::{self, JobContext, JobController};
 use crate::model::{ControllerInfo, ErrorCode, Problem};
 use crate::platform::display;
+use crate::platform::stop_signal::StopSignals;
 use crate::session::Connector;
 use crate::ui::model::{DroppedFile, ExportFound, JobId, Task};
 use crate::ui::picker::FilePicker;
 use crate::workspace::{self, Configuration, Passwords, SettingsFiles, Shown, StartRequests, Workspace, WorkspaceLock};
 
-/// How long closing the window waits for tasks to notice.
+/// How long dropping the backend waits for tasks that change nothing.
 const SHUTDOWN: Duration = Duration::from_millis(500);
+
+/// How long dropping the backend waits for the step in hand of a change: longer than a controller may take to answer
+/// ([`Timeouts::change`](crate::session::Timeouts)). Reached only if the window went without asking.
+const FINISH: Duration = Duration::from_secs(150);
+
+/// The exit code after a second request to end: what a shell reports of a program that Ctrl-C ended.
+const INTERRUPTED: i32 = 130;
 
 /// What the backend works with.
 pub struct BackendOptions {
@@ -49,6 +58,7 @@ pub struct TokioBackend {
     store: Arc<StoreReporter>,
     events: mpsc::Receiver<Event>,
     running: HashMap<JobId, CancellationToken>,
+    unfinished: UnfinishedWork,
     runtime: Option<Runtime>,
     saver: Option<Saver>,
     requests: Option<StartRequests>,
@@ -72,6 +82,11 @@ impl TokioBackend {
     pub fn new(options: BackendOptions, wake: impl Fn() + Send + Sync + 'static) -> io::Result<Self> {
         let runtime = tokio::runtime::Builder::new_multi_thread().enable_all().thread_name("jobs").build()?;
         let (sender, events) = mpsc::channel();
+        let wake = Arc::new(wake);
+        let unfinished = UnfinishedWork::new({
+            let wake = wake.clone();
+            move || wake()
+        });
         let emit: Emit = Arc::new(move |event| {
             // Fails only when the window is gone.
             if sender.send(event).is_ok() {
@@ -93,15 +108,39 @@ impl TokioBackend {
             emit,
             events,
             running: HashMap::new(),
+            unfinished,
             runtime: Some(runtime),
             saver: Some(saver),
             requests,
         })
     }
 
+    /// From now on the system's requests to end arrive as [`Event::StopRequested`]; the second ends the program at once.
+    pub fn receive_stop_signals(&self) {
+        let emit = self.emit.clone();
+        self.spawn(async move {
+            let mut stop = StopSignals::listen();
+            stop.received().await;
+            emit(Event::StopRequested);
+            stop.received().await;
+            std::process::exit(INTERRUPTED);
+        });
+    }
+
     fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {
         if let Some(runtime) = &self.runtime {
             runtime.spawn(work);
+        }
+    }
+
+    /// Blocking work that writes files.
+    fn spawn_unfinished(&self, work: impl FnOnce() + Send + 'static) {
+        let unfinished: Unfinished = self.unfinished.begin();
+        if let Some(runtime) = &self.runtime {
+            runtime.spawn_blocking(move || {
+                work();
+                drop(unfinished);
+            });
         }
     }
 
@@ -122,6 +161,7 @@ impl TokioBackend {
     ) {
         let cancel = self.token(job);
         let operation = task.operation(&self.workspace);
+        let unfinished = operation.must_be_finished().then(|| self.unfinished.begin());
         let mut context = self.context.clone();
         context.parallelism = parallelism.max(1);
         let (emit, store) = (self.emit.clone(), self.store.clone());
@@ -139,6 +179,7 @@ impl TokioBackend {
             let summary = jobs::run(controllers, operation, context, cancel, on_event).await;
             report(store).await;
             emit(Event::JobEnded { job, summary });
+            drop(unfinished);
         });
     }
 
@@ -217,12 +258,14 @@ impl Backend for TokioBackend {
             }
             Command::Enroll { job, address, fingerprint, password } => {
                 let (cancel, store) = (self.token(job), self.store.clone());
+                let unfinished = self.unfinished.begin();
                 self.spawn(async move {
                     let enrolling = jobs::enroll(&address, fingerprint, password, &context);
                     if let Some(result) = cancel.run_until_cancelled(enrolling).await {
                         report(store).await;
                         emit(Event::Enrolled { job, result: result.map(Box::new) });
                     }
+                    drop(unfinished);
                 });
             }
             Command::LookAtExport { job, of, file } => {
@@ -236,9 +279,7 @@ impl Backend for TokioBackend {
             }
             Command::Authority { job, work } => {
                 let files = self.workspace.authority();
-                if let Some(runtime) = &self.runtime {
-                    runtime.spawn_blocking(move || emit(Event::AuthorityDone { job, result: work.run(&files) }));
-                }
+                self.spawn_unfinished(move || emit(Event::AuthorityDone { job, result: work.run(&files) }));
             }
             Command::Cancel(job) => {
                 if let Some(token) = self.running.get(&job) {
@@ -247,24 +288,20 @@ impl Backend for TokioBackend {
             }
             Command::Vault(work) => {
                 let store = self.store.clone();
-                if let Some(runtime) = &self.runtime {
-                    runtime.spawn_blocking(move || {
-                        let result = work.run(context.passwords.store());
-                        store.report();
-                        if let Some(result) = result {
-                            emit(Event::VaultDone(result));
-                        }
-                    });
-                }
+                self.spawn_unfinished(move || {
+                    let result = work.run(context.passwords.store());
+                    store.report();
+                    if let Some(result) = result {
+                        emit(Event::VaultDone(result));
+                    }
+                });
             }
             Command::Forget(fingerprints) => {
                 let store = self.store.clone();
-                if let Some(runtime) = &self.runtime {
-                    runtime.spawn_blocking(move || {
-                        fingerprints.into_iter().for_each(|f| context.passwords.forget(f));
-                        store.report();
-                    });
-                }
+                self.spawn_unfinished(move || {
+                    fingerprints.into_iter().for_each(|f| context.passwords.forget(f));
+                    store.report();
+                });
             }
             Command::PickFile { job, kind, title } => {
                 self.picker.pick(kind, title, Box::new(move |result| emit(Event::FilePicked { job, result })));
@@ -341,10 +378,14 @@ impl Backend for TokioBackend {
         }
         Some(event)
     }
+
+    fn has_unfinished_work(&self) -> bool {
+        !self.unfinished.is_empty()
+    }
 }
 
 impl Drop for TokioBackend {
-    /// Whatever was sent to be saved is saved before this returns.
+    /// Blocks until everything that was sent to be saved is saved, and until the step in hand of every change has ended.
     fn drop(&mut self) {
         for token in self.running.values() {
             token.cancel();
@@ -356,6 +397,9 @@ impl Drop for TokioBackend {
             if thread.join().is_err() {
                 tracing::error!("the saving thread panicked");
             }
+        }
+        if !self.unfinished.wait(FINISH) {
+            tracing::error!("a change was cut off: its step did not end within {} s", FINISH.as_secs());
         }
         if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_timeout(SHUTDOWN);

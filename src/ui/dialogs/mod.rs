@@ -38,7 +38,7 @@ use super::widgets::Answer;
 /// Draws the open dialogs, the last on top. `opened`: the top one is new and takes the keyboard.
 pub fn show(ui: &Ui, open: &mut [Dialog], opened: bool, model: &Model, messages: &mut Vec<Message>) {
     let top = open.len();
-    let enter = top > 0 && enter_confirms(ui);
+    let enter = top > 0 && model.closing.is_none() && enter_confirms(ui);
     for (index, dialog) in open.iter_mut().enumerate() {
         let on_top = index + 1 == top;
         let answer = one(ui, dialog, on_top, on_top && opened, model, messages);
@@ -57,7 +57,7 @@ pub fn show(ui: &Ui, open: &mut [Dialog], opened: bool, model: &Model, messages:
 
 /// Enter confirms the dialog whatever has the focus, except a push button, which it presses, and an open list. Tick
 /// boxes and radio buttons are changed with Space.
-fn enter_confirms(ui: &Ui) -> bool {
+pub fn enter_confirms(ui: &Ui) -> bool {
     let ctx = ui.ctx();
     let focused = ctx.memory(|memory| memory.focused());
     let button: Option<Id> = ctx.data(|data| data.get_temp(focused_button_id())).flatten();

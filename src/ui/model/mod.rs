@@ -54,6 +54,7 @@ pub use vault::{VaultAction, VaultForm, VaultRequest};
 pub use verify::VerifyView;
 
 use super::backend::Event;
+use super::closing::{CloseChoice, Closing};
 use super::command::UiCommand;
 use crate::model::{Language, Problem};
 use crate::texts::Zone;
@@ -74,6 +75,8 @@ pub struct Model {
     pub dialogs: Vec<Dialog>,
     /// The job that runs, or the one whose summary is shown.
     pub job: Option<Job>,
+    /// The window is to be closed while work goes on.
+    pub closing: Option<Closing>,
     /// What the status bar says until the next thing happens.
     pub status: Option<String>,
     /// Files held over the window.
@@ -176,6 +179,7 @@ pub enum Message {
     SetParallelism(usize),
     SetVerifyAfterChanges(bool),
     StartVirtual,
+    Closing(CloseChoice),
     Save,
     Event(Event),
 }
@@ -198,6 +202,7 @@ impl Model {
             workspace,
             dialogs: Vec::new(),
             job: None,
+            closing: None,
             status: None,
             hover: None,
             virtual_available: false,

@@ -81,6 +81,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
                 commands.push(Command::StartVirtualControllers);
             }
         }
+        Message::Closing(choice) => commands = model.choose_about_closing(choice),
         Message::Save => commands = model.save(),
         Message::Event(event) => commands = model.event(event),
     }
@@ -240,6 +241,7 @@ impl Model {
             }
             Event::AuthorityDone { job, result } => self.authority_done(job, result),
             Event::VirtualStarted(result) => self.virtual_started(result),
+            Event::StopRequested => self.stop_requested(),
             Event::StartedAgain => vec![Command::ShowWindow],
             Event::VaultDone(result) => self.vault_done(result),
             Event::PasswordStore(store) => {
@@ -317,6 +319,8 @@ impl Model {
     fn job_ended(&mut self, id: JobId, summary: Summary) -> Vec<Command> {
         let Some(job) = self.job.as_mut().filter(|job| job.id == id) else { return vec![] };
         job.summary = Some(summary);
+        self.keep_open_after(summary);
+        let Some(job) = self.job.as_ref() else { return vec![] };
         let purpose = job.purpose;
         let all_done = summary.failed == 0 && summary.not_started == 0;
         let lacks_password = !job.without_password().is_empty();

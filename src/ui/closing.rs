@@ -1,0 +1,123 @@
+//! Closing the window while controllers or files are being changed: the window asks first, and closes when the work
+//! has ended.
+
+use egui::{Align, Layout, ProgressBar, RichText, Ui};
+
+use super::backend::Command;
+use super::model::{CancelState, Message, Model};
+use super::theme::{self, palette};
+use super::widgets::{Answer, Buttons, dialog, note, primary};
+use crate::jobs::Summary;
+use crate::texts::{self, TextKey as T};
+
+/// How far closing the window is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Closing {
+    /// The dialog waits for a choice.
+    Asking,
+    /// The window closes when the running job has ended, unless a controller failed in it.
+    Finishing,
+    /// The job was told to stop after the step in hand; the window closes then.
+    Stopping,
+}
+
+/// What is chosen about closing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CloseChoice {
+    /// The window was to be closed while work goes on.
+    Ask,
+    Finish,
+    Stop,
+    Stay,
+}
+
+impl Model {
+    pub(super) fn choose_about_closing(&mut self, choice: CloseChoice) -> Vec<Command> {
+        match (choice, self.closing) {
+            (CloseChoice::Ask, None) => {
+                self.closing = Some(Closing::Asking);
+                // It may be minimised.
+                return vec![Command::ShowWindow];
+            }
+            (CloseChoice::Ask, Some(_)) => {}
+            (CloseChoice::Finish, _) => self.closing = Some(Closing::Finishing),
+            (CloseChoice::Stay, _) => self.closing = None,
+            (CloseChoice::Stop, _) => {
+                self.closing = Some(Closing::Stopping);
+                if let Some(job) = self.job.as_mut().filter(|job| job.summary.is_none()) {
+                    job.cancel = CancelState::Sent;
+                    return vec![Command::Cancel(job.id)];
+                }
+            }
+        }
+        vec![]
+    }
+
+    /// The system ends the program, and there may be nobody to ask.
+    pub(super) fn stop_requested(&mut self) -> Vec<Command> {
+        let mut commands = self.choose_about_closing(CloseChoice::Stop);
+        commands.push(Command::Quit);
+        commands
+    }
+
+    /// A failure has to be seen before the window closes, if somebody chose to finish first.
+    pub(super) fn keep_open_after(&mut self, summary: Summary) {
+        if summary.failed > 0 && self.closing == Some(Closing::Finishing) {
+            self.closing = None;
+        }
+    }
+
+    /// Whether the window may close as soon as no work is unfinished.
+    pub fn closes_when_idle(&self) -> bool {
+        matches!(self.closing, Some(Closing::Finishing | Closing::Stopping))
+    }
+}
+
+/// The dialog over everything else. `enter`: the Enter key was pressed and belongs to it.
+pub fn show(ui: &Ui, enter: bool, model: &Model, messages: &mut Vec<Message>) {
+    let Some(closing) = model.closing else { return };
+    let text = |key: T| key.text(model.language);
+    let mut choice = (enter && closing == Closing::Asking).then_some(CloseChoice::Finish);
+    let buttons = Buttons { submit: None, close: None };
+    let answer = dialog(ui, "closing", text(T::CloseTitle), theme::DIALOG, buttons, |ui| {
+        progress(ui, model);
+        ui.add_space(theme::SPACE);
+        match closing {
+            Closing::Asking => note(ui, palette(ui).warning, |ui| drop(ui.label(text(T::CloseWarning)))),
+            Closing::Finishing => drop(ui.label(text(T::CloseFinishing))),
+            Closing::Stopping => drop(ui.label(text(T::CloseStopping))),
+        }
+        ui.add_space(theme::SPACE_LARGE);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if closing == Closing::Asking && ui.add(primary(ui, text(T::CloseFinish))).clicked() {
+                choice = Some(CloseChoice::Finish);
+            }
+            if closing != Closing::Stopping && ui.button(text(T::CloseStop)).clicked() {
+                choice = Some(CloseChoice::Stop);
+            }
+            if ui.button(text(T::CloseStay)).clicked() {
+                choice = Some(CloseChoice::Stay);
+            }
+        });
+    });
+    if answer == Answer::Close {
+        choice = Some(CloseChoice::Stay);
+    }
+    messages.extend(choice.map(Message::Closing));
+}
+
+/// What is still going on.
+fn progress(ui: &mut Ui, model: &Model) {
+    let palette = palette(ui);
+    match model.job.as_ref().filter(|job| job.summary.is_none()) {
+        Some(job) => {
+            let all = job.rows.len();
+            ui.label(texts::job_running(model.language, job.task.title(), job.finished, all));
+            ui.add_space(theme::SPACE);
+            ui.visuals_mut().extreme_bg_color = palette.line;
+            let done = job.finished as f32 / all.max(1) as f32;
+            ui.add(ProgressBar::new(done).fill(palette.accent).desired_height(6.0).corner_radius(3));
+        }
+        None => drop(ui.label(RichText::new(T::CloseOtherWork.text(model.language)).color(palette.text))),
+    }
+}
