@@ -5,13 +5,13 @@ use async_trait::async_trait;
 
 use super::{Confirmation, Operation, Outcome, Run, Step};
 use crate::model::{ErrorCode, Problem, foreign_text};
-use crate::protocol::{LogChunk, MAX_LOG_CHUNK_BYTES};
+use crate::protocol::LogChunk;
 use crate::workspace::write_atomic;
 
 /// No log is longer; a controller that gives more than this is not read to the end.
 const MAX_LOG_BYTES: u64 = 16 * 1024 * 1024;
 /// An honest controller fills its answers; this allows for answers that are a quarter full.
-const MAX_ANSWERS: u64 = 4 * MAX_LOG_BYTES / MAX_LOG_CHUNK_BYTES as u64;
+const MAX_ANSWERS: u64 = 4 * MAX_LOG_BYTES / LogChunk::MAX_BYTES as u64;
 /// For all answers together.
 const MAX_TIME: Duration = Duration::from_secs(120);
 
@@ -93,7 +93,7 @@ async fn read_from(from: u64, run: &mut Run<'_>) -> Result<LogChunk, Problem> {
             break;
         }
         let advance = chunk.next - chunk.from;
-        if chunk.from != whole.next || (advance > 0 && chunk.text.is_empty()) || advance > MAX_LOG_CHUNK_BYTES as u64 {
+        if chunk.from != whole.next || (advance > 0 && chunk.text.is_empty()) || advance > LogChunk::MAX_BYTES as u64 {
             return Err(Problem::with_detail(ErrorCode::NotAController, "the pieces of its log do not fit together"));
         }
         whole.text.push_str(&chunk.text);

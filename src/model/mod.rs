@@ -9,6 +9,7 @@ mod text_in_messages;
 pub mod activation;
 mod address;
 mod authority;
+mod base64_bytes;
 mod certificate;
 mod certificate_status;
 mod client_list;
@@ -19,16 +20,21 @@ mod crl_summary;
 mod error_texts;
 pub mod file_names;
 pub mod foreign_text;
+mod held_certificates;
 mod info;
 mod language;
+mod log_chunk;
 mod problem;
 mod settings;
 pub mod table;
 pub mod text;
+mod trust_lists;
 mod user;
+mod version;
 
 pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
 pub use authority::{AuthorityRequest, AuthorityValidity, AuthorityYears, CertificateProfile};
+pub use base64_bytes::Base64Bytes;
 pub use certificate::{
     CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
     Validity, default_common_name, offered_key_lengths,
@@ -40,10 +46,14 @@ pub use controller::{
 };
 pub use country::{COUNTRIES, Country};
 pub use crl_summary::CrlSummary;
+pub use held_certificates::{HeldCertificate, HeldCertificates};
 pub use info::{ControllerInfo, ServerCertificate, ServerStatus};
 pub use language::Language;
+pub use log_chunk::LogChunk;
 pub use problem::{ErrorCode, Explanation, Problem};
 pub use settings::{
     PortError, SecurityPolicy, ServerPort, ServerSettings, SettingsError, SettingsWarning, StartupMode, UserTokenPolicy,
 };
+pub use trust_lists::{CutClient, ListedCertificate, ListedCrl, TrustStamp, TrustStep};
 pub use user::{Credential, CredentialError, MAX_USERS, UserName, UserPassword};
+pub use version::{VersionToken, Versioned};

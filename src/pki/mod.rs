@@ -29,6 +29,7 @@
 //! | `ca` | [`CertificateAuthority`]: the small CA that does so |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
+//! | `rejected_client` | [`RejectedClient`]: a client certificate that a controller refused |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
 //! | `client_identity` | [`client_identity`]: what this computer shows of itself to OPC UA servers |
 //! | `tlv` | just enough DER to see from outside what a file is |
@@ -71,6 +72,7 @@ mod password_encryption;
 mod pem;
 mod pkcs12;
 mod preflight;
+mod rejected_client;
 #[cfg(test)]
 mod samples;
 mod sealed;
@@ -107,6 +109,7 @@ pub use kind::{PkiKind, recognise};
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
 pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_key, pkcs12_write, pkcs12_write_key};
 pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
+pub use rejected_client::RejectedClient;
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealCost, SealError, Sealed, SealingKey, open, seal};
 pub use self_signed::{ServerNames, self_signed};
 pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};

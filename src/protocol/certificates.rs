@@ -1,37 +1,72 @@
-//! Messages about the server certificates a controller holds, beyond making and importing one with its key.
+//! The server certificates of a controller and its signing request (manual 2.7.1, 2.7.2).
 
 use serde::{Deserialize, Serialize};
 
-use super::{Base64Bytes, Changed, WireSecret};
-use crate::model::{CertificateType, CsrRequest};
+use super::request::requests;
+use super::response::check_count;
+use super::{Changed, Response, Revisioned, WireSecret};
+use crate::model::{Base64Bytes, CertificateType, CsrRequest, HeldCertificates, SelfSignedRequest};
 
-/// What a controller holds to show its clients. Private keys are never told.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct HeldCertificates {
-    /// The type the OPC UA server uses, whether one is held or not.
-    pub selected: CertificateType,
-    /// At most one of each type.
-    pub held: Vec<HeldCertificate>,
-    /// The CSR made last, in DER: what a CA-signed certificate must be for. It stays after the import, so that the CA
-    /// can renew the certificate.
-    pub csr: Option<Base64Bytes>,
+requests! {
+    /// Server certificates.
+    CERTIFICATE_REQUESTS
+    GET "/v1/certificates" GetCertificates { none } session -> Revisioned<HeldCertificates>, "";
+    POST "/v1/certificates/select" SelectCertificate { json } revision -> Changed, "";
+    POST "/v1/certificates/self-signed" MakeSelfSigned { json } revision -> Installed, "current firmware";
+    POST "/v1/certificates/import" ImportCertificate { json } revision -> Installed, "legacy firmware";
+    POST "/v1/certificates/csr" MakeCsr { json } revision -> CsrMade, "current firmware";
+    POST "/v1/certificates/csr/import" ImportCsr { json } revision -> CsrMade, "legacy firmware";
+    POST "/v1/certificates/ca-signed" ImportCaSigned { json } revision -> Installed, "";
 }
 
-impl HeldCertificates {
-    /// The certificate of a type, in DER.
-    pub fn of(&self, kind: CertificateType) -> Option<&[u8]> {
-        self.held.iter().find(|held| held.kind == kind).map(|held| held.certificate.0.as_slice())
+/// Reads the server certificates.
+#[derive(Debug, Clone, Copy, Serialize, Deserialize)]
+pub struct GetCertificates;
+
+impl Response for HeldCertificates {
+    fn check(&mut self) -> Result<(), &'static str> {
+        check_count(&self.held)
     }
 }
 
-/// One server certificate.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct HeldCertificate {
+/// Selects the certificate that the OPC UA server uses, among those in the controller (manual 2.7.2).
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SelectCertificate {
+    pub revision: u64,
     #[serde(rename = "type")]
     pub kind: CertificateType,
+}
+
+/// Current firmware: the controller makes key and certificate itself; the key never leaves it.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MakeSelfSigned {
+    pub revision: u64,
+    pub request: SelfSignedRequest,
+}
+
+/// Legacy firmware: key and certificate made on the PC, sent as PKCS#12. [`CertificateType::CaSigned`] is refused: such a
+/// certificate belongs to the key of a signing request ([`ImportCaSigned`]).
+#[derive(Debug, Clone, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ImportCertificate {
+    pub revision: u64,
+    pub kind: CertificateType,
+    pub pkcs12: Base64Bytes,
+    /// The password of `pkcs12`, made for this transfer only.
+    pub password: WireSecret,
+}
+
+/// A server certificate was installed and selected.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Installed {
+    pub changed: Changed,
     /// DER.
     pub certificate: Base64Bytes,
 }
+
+impl Response for Installed {}
 
 /// Current firmware: the controller makes a new key and its CSR. The CA-signed certificate in use stays in use, with
 /// its own key, until one for the new key is imported.
@@ -42,8 +77,8 @@ pub struct MakeCsr {
     pub request: CsrRequest,
 }
 
-/// Legacy firmware: key and CSR made on the PC, now or earlier (a backup). The controller has room for one key only, so
-/// its CA-signed certificate is gone from then on unless it is for the same key; a server that used it stops.
+/// Legacy firmware: a key and its CSR, made on the PC now or earlier (a backup). The controller has room for one such key:
+/// its CA-signed certificate is removed unless it is for the same key. A server that used it stops.
 ///
 /// With `certificate`, key and certificate are replaced in one change: the certificate is installed and selected as by
 /// [`ImportCaSigned`], and a server that runs is started again with it.
@@ -55,14 +90,14 @@ pub struct ImportCsr {
     pub csr: Base64Bytes,
     /// The key of `csr`, without a certificate.
     pub pkcs12: Base64Bytes,
-    /// The password of `pkcs12`, made up for this one transfer.
+    /// The password of `pkcs12`, made for this transfer only.
     pub password: WireSecret,
-    /// What a CA issued for `csr`, in DER.
+    /// The certificate that a CA issued for `csr`, in DER.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub certificate: Option<Base64Bytes>,
 }
 
-/// The controller holds a new CSR.
+/// The controller has a new CSR.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CsrMade {
     pub changed: Changed,
@@ -70,20 +105,13 @@ pub struct CsrMade {
     pub csr: Base64Bytes,
 }
 
-/// The certificate a CA issued for the CSR the controller holds.
+impl Response for CsrMade {}
+
+/// Installs and selects the certificate that a CA issued for the CSR in the controller (manual 2.7.1.5).
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCaSigned {
     pub revision: u64,
     /// DER.
     pub certificate: Base64Bytes,
-}
-
-/// Which of the certificates held the OPC UA server is to use (manual 2.7.2).
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SelectCertificate {
-    pub revision: u64,
-    #[serde(rename = "type")]
-    pub kind: CertificateType,
 }

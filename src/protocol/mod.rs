@@ -19,44 +19,18 @@
 //! unknown members of a response are ignored.
 //!
 //! # Session
-//! [`HELLO`] needs no session and says which versions the controller speaks. [`LOGIN`] takes the connection password
+//! [`GetHello`] needs no session and says which versions the controller speaks. [`Login`] takes the connection password
 //! and gives a token, which every further request carries as `Authorization: Bearer <token>`. A token is valid until
-//! [`LOGOUT`], for [`SESSION_IDLE_SECS`] without a request, or until the controller restarts. A wrong password is
+//! [`Logout`], for [`SESSION_IDLE_SECS`] without a request, or until the controller restarts. A wrong password is
 //! answered after a delay; after [`LOGIN_ATTEMPTS`] of them from one network address, further logins from there are
 //! refused for [`LOCK_OUT_SECS`] with `429` and [`ErrorCode::LockedOut`], right password or not.
 //!
 //! # Requests
-//! | method and path | request | response |
-//! |---|---|---|
-//! | `GET` [`HELLO`] | – | [`Hello`] |
-//! | `POST` [`LOGIN`] | [`Login`] | [`Session`] |
-//! | `POST` [`LOGOUT`] | – | – |
-//! | `GET` [`INFO`] | – | [`ControllerInfo`](crate::model::ControllerInfo) |
-//! | `GET` [`SETTINGS`] | – | [`Revisioned`]`<`[`ServerSettings`](crate::model::ServerSettings)`>` |
-//! | `PUT` [`SETTINGS`] | [`SetSettings`] | [`Changed`] |
-//! | `GET` [`USERS`] | – | [`Revisioned`]`<Vec<`[`UserName`](crate::model::UserName)`>>` |
-//! | `POST` [`USERS`] | [`AddUser`] | [`Changed`] |
-//! | `POST` [`USERS_REMOVE`] | [`RemoveUsers`] | [`Changed`] |
-//! | `POST` [`SERVER_START`] | – | [`Changed`] |
-//! | `POST` [`SERVER_STOP`] | – | [`Changed`] |
-//! | `POST` [`SELF_SIGNED`] | [`MakeSelfSigned`] | [`Installed`], current firmware |
-//! | `POST` [`CERTIFICATE_IMPORT`] | [`ImportCertificate`] | [`Installed`], legacy firmware |
-//! | `GET` [`CERTIFICATES`] | – | [`Revisioned`]`<`[`HeldCertificates`]`>` |
-//! | `POST` [`CERTIFICATE_SELECT`] | [`SelectCertificate`] | [`Changed`] |
-//! | `POST` [`CSR`] | [`MakeCsr`] | [`CsrMade`], current firmware |
-//! | `POST` [`CSR_IMPORT`] | [`ImportCsr`] | [`CsrMade`], legacy firmware |
-//! | `POST` [`CA_SIGNED`] | [`ImportCaSigned`] | [`Installed`] |
-//! | `GET` [`CLIENTS`]`/trusted` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>` |
-//! | `GET` [`CLIENTS`]`/issuers` | – | [`Revisioned`]`<Vec<`[`ListedCertificate`]`>>`, current firmware |
-//! | `GET` [`CLIENTS`]`/rejected` | – | [`Revisioned`]`<Vec<`[`RejectedClient`]`>>`, seen last first |
-//! | `GET` [`CRLS`] | – | [`Revisioned`]`<Vec<`[`ListedCrl`]`>>` |
-//! | `GET` [`CRLS`]`/` and a [`CrlSummary::id`](crate::model::CrlSummary::id) | – | [`Base64Bytes`]: the DER |
-//! | `GET` [`TRUST`] | – | [`TrustStamp`] |
-//! | `POST` [`TRUST`] | [`EditTrust`] | [`TrustChanged`] |
-//! | `POST` [`SETTINGS_EXPORT`] | [`ExportSettings`] | [`SettingsExport`], legacy firmware |
-//! | `POST` [`SETTINGS_IMPORT`] | [`ImportSettings`] | [`Changed`], legacy firmware |
-//! | `GET` [`LOG`], with `?from=` a byte | – | [`LogChunk`] |
-//! | `POST` [`ACTIVATION`] | [`Activate`] | [`Changed`], legacy firmware |
+//! Each request is a type that implements [`Request`]: method, path, body and response stand together. The tables, made from
+//! those types: [`SESSION_REQUESTS`], [`SERVER_REQUESTS`], [`SETTINGS_REQUESTS`], [`USER_REQUESTS`],
+//! [`CERTIFICATE_REQUESTS`] and [`TRUST_REQUESTS`]. [`REQUESTS`] is all of them.
+//!
+//! The response `()` has no content and status 204.
 //!
 //! # Changes
 //! Every change names the revision of the configuration it was based on. If the controller's is another, it answers
@@ -78,13 +52,13 @@
 //! anything else of this, is another than before. A certificate that is put into another list leaves it.
 //!
 //! Limits of the lists are in [`ControllerInfo`](crate::model::ControllerInfo). Legacy firmware has no issuers list;
-//! whatever names it is refused with [`ErrorCode::FirmwareTooOld`].
+//! a request that names it is refused with [`ErrorCode::FirmwareTooOld`].
 //!
 //! # Failures
 //! Every failure has a status of 400 or above and a [`Failure`] as its body. [`status_of`] says which status goes
 //! with which code; a client decides by the code alone. A body that is not the message expected is refused with the
-//! code for wrong values of its kind ([`ErrorCode::BadSettings`], [`ErrorCode::BadCredential`], …), what fits no other
-//! code with [`ErrorCode::Refused`].
+//! code for wrong values of its kind ([`ErrorCode::BadSettings`], [`ErrorCode::BadCredential`], …), or with
+//! [`ErrorCode::Refused`] where no other code fits.
 //!
 //! | status | when |
 //! |---|---|
@@ -98,84 +72,65 @@
 //! | 505 | another version of HTTP than 1.1 |
 //! | 507 | the controller's storage is full |
 
-mod activation;
-mod base64_bytes;
 mod certificates;
-mod log;
 mod messages;
+mod request;
+mod response;
+mod server;
+mod session;
+mod settings;
 mod settings_export;
 mod tls_time;
 mod trust;
+mod users;
 
-pub use activation::Activate;
 pub use certificates::{
-    CsrMade, HeldCertificate, HeldCertificates, ImportCaSigned, ImportCsr, MakeCsr, SelectCertificate,
+    CERTIFICATE_REQUESTS, CsrMade, GetCertificates, ImportCaSigned, ImportCertificate, ImportCsr, Installed, MakeCsr,
+    MakeSelfSigned, SelectCertificate,
 };
-pub use log::{LogChunk, MAX_LOG_CHUNK_BYTES};
-pub use messages::{
-    AddUser, Changed, Failure, Hello, ImportCertificate, Installed, Login, MakeSelfSigned, RemoveUsers, Revisioned,
-    Session, SetSettings, WireSecret,
-};
-
+pub use messages::{Changed, Failure, Revisioned, WireSecret};
+pub use request::{Method, Needs, Request, RequestRow};
+pub use response::{MAX_LISTED, Response};
+pub use server::{GetInfo, GetLog, SERVER_REQUESTS, StartServer, StopServer};
+pub use session::{GetHello, Hello, Login, Logout, SESSION_REQUESTS, Session};
+pub use settings::{Activate, ExportSettings, GetSettings, ImportSettings, SETTINGS_REQUESTS, SetSettings};
 pub use settings_export::{
-    EXPORT_FORMAT, EXPORT_VERSION, ExportContent, ExportError, ExportSettings, ExportedUser, ImportSettings,
-    MAX_EXPORT_BYTES, SettingsExport,
+    EXPORT_FORMAT, EXPORT_VERSION, ExportContent, ExportError, ExportedUser, MAX_EXPORT_BYTES, SettingsExport,
 };
 pub use tls_time::TlsTime;
 pub use trust::{
-    CutClient, EditTrust, ListedCertificate, ListedCrl, MAX_SENT_CRL_BYTES, MAX_TRUST_STEPS, RejectedClient,
-    TrustChanged, TrustStamp, TrustStep,
+    EditTrust, GetCrl, GetCrls, GetIssuers, GetRejected, GetTrustStamp, GetTrusted, MAX_SENT_CRL_BYTES,
+    MAX_TRUST_STEPS, TRUST_REQUESTS, TrustChanged, TrustStamp,
 };
+pub use users::{AddUser, GetUsers, RemoveUsers, USER_REQUESTS};
 
-use crate::model::{ClientList, ErrorCode};
+use crate::model::ErrorCode;
+// Until every module names them by their own path.
+pub use crate::model::{
+    Base64Bytes, CutClient, HeldCertificate, HeldCertificates, ListedCertificate, ListedCrl, LogChunk, TrustStep,
+};
+pub use crate::pki::RejectedClient;
 
-pub use base64_bytes::Base64Bytes;
+/// All requests, by topic.
+pub const REQUESTS: [&[RequestRow]; 6] =
+    [SESSION_REQUESTS, SERVER_REQUESTS, SETTINGS_REQUESTS, USER_REQUESTS, CERTIFICATE_REQUESTS, TRUST_REQUESTS];
 
 /// The version this crate speaks. Versions differ in the first part of the path.
 pub const VERSION: u32 = 1;
 
-pub const HELLO: &str = "/v1/hello";
-pub const LOGIN: &str = "/v1/login";
-pub const LOGOUT: &str = "/v1/logout";
-pub const INFO: &str = "/v1/info";
-pub const SETTINGS: &str = "/v1/settings";
-pub const USERS: &str = "/v1/users";
-pub const USERS_REMOVE: &str = "/v1/users/remove";
-pub const SERVER_START: &str = "/v1/server/start";
-pub const SERVER_STOP: &str = "/v1/server/stop";
-pub const SELF_SIGNED: &str = "/v1/certificates/self-signed";
-pub const CERTIFICATE_IMPORT: &str = "/v1/certificates/import";
-pub const CERTIFICATES: &str = "/v1/certificates";
-pub const CERTIFICATE_SELECT: &str = "/v1/certificates/select";
-pub const CSR: &str = "/v1/certificates/csr";
-pub const CSR_IMPORT: &str = "/v1/certificates/csr/import";
-pub const CA_SIGNED: &str = "/v1/certificates/ca-signed";
-pub const CLIENTS: &str = "/v1/clients";
-pub const CRLS: &str = "/v1/crls";
-pub const TRUST: &str = "/v1/trust";
-pub const ACTIVATION: &str = "/v1/activation";
-pub const LOG: &str = "/v1/log";
-pub const SETTINGS_EXPORT: &str = "/v1/settings/export";
-pub const SETTINGS_IMPORT: &str = "/v1/settings/import";
-
 /// What [`Hello::product`] says, so that another HTTPS server is not taken for a controller.
 pub const PRODUCT: &str = "opcua-controller-management";
 
+/// The largest body of a request, in bytes.
 pub const MAX_REQUEST_BYTES: usize = 1024 * 1024;
+/// The largest body of a response, in bytes.
 pub const MAX_RESPONSE_BYTES: usize = 4 * 1024 * 1024;
+/// A session ends after this time without a request, in seconds.
 pub const SESSION_IDLE_SECS: u64 = 300;
+/// Wrong passwords from one network address until it is locked out.
 pub const LOGIN_ATTEMPTS: u32 = 5;
+/// How long a network address is locked out, in seconds.
 pub const LOCK_OUT_SECS: u64 = 60;
-
-/// Where a list of client certificates lives.
-pub fn clients_path(list: ClientList) -> String {
-    format!("{CLIENTS}/{}", list.as_str())
-}
-
-/// Where the DER of one CRL is.
-pub fn crl_path(id: &str) -> String {
-    format!("{CRLS}/{id}")
-}
 
 /// The HTTP status that carries an error code.
 pub const fn status_of(code: ErrorCode) -> u16 {
@@ -187,5 +142,33 @@ pub const fn status_of(code: ErrorCode) -> u16 {
         ErrorCode::ServerError | ErrorCode::Internal => 500,
         ErrorCode::DiskFull => 507,
         _ => 400,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    #[test]
+    fn every_row_of_the_tables_is_a_request_of_its_own() {
+        let mut seen = BTreeSet::new();
+        for row in REQUESTS.into_iter().flatten() {
+            assert!(seen.insert((row.method, row.path)), "{row:?} is there twice");
+            assert!(row.path.starts_with(&format!("/v{VERSION}/")), "{row:?}");
+            assert!(row.method != Method::Get || !row.has_body, "{row:?} is a GET with a body");
+            assert!(row.needs != Needs::Revision || row.has_body, "{row:?} has no place for its revision");
+        }
+    }
+
+    #[test]
+    fn a_request_says_where_it_goes_and_what_it_is_based_on() {
+        assert_eq!(GetCrl { id: "AB12".to_owned() }.target(), "/v1/crls/AB12");
+        assert_eq!(GetLog { from: None }.target(), "/v1/log");
+        assert_eq!(GetLog { from: Some(7) }.target(), "/v1/log?from=7");
+        assert_eq!(GetTrusted.target(), GetTrusted::PATH);
+        let remove = RemoveUsers { revision: 12, names: Vec::new() };
+        assert_eq!((remove.revision(), StartServer.revision()), (Some(12), None));
     }
 }

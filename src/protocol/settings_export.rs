@@ -6,29 +6,11 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 use thiserror::Error;
 
-use super::{Base64Bytes, WireSecret};
 use crate::model::activation::ActivationKeys;
 use crate::model::{
-    ControllerSeries, ErrorCode, FirmwareVersion, Problem, SerialNumber, ServerSettings, UserName, text,
+    Base64Bytes, ControllerSeries, ErrorCode, FirmwareVersion, Problem, SerialNumber, ServerSettings, UserName, text,
 };
 use crate::pki::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
-
-/// Legacy firmware: asks for a [`SettingsExport`] (manual 2.6.4).
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ExportSettings {
-    /// What the export is to be sealed with; may be empty.
-    pub passphrase: WireSecret,
-}
-
-/// Legacy firmware: puts an export back, whole or not at all (manual 2.6.5).
-#[derive(Debug, Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ImportSettings {
-    pub revision: u64,
-    pub export: SettingsExport,
-    pub passphrase: WireSecret,
-}
 
 /// The settings of one controller, sealed by it: what `option.json` holds.
 ///

@@ -10,18 +10,19 @@ use parking_lot::Mutex;
 use reqwest::header::CONTENT_TYPE;
 use reqwest::{Method, StatusCode};
 use secrecy::SecretString;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 
-use super::answers::Answer;
 use super::pinned_tls::PinVerifier;
 use super::{Connector, ControllerSession};
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
 use crate::pki::Fingerprint;
 use crate::protocol::{
-    self, Activate, AddUser, Base64Bytes, Changed, CsrMade, EditTrust, ExportSettings, Failure, HeldCertificates,
-    Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, ListedCrl,
-    LogChunk, Login, MakeCsr, MakeSelfSigned, RejectedClient, RemoveUsers, Revisioned, SelectCertificate, Session,
-    SetSettings, SettingsExport, TrustChanged, TrustStamp, WireSecret,
+    self, Activate, AddUser, Base64Bytes, Changed, CsrMade, EditTrust, ExportSettings, Failure, GetCertificates,
+    GetCrl, GetCrls, GetHello, GetInfo, GetIssuers, GetLog, GetRejected, GetSettings, GetTrustStamp, GetTrusted,
+    GetUsers, HeldCertificates, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed,
+    ListedCertificate, ListedCrl, LogChunk, Login, Logout, MakeCsr, MakeSelfSigned, Needs, RejectedClient, RemoveUsers,
+    Request, Response, Revisioned, SelectCertificate, SetSettings, SettingsExport, StartServer, StopServer,
+    TrustChanged, TrustStamp, WireSecret,
 };
 
 /// How long the driver waits.
@@ -44,6 +45,9 @@ impl Default for Timeouts {
 /// Pauses before another attempt after a handshake that the peer ended.
 const HANDSHAKE_RETRIES: [Duration; 2] = [Duration::from_millis(100), Duration::from_millis(400)];
 
+/// For the answer to a logout. A session that is not logged out ends by itself.
+const LOGOUT_TIMEOUT: Duration = Duration::from_secs(2);
+
 /// Opens sessions over HTTPS with a pinned certificate.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ManagementConnector {
@@ -54,8 +58,7 @@ pub struct ManagementConnector {
 impl Connector for ManagementConnector {
     async fn probe(&self, address: &Address) -> Result<Fingerprint, Problem> {
         let link = Link::new(address, None, self.timeouts)?;
-        let hello = link.send::<(), Hello>(Method::GET, protocol::HELLO, None, self.timeouts.read).await;
-        let hello = hello.map_err(|problem| match problem.code {
+        let hello = link.send(&GetHello).await.map_err(|problem| match problem.code {
             // Every web server answers so; a controller has this path in every version.
             ErrorCode::ProtocolVersion => Problem::with_detail(ErrorCode::NotAController, StatusCode::NOT_FOUND),
             _ => problem,
@@ -77,7 +80,7 @@ impl Connector for ManagementConnector {
     ) -> Result<Box<dyn ControllerSession>, Problem> {
         let mut link = Link::new(address, Some(fingerprint), self.timeouts)?;
         let login = Login { password: WireSecret(password.clone()) };
-        let session: Session = link.send(Method::POST, protocol::LOGIN, Some(&login), self.timeouts.read).await?;
+        let session = link.send(&login).await?;
         link.token = Some(session.token);
         Ok(Box::new(link))
     }
@@ -93,13 +96,6 @@ struct Link {
     timeouts: Timeouts,
     /// See [`ControllerSession::unanswered`].
     unanswered: Mutex<Option<u64>>,
-}
-
-/// What every change says of itself.
-#[derive(Deserialize)]
-struct BasedOn {
-    #[serde(default)]
-    revision: Option<u64>,
 }
 
 impl Link {
@@ -121,25 +117,32 @@ impl Link {
         Ok(Self { client, verifier, base, pin, token: None, timeouts, unanswered: Mutex::new(None) })
     }
 
-    async fn send<B: Serialize + Sync, R: Answer>(
-        &self,
-        method: Method,
-        path: &str,
-        body: Option<&B>,
-        timeout: Duration,
-    ) -> Result<R, Problem> {
-        let mut request = self.client.request(method, format!("{}{path}", self.base)).timeout(timeout);
+    /// Sends a request, and checks the response.
+    async fn send<R: Request>(&self, request: &R) -> Result<R::Response, Problem> {
+        let timeout = match (R::METHOD, R::NEEDS) {
+            (protocol::Method::Get, _) | (_, Needs::Nothing) => self.timeouts.read,
+            _ => self.timeouts.change,
+        };
+        self.send_within(timeout, request).await
+    }
+
+    async fn send_within<R: Request>(&self, timeout: Duration, request: &R) -> Result<R::Response, Problem> {
+        let method = match R::METHOD {
+            protocol::Method::Get => Method::GET,
+            protocol::Method::Put => Method::PUT,
+            protocol::Method::Post => Method::POST,
+        };
+        let based_on = request.revision();
+        let mut http = self.client.request(method, format!("{}{}", self.base, request.target())).timeout(timeout);
         if let Some(token) = &self.token {
-            request = request.bearer_auth(token.expose());
+            http = http.bearer_auth(token.expose());
         }
-        let mut based_on = None;
-        if let Some(body) = body {
-            let json = serde_json::to_vec(body).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
-            based_on = serde_json::from_slice(&json).ok().and_then(|BasedOn { revision }| revision);
-            request = request.header(CONTENT_TYPE, "application/json").body(json);
+        if R::HAS_BODY {
+            let json = serde_json::to_vec(request).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
+            http = http.header(CONTENT_TYPE, "application/json").body(json);
         }
         let lost = || *self.unanswered.lock() = based_on;
-        let response = self.exchange(request).await.map_err(|e| {
+        let response = self.exchange(http).await.map_err(|e| {
             // Without a connection nothing was sent.
             if !e.is_connect() {
                 lost();
@@ -152,12 +155,12 @@ impl Link {
             // An answer without content is JSON `null`.
             let json: &[u8] = if bytes.is_empty() { b"null" } else { &bytes };
             let answer = serde_json::from_slice(json).map_err(|e| e.to_string());
-            return answer.and_then(|mut answer: R| answer.check().map_err(str::to_owned).map(|()| answer)).map_err(
-                |e| {
+            return answer
+                .and_then(|mut answer: R::Response| answer.check().map_err(str::to_owned).map(|()| answer))
+                .map_err(|e| {
                     lost();
                     Problem::with_detail(ErrorCode::NotAController, e)
-                },
-            );
+                });
         }
         if let Ok(failure) = serde_json::from_slice::<Failure>(&bytes) {
             return Err(failure.into());
@@ -220,14 +223,6 @@ impl Link {
         }
         Problem::with_detail(ErrorCode::ConnectionLost, detail)
     }
-
-    async fn get<R: Answer>(&self, path: &str) -> Result<R, Problem> {
-        self.send(Method::GET, path, None::<&()>, self.timeouts.read).await
-    }
-
-    async fn change<B: Serialize + Sync, R: Answer>(&self, path: &str, body: &B) -> Result<R, Problem> {
-        self.send(Method::POST, path, Some(body), self.timeouts.change).await
-    }
 }
 
 /// A failure whose code this version does not know.
@@ -275,106 +270,109 @@ fn is_caused_by_http_parse(error: &reqwest::Error) -> bool {
 #[async_trait]
 impl ControllerSession for Link {
     async fn info(&mut self) -> Result<ControllerInfo, Problem> {
-        self.get(protocol::INFO).await
+        self.send(&GetInfo).await
     }
 
     async fn start_server(&mut self) -> Result<Changed, Problem> {
-        self.change(protocol::SERVER_START, &serde_json::json!({})).await
+        self.send(&StartServer).await
     }
 
     async fn stop_server(&mut self) -> Result<Changed, Problem> {
-        self.change(protocol::SERVER_STOP, &serde_json::json!({})).await
+        self.send(&StopServer).await
     }
 
     async fn settings(&mut self) -> Result<Revisioned<ServerSettings>, Problem> {
-        self.get(protocol::SETTINGS).await
+        self.send(&GetSettings).await
     }
 
     async fn set_settings(&mut self, change: SetSettings) -> Result<Changed, Problem> {
-        self.send(Method::PUT, protocol::SETTINGS, Some(&change), self.timeouts.change).await
+        self.send(&change).await
     }
 
     async fn users(&mut self) -> Result<Revisioned<Vec<UserName>>, Problem> {
-        self.get(protocol::USERS).await
+        self.send(&GetUsers).await
     }
 
     async fn add_user(&mut self, change: AddUser) -> Result<Changed, Problem> {
-        self.change(protocol::USERS, &change).await
+        self.send(&change).await
     }
 
     async fn remove_users(&mut self, change: RemoveUsers) -> Result<Changed, Problem> {
-        self.change(protocol::USERS_REMOVE, &change).await
+        self.send(&change).await
     }
 
     async fn make_self_signed(&mut self, change: MakeSelfSigned) -> Result<Installed, Problem> {
-        self.change(protocol::SELF_SIGNED, &change).await
+        self.send(&change).await
     }
 
     async fn import_certificate(&mut self, change: ImportCertificate) -> Result<Installed, Problem> {
-        self.change(protocol::CERTIFICATE_IMPORT, &change).await
+        self.send(&change).await
     }
 
     async fn certificates(&mut self) -> Result<Revisioned<HeldCertificates>, Problem> {
-        self.get(protocol::CERTIFICATES).await
+        self.send(&GetCertificates).await
     }
 
     async fn select_certificate(&mut self, change: SelectCertificate) -> Result<Changed, Problem> {
-        self.change(protocol::CERTIFICATE_SELECT, &change).await
+        self.send(&change).await
     }
 
     async fn make_csr(&mut self, change: MakeCsr) -> Result<CsrMade, Problem> {
-        self.change(protocol::CSR, &change).await
+        self.send(&change).await
     }
 
     async fn import_csr(&mut self, change: ImportCsr) -> Result<CsrMade, Problem> {
-        self.change(protocol::CSR_IMPORT, &change).await
+        self.send(&change).await
     }
 
     async fn import_ca_signed(&mut self, change: ImportCaSigned) -> Result<Installed, Problem> {
-        self.change(protocol::CA_SIGNED, &change).await
+        self.send(&change).await
     }
 
     async fn clients(&mut self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
-        self.get(&protocol::clients_path(list)).await
-    }
-
-    async fn rejected_clients(&mut self) -> Result<Revisioned<Vec<RejectedClient>>, Problem> {
-        self.get(&protocol::clients_path(ClientList::Rejected)).await
-    }
-
-    async fn crls(&mut self) -> Result<Revisioned<Vec<ListedCrl>>, Problem> {
-        self.get(protocol::CRLS).await
-    }
-
-    async fn crl(&mut self, id: &str) -> Result<Base64Bytes, Problem> {
-        self.get(&protocol::crl_path(id)).await
-    }
-
-    async fn trust_stamp(&mut self) -> Result<TrustStamp, Problem> {
-        self.get(protocol::TRUST).await
-    }
-
-    async fn edit_trust(&mut self, change: EditTrust) -> Result<TrustChanged, Problem> {
-        self.change(protocol::TRUST, &change).await
-    }
-
-    async fn activate(&mut self, change: Activate) -> Result<Changed, Problem> {
-        self.change(protocol::ACTIVATION, &change).await
-    }
-
-    async fn log(&mut self, from: Option<u64>) -> Result<LogChunk, Problem> {
-        match from {
-            None => self.get(protocol::LOG).await,
-            Some(from) => self.get(&format!("{}?from={from}", protocol::LOG)).await,
+        match list {
+            ClientList::Trusted => self.send(&GetTrusted).await,
+            ClientList::Issuers => self.send(&GetIssuers).await,
+            ClientList::Rejected => {
+                Err(Problem::with_detail(ErrorCode::Internal, "the rejected list is read on its own"))
+            }
         }
     }
 
+    async fn rejected_clients(&mut self) -> Result<Revisioned<Vec<RejectedClient>>, Problem> {
+        self.send(&GetRejected).await
+    }
+
+    async fn crls(&mut self) -> Result<Revisioned<Vec<ListedCrl>>, Problem> {
+        self.send(&GetCrls).await
+    }
+
+    async fn crl(&mut self, id: &str) -> Result<Base64Bytes, Problem> {
+        self.send(&GetCrl { id: id.to_owned() }).await
+    }
+
+    async fn trust_stamp(&mut self) -> Result<TrustStamp, Problem> {
+        self.send(&GetTrustStamp).await
+    }
+
+    async fn edit_trust(&mut self, change: EditTrust) -> Result<TrustChanged, Problem> {
+        self.send(&change).await
+    }
+
+    async fn activate(&mut self, change: Activate) -> Result<Changed, Problem> {
+        self.send(&change).await
+    }
+
+    async fn log(&mut self, from: Option<u64>) -> Result<LogChunk, Problem> {
+        self.send(&GetLog { from }).await
+    }
+
     async fn export_settings(&mut self, request: ExportSettings) -> Result<SettingsExport, Problem> {
-        self.change(protocol::SETTINGS_EXPORT, &request).await
+        self.send(&request).await
     }
 
     async fn import_settings(&mut self, change: ImportSettings) -> Result<Changed, Problem> {
-        self.change(protocol::SETTINGS_IMPORT, &change).await
+        self.send(&change).await
     }
 
     fn unanswered(&self) -> Option<u64> {
@@ -382,8 +380,7 @@ impl ControllerSession for Link {
     }
 
     async fn close(&mut self) {
-        let bye = self.send::<(), Option<()>>(Method::POST, protocol::LOGOUT, None, Duration::from_secs(2));
-        if let Err(problem) = bye.await {
+        if let Err(problem) = self.send_within(LOGOUT_TIMEOUT, &Logout).await {
             tracing::debug!(%problem, "logout failed");
         }
         self.token = None;

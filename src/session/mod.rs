@@ -5,7 +5,6 @@
 //!
 //! [`opcua_client`] is no session to configure with: it looks at a controller's OPC UA server as its clients do.
 
-mod answers;
 mod management;
 pub mod opcua_client;
 mod pinned_tls;
@@ -13,7 +12,6 @@ mod pinned_tls;
 use async_trait::async_trait;
 use secrecy::SecretString;
 
-pub use answers::MAX_LISTED;
 pub use management::{ManagementConnector, Timeouts};
 
 use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};

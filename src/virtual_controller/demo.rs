@@ -7,7 +7,7 @@ use secrecy::SecretString;
 use tokio::task::spawn_blocking;
 use tokio_util::sync::DropGuard;
 
-use super::controller::{ControllerSpec, VirtualController};
+use super::controller::ControllerSpec;
 use super::fleet::{
     FleetError, FleetFirmware, FolderLock, plausible_identity, serial_number, shutdown_all, start_all, switches,
 };
@@ -16,6 +16,7 @@ use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::Identity;
+use super::switch_on::VirtualController;
 use crate::model::{
     Address, ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, KeyLength, Problem, SecurityPolicy,
     ServerPort, StartupMode, UserTokenPolicy, Validity, clock,

@@ -9,13 +9,14 @@ use thiserror::Error;
 use tokio::task::{JoinSet, spawn_blocking};
 use tokio_util::sync::DropGuard;
 
-use super::controller::{ControllerSpec, SwitchOnError, VirtualController};
+use super::controller::{ControllerSpec, SwitchOnError};
 use super::file_limit::raise_file_limit;
 use super::new_controller::NewController;
 use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::Identity;
+use super::switch_on::VirtualController;
 use super::switchboard;
 use crate::model::{
     ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort,

@@ -1,5 +1,4 @@
 use std::convert::Infallible;
-use std::net::{IpAddr, SocketAddr};
 use std::sync::Arc;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
@@ -17,8 +16,9 @@ use tokio_rustls::TlsAcceptor;
 use tokio_util::sync::CancellationToken;
 use tower_service::Service as _;
 
-use super::api::{self, Api, Connection, ROUTER};
-use super::connection_limits::{Activity, Occupant, PlaceLimits, Places, Source, Standing};
+use super::api::{self, Api, ClientConnection, ROUTER};
+use super::connection_limits::{PlaceLimits, Places, Standing};
+use super::peer::Peer;
 use super::request_heads::CheckedHeads;
 
 /// An engineer's program keeps one connection for each session. No change takes as long as `silence`.
@@ -34,44 +34,6 @@ const MAX_AGE: Duration = Duration::from_secs(600);
 const GRACE: Duration = Duration::from_secs(2);
 /// After an error of `accept`, which is most likely that the process is out of file descriptors.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
-
-/// One connection of a peer of the management protocol.
-#[derive(Debug)]
-pub struct Peer {
-    address: IpAddr,
-    activity: Activity,
-    evicted: CancellationToken,
-}
-
-impl Peer {
-    fn new(address: SocketAddr) -> Self {
-        Self { address: address.ip().to_canonical(), activity: Activity::new(), evicted: CancellationToken::new() }
-    }
-
-    pub fn address(&self) -> IpAddr {
-        self.address
-    }
-
-    /// A request with a valid session has come.
-    pub fn has_session(&self) {
-        self.activity.reached(Standing::InSession);
-        self.activity.used();
-    }
-}
-
-impl Occupant for Peer {
-    fn source(&self) -> Source {
-        Source::new(self.address)
-    }
-
-    fn activity(&self) -> &Activity {
-        &self.activity
-    }
-
-    fn evict(&self) {
-        self.evicted.cancel();
-    }
-}
 
 /// Accepts connections of the management protocol until `off`, then lets the requests in hand finish.
 pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<Api>, off: CancellationToken) {
@@ -122,22 +84,22 @@ async fn serve_peer(
     let handshake = tokio::time::timeout(HANDSHAKE_TIMEOUT, acceptor.accept(stream));
     let stream = match off.run_until_cancelled(handshake).await {
         Some(Ok(Ok(stream))) => stream,
-        Some(Ok(Err(error))) => return tracing::debug!(peer = %peer.address, %error, "TLS failed"),
+        Some(Ok(Err(error))) => return tracing::debug!(peer = %peer.address(), %error, "TLS failed"),
         Some(Err(_)) | None => return,
     };
     peer.activity.reached(Standing::Opened);
     let cut = CancellationToken::new();
-    let connection = Connection { api, peer: Arc::clone(peer), local: local.ip(), cut: cut.clone() };
-    let (stream, refusals) = CheckedHeads::new(stream);
+    let connection = ClientConnection { api, peer: Arc::clone(peer), local: local.ip(), cut: cut.clone() };
+    let (stream, rejected) = CheckedHeads::new(stream);
     let service = service_fn(move |mut request: Request<Incoming>| {
-        let (connection, refusals) = (connection.clone(), refusals.clone());
+        let (connection, rejected) = (connection.clone(), rejected.clone());
         async move {
             let latency = connection.api.latency();
             if !latency.is_zero() {
                 tokio::time::sleep(latency).await;
             }
-            if let Some(refusal) = refusals.of(request.uri()) {
-                return Ok(api::refused(refusal));
+            if let Some(head) = rejected.of(request.uri()) {
+                return Ok(api::rejected(head));
             }
             // The heads after a body in chunks are not checked.
             let is_last = request.headers().contains_key(TRANSFER_ENCODING);
@@ -174,6 +136,6 @@ async fn serve_peer(
         }
     };
     if let Err(error) = ended {
-        tracing::debug!(peer = %peer.address, %error, "a connection broke off");
+        tracing::debug!(peer = %peer.address(), %error, "a connection broke off");
     }
 }

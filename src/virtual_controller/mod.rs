@@ -17,10 +17,12 @@
 //! | `activation_keys` | [`demo_keys`]: the keys a virtual controller accepts |
 //! | `faults` | [`Faults`]: the switches for what goes wrong |
 //! | `switchboard` | [`Switchboard`]: some of them, thrown by another process |
-//! | `controller` | [`VirtualController`]: state, store and OPC UA server together; changes whole or not at all |
+//! | `controller` | state, store and OPC UA server together; changes whole or not at all |
+//! | `switch_on` | [`VirtualController`]: a controller with its listener, switched on and off |
 //! | `password` | the connection password: Argon2id once, then a memory of this process |
 //! | `login` | wrong passwords by source, sessions by token |
-//! | `api` | the paths of [`crate::protocol`], and bodies within bounds |
+//! | `api` | the requests of [`crate::protocol`], and bodies within bounds |
+//! | `peer` | one connection of the management protocol, as `api` and `listener` know it |
 //! | `connection_limits` | what peers may take of either listener before they have a session |
 //! | `listener` | connections of the management protocol: accepted, bounded in number and time, encrypted |
 //! | `request_heads` | the heads of requests, checked before the HTTP library reads them |
@@ -33,6 +35,11 @@
 //! | `file_limit` | room for a listener of each controller of a fleet |
 //! | `fleet` | [`Fleet`]: hundreds of controllers in one process |
 //! | `demo` | [`demo_fleet`]: controllers worth looking at |
+//!
+//! # Layers
+//! Each uses only those before it: `state` and `store`; the functions of `changes`, `certificate_changes`, `trust_changes`
+//! and `settings_transfer` on a state; `opcua`, which knows none of these; `controller`, which puts a change in force;
+//! `api`, which answers requests; `listener`, which accepts their connections; `switch_on`; `fleet` and `demo`.
 //!
 //! # The walk of a change
 //! `listener` accepts and decrypts; `api` finds the session, reads the body, and hands a closure over `changes` to the
@@ -75,6 +82,7 @@ mod memory;
 mod new_controller;
 pub mod opcua;
 mod password;
+mod peer;
 mod ports;
 mod rejected;
 mod request_heads;
@@ -83,6 +91,7 @@ mod server_log;
 mod settings_transfer;
 mod state;
 mod store;
+mod switch_on;
 mod switchboard;
 #[cfg(test)]
 mod tests;
@@ -90,7 +99,7 @@ mod tls;
 mod trust_changes;
 
 pub use activation_keys::demo_keys;
-pub use controller::{ControllerSpec, SwitchOnError, VirtualController};
+pub use controller::{ControllerSpec, SwitchOnError};
 pub use demo::{DEMO_COUNT, DEMO_PASSWORD, DemoEntry, DemoFleet, demo_fleet};
 pub use faults::{DropPoint, Faults, Switches};
 pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyLine};
@@ -101,4 +110,5 @@ pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;
 pub use state::{HeldCrl, Identity, KeyPair, Listed, PendingCsr, State, Surroundings, User};
 pub use store::{Staged, Store, StoreError};
+pub use switch_on::VirtualController;
 pub use switchboard::{OutsideSwitches, Switchboard};

@@ -25,18 +25,18 @@ const MAX_HEADERS: usize = 64;
 
 /// A head that is refused: the HTTP status, and the failure to be told.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Refusal {
+pub struct RejectedHead {
     pub status: StatusCode,
     pub problem: Problem,
 }
 
 /// Where the service finds the refusal of its connection.
 #[derive(Debug, Clone, Default)]
-pub struct Refusals(Arc<Mutex<Option<Refusal>>>);
+pub struct RejectedHeads(Arc<Mutex<Option<RejectedHead>>>);
 
-impl Refusals {
+impl RejectedHeads {
     /// What is to be answered to this request instead of doing it, if it stands for one that was refused.
-    pub fn of(&self, target: &Uri) -> Option<Refusal> {
+    pub fn of(&self, target: &Uri) -> Option<RejectedHead> {
         if target.path() == REFUSED { self.0.lock().take() } else { None }
     }
 }
@@ -49,7 +49,7 @@ const REFUSED_HEAD: &[u8] = b"GET /refused HTTP/1.1\r\nhost: refused\r\nconnecti
 #[derive(Debug)]
 pub struct CheckedHeads<S> {
     stream: S,
-    refusals: Refusals,
+    rejected: RejectedHeads,
     /// What was read and not given yet.
     held: Zeroizing<Vec<u8>>,
     /// So much of `held` may be given.
@@ -74,12 +74,12 @@ enum Next {
 }
 
 impl<S> CheckedHeads<S> {
-    pub fn new(stream: S) -> (Self, Refusals) {
-        let refusals = Refusals::default();
+    pub fn new(stream: S) -> (Self, RejectedHeads) {
+        let rejected = RejectedHeads::default();
         let held = Zeroizing::new(Vec::new());
         (
-            Self { stream, refusals: refusals.clone(), held, cleared: 0, searched: 0, next: Next::Head, discarded: 0 },
-            refusals,
+            Self { stream, rejected: rejected.clone(), held, cleared: 0, searched: 0, next: Next::Head, discarded: 0 },
+            rejected,
         )
     }
 
@@ -110,8 +110,8 @@ impl<S> CheckedHeads<S> {
         true
     }
 
-    fn refuse(&mut self, refusal: Refusal) {
-        *self.refusals.0.lock() = Some(refusal);
+    fn refuse(&mut self, refusal: RejectedHead) {
+        *self.rejected.0.lock() = Some(refusal);
         self.held = Zeroizing::new(REFUSED_HEAD.to_vec());
         self.cleared = self.held.len();
         self.next = Next::End;
@@ -188,7 +188,7 @@ fn end_of_head(bytes: &[u8], from: usize) -> Option<usize> {
 }
 
 /// RFC 9112 §3, §3.2 and §6.3, more strictly where a lenient reader and a strict one would read different requests.
-fn check(head: &[u8]) -> Result<Next, Refusal> {
+fn check(head: &[u8]) -> Result<Next, RejectedHead> {
     if head.len() > MAX_HEAD_BYTES {
         return Err(too_large(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE));
     }
@@ -244,17 +244,17 @@ fn check(head: &[u8]) -> Result<Next, Refusal> {
     }
 }
 
-fn bad(why: &str) -> Refusal {
-    Refusal { status: StatusCode::BAD_REQUEST, problem: Problem::with_detail(ErrorCode::Refused, why) }
+fn bad(why: &str) -> RejectedHead {
+    RejectedHead { status: StatusCode::BAD_REQUEST, problem: Problem::with_detail(ErrorCode::Refused, why) }
 }
 
-fn other_version() -> Refusal {
+fn other_version() -> RejectedHead {
     let problem = Problem::with_detail(ErrorCode::Refused, "the protocol is spoken over HTTP/1.1");
-    Refusal { status: StatusCode::HTTP_VERSION_NOT_SUPPORTED, problem }
+    RejectedHead { status: StatusCode::HTTP_VERSION_NOT_SUPPORTED, problem }
 }
 
-fn too_large(status: StatusCode) -> Refusal {
-    Refusal { status, problem: ErrorCode::RequestTooLarge.into() }
+fn too_large(status: StatusCode) -> RejectedHead {
+    RejectedHead { status, problem: ErrorCode::RequestTooLarge.into() }
 }
 
 const PIECE: usize = 4096;
@@ -301,9 +301,9 @@ mod tests {
     }
 
     /// Everything the service reads of a connection on which these bytes arrive in pieces of this size.
-    async fn passed(bytes: &str, size: usize) -> (String, Option<Refusal>) {
+    async fn passed(bytes: &str, size: usize) -> (String, Option<RejectedHead>) {
         let (mut client, server) = tokio::io::duplex(64 * 1024);
-        let (mut server, refusals) = CheckedHeads::new(server);
+        let (mut server, rejected) = CheckedHeads::new(server);
         let bytes = bytes.as_bytes().to_vec();
         tokio::spawn(async move {
             for piece in bytes.chunks(size) {
@@ -314,7 +314,7 @@ mod tests {
         });
         let mut read = String::new();
         server.read_to_string(&mut read).await.unwrap();
-        let refusal = refusals.of(&Uri::from_static(REFUSED));
+        let refusal = rejected.of(&Uri::from_static(REFUSED));
         (read, refusal)
     }
 
@@ -343,10 +343,10 @@ mod tests {
 
     #[test]
     fn nobody_takes_a_refusal_by_another_path() {
-        let refusals = Refusals::default();
-        assert_eq!(refusals.of(&Uri::from_static(REFUSED)), None);
-        *refusals.0.lock() = Some(bad("x"));
-        assert_eq!(refusals.of(&Uri::from_static("/v1/hello")), None);
-        assert_eq!(refusals.of(&Uri::from_static(REFUSED)), Some(bad("x")));
+        let rejected = RejectedHeads::default();
+        assert_eq!(rejected.of(&Uri::from_static(REFUSED)), None);
+        *rejected.0.lock() = Some(bad("x"));
+        assert_eq!(rejected.of(&Uri::from_static("/v1/hello")), None);
+        assert_eq!(rejected.of(&Uri::from_static(REFUSED)), Some(bad("x")));
     }
 }

@@ -10,7 +10,7 @@ use tokio::sync::Notify;
 use super::faults::Faults;
 use super::log_share::StrangersShare;
 use super::opcua::Event;
-use crate::protocol::{LogChunk, MAX_LOG_CHUNK_BYTES};
+use crate::protocol::LogChunk;
 
 /// The log of a controller's OPC UA server (manual 2.6.1, 6.3): one file in its folder, one event a line, times in UTC
 /// by the controller's clock.
@@ -73,7 +73,7 @@ impl ServerLog {
             Err(error) => return Err(error),
         };
         let size = file.metadata()?.len();
-        let most = MAX_LOG_CHUNK_BYTES as u64;
+        let most = LogChunk::MAX_BYTES as u64;
         let mut begin = from.unwrap_or_else(|| size.saturating_sub(most)).min(size);
         file.seek(SeekFrom::Start(begin))?;
         let mut bytes = Vec::new();
@@ -272,7 +272,7 @@ mod tests {
         loop {
             let chunk = log.read(Some(from)).unwrap();
             assert_eq!((chunk.from, chunk.size), (from, whole.len() as u64));
-            assert!(chunk.text.len() <= MAX_LOG_CHUNK_BYTES && chunk.text.ends_with('\n'));
+            assert!(chunk.text.len() <= LogChunk::MAX_BYTES && chunk.text.ends_with('\n'));
             text += &chunk.text;
             (from, pieces) = (chunk.next, pieces + 1);
             if from == chunk.size {

@@ -217,7 +217,7 @@ impl Controller {
         Ok(Applied { changed: self.changed(), value, cut })
     }
 
-    pub(super) async fn start_server_now(&self) -> Result<(), Problem> {
+    pub(in super::super) async fn start_server_now(&self) -> Result<(), Problem> {
         let mut plant = self.server.lock().await;
         plant.admit()?;
         if plant.is_running() {
@@ -317,7 +317,7 @@ impl Controller {
             .map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?
     }
 
-    pub(super) async fn switch_off(&self) {
+    pub(in super::super) async fn switch_off(&self) {
         let mut plant = self.server.lock().await;
         plant.off = true;
         if plant.server.is_some() {

@@ -69,7 +69,7 @@ impl Controller {
         Ok(Revisioned { revision: state.revision, value })
     }
 
-    pub(in super::super) fn rejected(&self) -> Revisioned<Vec<RejectedClient>> {
+    pub(in super::super) fn rejected_clients(&self) -> Revisioned<Vec<RejectedClient>> {
         Revisioned { revision: self.state().revision, value: self.rejected.list() }
     }
 
@@ -90,7 +90,7 @@ impl Controller {
     }
 
     /// The server log from byte `from` on, or its end.
-    pub(in super::super) async fn log(&self, from: Option<u64>) -> Result<LogChunk, Problem> {
+    pub(in super::super) async fn read_log(&self, from: Option<u64>) -> Result<LogChunk, Problem> {
         let log = Arc::clone(&self.log);
         let read = spawn_blocking(move || log.read(from)).await.map_err(std::io::Error::other).flatten();
         read.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))
@@ -149,7 +149,7 @@ impl Controller {
         }
     }
 
-    pub(super) fn endpoint(&self, reached: Option<IpAddr>) -> String {
+    pub(in super::super) fn endpoint(&self, reached: Option<IpAddr>) -> String {
         let host = match reached {
             Some(address) if self.bind.is_unspecified() => address.to_canonical(),
             _ => self.surroundings().address(),

@@ -19,7 +19,7 @@ use crate::model::{
     Validity,
 };
 use crate::pki::{Fingerprint, PrivateKey, ServerNames, self_signed};
-use crate::protocol::{self, Base64Bytes, Failure, Hello, Session};
+use crate::protocol::{self, Base64Bytes, Failure, Hello, Request as _, Session};
 use crate::virtual_controller::ports::free_port;
 use crate::virtual_controller::{
     AdmissionOptions, ControllerSpec, Identity, NewCertificate, NewController, State, SwitchOnError, VirtualController,
@@ -129,7 +129,7 @@ impl Client {
     }
 
     pub async fn login(&mut self, password: &str) -> Result<(), Refusal> {
-        let session: Session = self.post(protocol::LOGIN, &json!({ "password": password })).await?;
+        let session: Session = self.post(protocol::Login::PATH, &json!({ "password": password })).await?;
         assert_eq!(session.idle_secs, protocol::SESSION_IDLE_SECS);
         self.token = Some(session.token.expose().to_owned());
         Ok(())
@@ -168,7 +168,7 @@ impl Client {
     }
 
     pub async fn hello(&self) -> Hello {
-        self.get(protocol::HELLO).await.unwrap()
+        self.get(protocol::GetHello::PATH).await.unwrap()
     }
 }
 

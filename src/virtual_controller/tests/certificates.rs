@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 use super::bench::{Bench, CURRENT, Client, KEY, LEGACY, LOOPBACK, Refusal, bounded, code, initial, request};
 use crate::model::{CertificateType, CsrRequest, ErrorCode};
 use crate::pki::{Certificate, Csr, PrivateKey, ServerNames, make_csr, pkcs12_write_key, self_signed};
-use crate::protocol::{self, Base64Bytes, Changed, CsrMade, HeldCertificates, Installed, Revisioned};
+use crate::protocol::{self, Base64Bytes, Changed, CsrMade, HeldCertificates, Installed, Request as _, Revisioned};
 
 fn wish(bits: u16) -> CsrRequest {
     let request = request("robot", bits);
@@ -22,7 +22,7 @@ fn made_on_the_pc(revision: u64, csr: &Csr, key: &PrivateKey) -> Value {
 
 async fn import(client: &Client, revision: u64, certificate: &Certificate) -> Result<Installed, Refusal> {
     let certificate = Base64Bytes(certificate.der().to_vec());
-    client.post(protocol::CA_SIGNED, &json!({ "revision": revision, "certificate": certificate })).await
+    client.post(protocol::ImportCaSigned::PATH, &json!({ "revision": revision, "certificate": certificate })).await
 }
 
 #[tokio::test]
@@ -30,11 +30,12 @@ async fn legacy_firmware_takes_a_csr_with_its_key() {
     bounded(async {
         let bench = Bench::new(initial(LEGACY)).await;
         let client = bench.client().await;
-        let make = client.post::<CsrMade>(protocol::CSR, &json!({ "revision": 1, "request": wish(2048) })).await;
+        let make =
+            client.post::<CsrMade>(protocol::MakeCsr::PATH, &json!({ "revision": 1, "request": wish(2048) })).await;
         assert_eq!(code(make), ErrorCode::FirmwareTooOld);
 
         let csr = make_csr(&wish(2048), &names(), &KEY).unwrap();
-        let send = async |body: Value| client.post::<CsrMade>(protocol::CSR_IMPORT, &body).await;
+        let send = async |body: Value| client.post::<CsrMade>(protocol::ImportCsr::PATH, &body).await;
         let other = PrivateKey::generate(wish(2048).key_length).unwrap();
         assert_eq!(code(send(made_on_the_pc(1, &csr, &other)).await), ErrorCode::KeyMismatch);
         let mut wrong = made_on_the_pc(1, &csr, &KEY);
@@ -50,7 +51,7 @@ async fn legacy_firmware_takes_a_csr_with_its_key() {
 
         let made = send(made_on_the_pc(1, &csr, &KEY)).await.unwrap();
         assert_eq!((made.changed.revision, made.csr.0.as_slice()), (2, csr.der()));
-        let held: Revisioned<HeldCertificates> = client.get(protocol::CERTIFICATES).await.unwrap();
+        let held: Revisioned<HeldCertificates> = client.get(protocol::GetCertificates::PATH).await.unwrap();
         assert_eq!(held.value.csr, Some(made.csr));
         assert!(format!("{:?}", bench.state().csr).contains("private_key: SecretBytes(…)"));
     })
@@ -67,18 +68,23 @@ async fn a_ca_signed_certificate_is_for_the_csr_held() {
             assert_eq!(code(import(&client, 1, &stranger).await), ErrorCode::NoCsr);
             if firmware == CURRENT {
                 let sent = made_on_the_pc(1, &make_csr(&wish(2048), &names(), &KEY).unwrap(), &KEY);
-                assert_eq!(code(client.post::<CsrMade>(protocol::CSR_IMPORT, &sent).await), ErrorCode::FirmwareTooNew);
+                assert_eq!(
+                    code(client.post::<CsrMade>(protocol::ImportCsr::PATH, &sent).await),
+                    ErrorCode::FirmwareTooNew
+                );
                 let too_short = json!({ "revision": 1, "request": wish(1024) });
-                let refused = client.post::<CsrMade>(protocol::CSR, &too_short).await;
+                let refused = client.post::<CsrMade>(protocol::MakeCsr::PATH, &too_short).await;
                 assert_eq!(code(refused), ErrorCode::BadCertificateRequest);
-                let made: CsrMade =
-                    client.post(protocol::CSR, &json!({ "revision": 1, "request": wish(2048) })).await.unwrap();
+                let made: CsrMade = client
+                    .post(protocol::MakeCsr::PATH, &json!({ "revision": 1, "request": wish(2048) }))
+                    .await
+                    .unwrap();
                 assert_eq!(Csr::from_der(&made.csr.0).unwrap().common_name(), Some("robot"));
                 assert_eq!(code(import(&client, 2, &stranger).await), ErrorCode::CsrMismatch);
                 continue;
             }
             let csr = make_csr(&wish(2048), &names(), &KEY).unwrap();
-            client.post::<CsrMade>(protocol::CSR_IMPORT, &made_on_the_pc(1, &csr, &KEY)).await.unwrap();
+            client.post::<CsrMade>(protocol::ImportCsr::PATH, &made_on_the_pc(1, &csr, &KEY)).await.unwrap();
             let past = Utc::now() - TimeDelta::days(400);
             let expired = self_signed(&request("robot", 2048), &names(), &KEY, past).unwrap();
             assert_eq!(code(import(&client, 2, &expired).await), ErrorCode::CertificateExpired);
@@ -97,7 +103,7 @@ async fn a_type_is_selected_only_if_it_is_held() {
         let bench = Bench::new(initial(CURRENT)).await;
         let client = bench.client().await;
         let select = async |kind: &str| {
-            client.post::<Changed>(protocol::CERTIFICATE_SELECT, &json!({ "revision": 1, "type": kind })).await
+            client.post::<Changed>(protocol::SelectCertificate::PATH, &json!({ "revision": 1, "type": kind })).await
         };
         assert_eq!(code(select("self-signed").await), ErrorCode::CertificateNotStored);
         assert_eq!(code(select("user-specified").await), ErrorCode::FirmwareTooNew);

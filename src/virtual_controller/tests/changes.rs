@@ -11,7 +11,7 @@ use crate::model::{
     UserName,
 };
 use crate::pki::{Certificate, pkcs12_write};
-use crate::protocol::{self, Changed, Installed, ListedCertificate, Revisioned, clients_path};
+use crate::protocol::{self, Changed, Installed, ListedCertificate, Request as _, Revisioned};
 use crate::virtual_controller::NewController;
 
 fn set(revision: u64, settings: &ServerSettings) -> Value {
@@ -23,9 +23,9 @@ async fn settings_follow_the_rules() {
     bounded(async {
         let bench = Bench::new(initial(CURRENT)).await;
         let client = bench.client().await;
-        let before: Revisioned<ServerSettings> = client.get(protocol::SETTINGS).await.unwrap();
+        let before: Revisioned<ServerSettings> = client.get(protocol::GetSettings::PATH).await.unwrap();
         let settings = before.value;
-        let put = async |body: Value| client.put::<Changed>(protocol::SETTINGS, &body).await;
+        let put = async |body: Value| client.put::<Changed>(protocol::GetSettings::PATH, &body).await;
 
         let none = ServerSettings { security_policies: BTreeSet::new(), ..settings.clone() };
         assert_eq!(code(put(set(1, &none)).await), ErrorCode::BadSettings);
@@ -61,10 +61,10 @@ async fn a_change_based_on_an_old_revision_is_refused() {
         let bench = Bench::new(initial(CURRENT)).await;
         let client = bench.client().await;
         let settings = bench.state().settings.clone();
-        client.put::<Changed>(protocol::SETTINGS, &set(1, &settings)).await.unwrap();
+        client.put::<Changed>(protocol::GetSettings::PATH, &set(1, &settings)).await.unwrap();
         let before = bench.state();
         for stale in [0, 1, 3, u64::MAX] {
-            let result = client.put::<Changed>(protocol::SETTINGS, &set(stale, &settings)).await;
+            let result = client.put::<Changed>(protocol::GetSettings::PATH, &set(stale, &settings)).await;
             assert_eq!(code(result), ErrorCode::ChangedMeanwhile);
         }
         assert_eq!(bench.state(), before);
@@ -79,10 +79,10 @@ async fn users_are_ten_at_most_and_each_name_once() {
         let client = bench.client().await;
         let add = async |revision: u64, name: &str, password: &str| {
             let body = json!({ "revision": revision, "name": name, "password": password });
-            client.post::<Changed>(protocol::USERS, &body).await
+            client.post::<Changed>(protocol::GetUsers::PATH, &body).await
         };
         let remove = async |revision: u64, names: Value| {
-            client.post::<Changed>(protocol::USERS_REMOVE, &json!({ "revision": revision, "names": names })).await
+            client.post::<Changed>(protocol::RemoveUsers::PATH, &json!({ "revision": revision, "names": names })).await
         };
         assert_eq!(code(add(1, "short", "Passw0rd").await), ErrorCode::BadCredential);
         assert_eq!(code(add(1, "operator1", "short").await), ErrorCode::BadCredential);
@@ -94,7 +94,7 @@ async fn users_are_ten_at_most_and_each_name_once() {
         assert_eq!(code(add(11, "operator10", "Passw0rd").await), ErrorCode::TooManyUsers);
         assert_eq!(code(remove(11, json!(["operator1", "nobody99"])).await), ErrorCode::UserNotFound);
         remove(11, json!(["operator1", "operator2"])).await.unwrap();
-        let users: Revisioned<Vec<UserName>> = client.get(protocol::USERS).await.unwrap();
+        let users: Revisioned<Vec<UserName>> = client.get(protocol::GetUsers::PATH).await.unwrap();
         assert_eq!((users.revision, users.value.len()), (12, 8));
         assert!(bench.state().users.iter().all(|user| user.password_hash.starts_with("$argon2id$")));
     })
@@ -107,7 +107,9 @@ async fn current_firmware_makes_its_own_key_and_takes_none() {
         let bench = Bench::new(initial(CURRENT)).await;
         let client = bench.client().await;
         let make = async |request: Value| {
-            client.post::<Installed>(protocol::SELF_SIGNED, &json!({ "revision": 1, "request": request })).await
+            client
+                .post::<Installed>(protocol::MakeSelfSigned::PATH, &json!({ "revision": 1, "request": request }))
+                .await
         };
         let wanted = serde_json::to_value(request("EpsonRC.R7A0000001", 2048)).unwrap();
         let mut wide = wanted.clone();
@@ -131,7 +133,7 @@ async fn current_firmware_makes_its_own_key_and_takes_none() {
         let pkcs12 = pkcs12_write("x", &KEY, &[&certificate("a", Utc::now())], "transfer").unwrap();
         let body = json!({ "revision": 2, "kind": "user-specified", "password": "transfer",
             "pkcs12": protocol::Base64Bytes(pkcs12) });
-        let result = client.post::<Installed>(protocol::CERTIFICATE_IMPORT, &body).await;
+        let result = client.post::<Installed>(protocol::ImportCertificate::PATH, &body).await;
         assert_eq!(code(result), ErrorCode::FirmwareTooNew);
     })
     .await;
@@ -143,14 +145,14 @@ async fn legacy_firmware_takes_a_key_and_makes_none() {
         let bench = Bench::new(initial(LEGACY)).await;
         let client = bench.client().await;
         let body = json!({ "revision": 1, "request": request("a", 2048) });
-        let result = client.post::<Installed>(protocol::SELF_SIGNED, &body).await;
+        let result = client.post::<Installed>(protocol::MakeSelfSigned::PATH, &body).await;
         assert_eq!(code(result), ErrorCode::FirmwareTooOld);
 
         let import = async |kind: &str, certificate: &Certificate, password: &str| {
             let pkcs12 = pkcs12_write("x", &KEY, &[certificate], "transfer").unwrap();
             let body = json!({ "revision": 1, "kind": kind, "password": password,
                 "pkcs12": protocol::Base64Bytes(pkcs12) });
-            client.post::<Installed>(protocol::CERTIFICATE_IMPORT, &body).await
+            client.post::<Installed>(protocol::ImportCertificate::PATH, &body).await
         };
         let good = certificate("robot", Utc::now());
         assert_eq!(code(import("self-signed", &good, "wrong").await), ErrorCode::WrongKeyPassword);
@@ -162,7 +164,7 @@ async fn legacy_firmware_takes_a_key_and_makes_none() {
         let installed = import("user-specified", &good, "transfer").await.unwrap();
         assert_eq!(installed.certificate.0, good.der());
         assert_eq!(bench.state().selected, CertificateType::UserSpecified);
-        let started: Changed = client.post(protocol::SERVER_START, &()).await.unwrap();
+        let started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
         assert_eq!(started, Changed { revision: 2, status: ServerStatus::Run });
         assert!(bench.answers());
     })
@@ -178,7 +180,7 @@ async fn client_lists_have_limits_and_no_doubles() {
             let limit = ListLimits::of(firmware.generation()).trusted;
             let add = async |list: ClientList, revision: u64, certificates: &[_]| {
                 let step = json!({ "add": { "list": list, "certificates": certificates } });
-                client.post::<Value>(protocol::TRUST, &json!({ "revision": revision, "steps": [step] })).await
+                client.post::<Value>(protocol::EditTrust::PATH, &json!({ "revision": revision, "steps": [step] })).await
             };
             let many = clients("client", limit + 1);
             assert_eq!(code(add(ClientList::Trusted, 1, &many).await), ErrorCode::ListFull);
@@ -193,8 +195,7 @@ async fn client_lists_have_limits_and_no_doubles() {
 
             add(ClientList::Trusted, 1, &many[..limit]).await.unwrap();
             assert_eq!(code(add(ClientList::Trusted, 2, &many[limit..]).await), ErrorCode::ListFull);
-            let listed: Revisioned<Vec<ListedCertificate>> =
-                client.get(&clients_path(ClientList::Trusted)).await.unwrap();
+            let listed: Revisioned<Vec<ListedCertificate>> = client.get(protocol::GetTrusted::PATH).await.unwrap();
             assert_eq!((listed.revision, listed.value.len()), (2, limit));
             assert_eq!(listed.value[0].file_name, "client0.der");
             assert_eq!(listed.value[0].certificate, many[0].1);
@@ -202,7 +203,7 @@ async fn client_lists_have_limits_and_no_doubles() {
             let issuers = add(ClientList::Issuers, 2, &many[..1]).await;
             if firmware == LEGACY {
                 assert_eq!(code(issuers), ErrorCode::FirmwareTooOld);
-                let read = client.get::<Value>(&clients_path(ClientList::Issuers)).await;
+                let read = client.get::<Value>(protocol::GetIssuers::PATH).await;
                 assert_eq!(code(read), ErrorCode::FirmwareTooOld);
             } else {
                 issuers.unwrap();
@@ -221,10 +222,10 @@ async fn a_running_task_or_a_pendant_forbids_changes_but_no_questions() {
         let faults = bench.controller.faults();
         let settings = bench.state().settings.clone();
         let expect = async |expected: ErrorCode| {
-            assert_eq!(code(client.put::<Changed>(protocol::SETTINGS, &set(1, &settings)).await), expected);
-            assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), expected);
-            assert_eq!(code(client.post::<Changed>(protocol::SERVER_STOP, &()).await), expected);
-            client.get::<Value>(protocol::INFO).await.expect("questions are answered");
+            assert_eq!(code(client.put::<Changed>(protocol::GetSettings::PATH, &set(1, &settings)).await), expected);
+            assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), expected);
+            assert_eq!(code(client.post::<Changed>(protocol::StopServer::PATH, &()).await), expected);
+            client.get::<Value>(protocol::GetInfo::PATH).await.expect("questions are answered");
         };
         faults.update(|switches| switches.refuse = true);
         expect(ErrorCode::Refused).await;
@@ -233,7 +234,7 @@ async fn a_running_task_or_a_pendant_forbids_changes_but_no_questions() {
         faults.update(|switches| switches.task_running = true);
         expect(ErrorCode::TaskRunning).await;
         faults.update(|switches| *switches = Default::default());
-        client.put::<Changed>(protocol::SETTINGS, &set(1, &settings)).await.unwrap();
+        client.put::<Changed>(protocol::GetSettings::PATH, &set(1, &settings)).await.unwrap();
     })
     .await;
 }
@@ -250,13 +251,16 @@ async fn a_running_server_refuses_what_it_could_not_run_with() {
         let port = ServerPort::try_from(blocker.local_addr().unwrap().port()).unwrap();
         let before = bench.state();
         let taken = ServerSettings { port, ..before.settings.clone() };
-        assert_eq!(code(client.put::<Changed>(protocol::SETTINGS, &set(1, &taken)).await), ErrorCode::PortConflict);
+        assert_eq!(
+            code(client.put::<Changed>(protocol::GetSettings::PATH, &set(1, &taken)).await),
+            ErrorCode::PortConflict
+        );
         assert_eq!(bench.state(), before);
         assert_eq!(bench.status(), (ServerStatus::Run, None));
         assert!(bench.answers());
 
         let weak = ServerSettings { security_policies: [SecurityPolicy::None].into(), ..before.settings.clone() };
-        let changed: Changed = client.put(protocol::SETTINGS, &set(1, &weak)).await.unwrap();
+        let changed: Changed = client.put(protocol::GetSettings::PATH, &set(1, &weak)).await.unwrap();
         assert_eq!(changed, Changed { revision: 2, status: ServerStatus::Run });
         assert!(bench.answers());
         bench.controller.shutdown().await;

@@ -3,6 +3,7 @@ use std::collections::BTreeSet;
 use super::bench::{Client, LOOPBACK, bounded};
 use crate::model::{ErrorCode, FirmwareGeneration, ServerStatus};
 use crate::protocol;
+use crate::protocol::Request as _;
 use crate::virtual_controller::{
     AdmissionOptions, DEMO_COUNT, DEMO_PASSWORD, Fleet, FleetConfig, FleetError, FleetFirmware, demo_fleet,
 };
@@ -85,7 +86,7 @@ async fn the_demo_has_something_of_everything() {
         assert_eq!(entry.address.to_string(), demo.controllers()[0].management_address().to_string());
         let mut client = Client::new(&demo.controllers()[0]);
         client.login(DEMO_PASSWORD).await.unwrap();
-        client.get::<serde_json::Value>(protocol::INFO).await.unwrap();
+        client.get::<serde_json::Value>(protocol::GetInfo::PATH).await.unwrap();
         let nobody = demo.entries().iter().find(|entry| entry.fingerprint.is_none()).unwrap();
         assert!(std::net::TcpStream::connect(nobody.address.authority()).is_err());
         demo.shutdown().await;

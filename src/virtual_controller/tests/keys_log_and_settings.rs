@@ -3,7 +3,7 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, LEGACY, Refusal, bounded, code, initial};
 use crate::model::{ErrorCode, ServerSettings};
-use crate::protocol::{self, Changed, ExportContent, ExportedUser, LogChunk, SettingsExport};
+use crate::protocol::{self, Changed, ExportContent, ExportedUser, LogChunk, Request as _, SettingsExport};
 use crate::virtual_controller::demo_keys;
 
 const PASSPHRASE: &str = "correct horse";
@@ -26,7 +26,7 @@ async fn only_its_own_keys_activate_a_controller() {
         let body = |revision: u64, licence: &str, activation: &str| {
             json!({ "revision": revision, "licence": licence, "activation": activation })
         };
-        let send = async |body: Value| client.post::<Changed>(protocol::ACTIVATION, &body).await;
+        let send = async |body: Value| client.post::<Changed>(protocol::Activate::PATH, &body).await;
         let (licence, activation) = (own.licence.to_string(), own.activation.to_string());
         let strange = "aaaa-aaaa-aaaa-aaaa";
         assert_eq!(code(send(body(1, strange, &activation)).await), ErrorCode::WrongKeys);
@@ -40,7 +40,7 @@ async fn only_its_own_keys_activate_a_controller() {
         assert!(bench.state().activated);
 
         let bench = Bench::new(initial(CURRENT)).await;
-        let result = bench.client().await.post::<Changed>(protocol::ACTIVATION, &body(1, &licence, &activation)).await;
+        let result = bench.client().await.post::<Changed>(protocol::Activate::PATH, &body(1, &licence, &activation)).await;
         assert_eq!(code(result), ErrorCode::FirmwareTooNew);
     })
     .await;
@@ -51,7 +51,7 @@ async fn a_log_is_asked_for_from_a_byte_on_and_in_no_other_way() {
     bounded(async {
         let bench = Bench::new(initial(LEGACY)).await;
         let client = bench.client().await;
-        let ask = async |query: &str| client.get::<LogChunk>(&format!("{}{query}", protocol::LOG)).await;
+        let ask = async |query: &str| client.get::<LogChunk>(&format!("{}{query}", protocol::GetLog::PATH)).await;
         for query in ["", "?", "?from=0", "?from=18446744073709551615"] {
             assert_eq!(ask(query).await.unwrap(), LogChunk::default(), "{query}");
         }
@@ -77,7 +77,7 @@ async fn a_sealed_export_is_checked_like_any_other_change() {
             let of = (identity.serial.clone(), identity.series, identity.firmware);
             let export = SettingsExport::new(of, Utc::now(), content, &PASSPHRASE.into()).unwrap();
             let body = json!({ "revision": 1, "export": export, "passphrase": passphrase });
-            client.post::<Changed>(protocol::SETTINGS_IMPORT, &body).await
+            client.post::<Changed>(protocol::ImportSettings::PATH, &body).await
         };
         let none = ServerSettings { security_policies: Default::default(), ..good.settings.clone() };
         let taken = ServerSettings { port: before.used_ports[0].try_into().unwrap(), ..good.settings.clone() };
@@ -98,7 +98,7 @@ async fn a_sealed_export_is_checked_like_any_other_change() {
         }
         assert_eq!(code(import(&good, "correct house").await), ErrorCode::WrongPassphrase);
         let body = json!({ "revision": 1, "export": { "format": "secret" }, "passphrase": PASSPHRASE });
-        let refused = client.post::<Changed>(protocol::SETTINGS_IMPORT, &body).await;
+        let refused = client.post::<Changed>(protocol::ImportSettings::PATH, &body).await;
         assert!(!detail(refused).contains("secret"));
         assert_eq!(bench.state(), before);
         assert_eq!(import(&with_users(vec![user("operator1".into(), hash)]), PASSPHRASE).await.unwrap().revision, 2);

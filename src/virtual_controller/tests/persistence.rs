@@ -3,7 +3,7 @@ use std::fs;
 use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, bounded, clients, initial, switch_on, with_certificate};
-use crate::protocol::{self, Changed};
+use crate::protocol::{self, Changed, Request as _};
 use crate::virtual_controller::{StoreError, SwitchOnError};
 
 const FILE: &str = "controller.state";
@@ -14,9 +14,9 @@ async fn a_controller_comes_back_as_it_was() {
         let bench = Bench::new(with_certificate(initial(CURRENT))).await;
         let client = bench.client().await;
         let user = json!({ "revision": 1, "name": "operator1", "password": "Passw0rd" });
-        client.post::<Changed>(protocol::USERS, &user).await.unwrap();
+        client.post::<Changed>(protocol::GetUsers::PATH, &user).await.unwrap();
         let step = json!({ "add": { "list": "trusted", "certificates": clients("c", 3) } });
-        client.post::<Value>(protocol::TRUST, &json!({ "revision": 2, "steps": [step] })).await.unwrap();
+        client.post::<Value>(protocol::EditTrust::PATH, &json!({ "revision": 2, "steps": [step] })).await.unwrap();
         let (state, fingerprint) = (bench.state(), bench.controller.fingerprint());
         bench.controller.shutdown().await;
 

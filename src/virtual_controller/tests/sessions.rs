@@ -3,7 +3,7 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, Client, LEGACY, PASSWORD, Refusal, bounded, code, initial};
 use crate::model::{ControllerInfo, ErrorCode};
-use crate::protocol::{self, LOGIN_ATTEMPTS, MAX_REQUEST_BYTES};
+use crate::protocol::{self, LOGIN_ATTEMPTS, MAX_REQUEST_BYTES, Request as _};
 
 #[tokio::test]
 async fn a_session_begins_with_the_password_and_ends_with_logout() {
@@ -12,16 +12,16 @@ async fn a_session_begins_with_the_password_and_ends_with_logout() {
         let mut client = Client::new(&bench.controller);
         let hello = client.hello().await;
         assert_eq!((hello.product.as_str(), hello.versions.as_slice()), (protocol::PRODUCT, [1].as_slice()));
-        assert_eq!(code(client.get::<Value>(protocol::INFO).await), ErrorCode::SessionExpired);
+        assert_eq!(code(client.get::<Value>(protocol::GetInfo::PATH).await), ErrorCode::SessionExpired);
         client.login(PASSWORD).await.unwrap();
-        let info: ControllerInfo = client.get(protocol::INFO).await.unwrap();
+        let info: ControllerInfo = client.get(protocol::GetInfo::PATH).await.unwrap();
         assert_eq!(info.name, "测试 1");
         assert_eq!(info.application_name, "EpsonRC.R7A0000001.127.000.000.001");
         assert_eq!(info.endpoint, bench.controller.endpoint());
         assert!(info.used_ports.contains(&bench.controller.management_address().port()));
         assert!(info.activated);
-        client.post::<()>(protocol::LOGOUT, &()).await.unwrap();
-        assert_eq!(code(client.get::<Value>(protocol::INFO).await), ErrorCode::SessionExpired);
+        client.post::<()>(protocol::Logout::PATH, &()).await.unwrap();
+        assert_eq!(code(client.get::<Value>(protocol::GetInfo::PATH).await), ErrorCode::SessionExpired);
     })
     .await;
 }
@@ -70,7 +70,7 @@ async fn every_failure_is_a_failure_body() {
             (Method::GET, "/v2/info", StatusCode::NOT_FOUND),
             (Method::GET, "/v1/clients/others", StatusCode::NOT_FOUND),
             (Method::POST, "/v1/clients/trusted", StatusCode::METHOD_NOT_ALLOWED),
-            (Method::DELETE, protocol::USERS, StatusCode::METHOD_NOT_ALLOWED),
+            (Method::DELETE, protocol::GetUsers::PATH, StatusCode::METHOD_NOT_ALLOWED),
         ] {
             match client.send::<Value>(method, path, Vec::new()).await {
                 Err(Refusal::Failure(got, _)) => assert_eq!(got, status, "{path}"),
@@ -78,18 +78,18 @@ async fn every_failure_is_a_failure_body() {
             }
         }
         for (path, body, expected) in [
-            (protocol::USERS, "", ErrorCode::BadCredential),
-            (protocol::USERS, "[1]", ErrorCode::BadCredential),
-            (protocol::SELF_SIGNED, "{", ErrorCode::BadCertificateRequest),
-            (protocol::USERS_REMOVE, r#"{"revision":1,"names":[],"x":1}"#, ErrorCode::BadCredential),
+            (protocol::GetUsers::PATH, "", ErrorCode::BadCredential),
+            (protocol::GetUsers::PATH, "[1]", ErrorCode::BadCredential),
+            (protocol::MakeSelfSigned::PATH, "{", ErrorCode::BadCertificateRequest),
+            (protocol::RemoveUsers::PATH, r#"{"revision":1,"names":[],"x":1}"#, ErrorCode::BadCredential),
             (
-                protocol::TRUST,
+                protocol::EditTrust::PATH,
                 r#"{"revision":1,"steps":[{"add":{"list":"trusted","certificates":[["a","!"]]}}]}"#,
                 ErrorCode::BadCertificate,
             ),
-            (protocol::TRUST, r#"{"revision":1,"steps":[]}"#, ErrorCode::Refused),
+            (protocol::EditTrust::PATH, r#"{"revision":1,"steps":[]}"#, ErrorCode::Refused),
             (
-                protocol::TRUST,
+                protocol::EditTrust::PATH,
                 r#"{"revision":1,"steps":[{"remove":{"list":"rejected","thumbprints":["AB"]}}]}"#,
                 ErrorCode::NotInList,
             ),
@@ -107,7 +107,7 @@ async fn a_misplaced_secret_is_not_quoted() {
         let bench = Bench::new(initial(CURRENT)).await;
         let client = bench.client().await;
         let body = json!({ "revision": "TopSecret99", "name": "operator1", "password": "TopSecret99" });
-        match client.post::<Value>(protocol::USERS, &body).await {
+        match client.post::<Value>(protocol::GetUsers::PATH, &body).await {
             Err(Refusal::Failure(_, failure)) => assert!(!format!("{failure:?}").contains("TopSecret99")),
             other => panic!("{other:?}"),
         }
@@ -121,11 +121,11 @@ async fn a_body_over_its_bound_is_refused_and_the_answer_arrives() {
         let bench = Bench::new(initial(CURRENT)).await;
         let client = bench.client().await;
         let body = vec![b' '; MAX_REQUEST_BYTES + 1];
-        let result = client.send::<Value>(Method::POST, protocol::USERS, body).await;
+        let result = client.send::<Value>(Method::POST, protocol::GetUsers::PATH, body).await;
         assert_eq!(code(result), ErrorCode::RequestTooLarge);
         let mut body = br#"{"revision":0,"names":[]}"#.to_vec();
         body.resize(MAX_REQUEST_BYTES, b' ');
-        let result = client.send::<Value>(Method::POST, protocol::USERS_REMOVE, body).await;
+        let result = client.send::<Value>(Method::POST, protocol::RemoveUsers::PATH, body).await;
         assert_eq!(code(result), ErrorCode::ChangedMeanwhile);
     })
     .await;
@@ -158,7 +158,7 @@ async fn latency_and_a_wrong_clock_show() {
             switches.clock_offset = chrono::TimeDelta::days(-365);
         });
         let asked = std::time::Instant::now();
-        let info: ControllerInfo = client.get(protocol::INFO).await.unwrap();
+        let info: ControllerInfo = client.get(protocol::GetInfo::PATH).await.unwrap();
         assert!(asked.elapsed() >= std::time::Duration::from_millis(200));
         assert!((chrono::Utc::now() - info.clock).num_days() >= 364);
     })

@@ -2,16 +2,16 @@ use serde_json::json;
 
 use super::bench::{Bench, CURRENT, LEGACY, bounded, code, initial, with_certificate};
 use crate::model::{ErrorCode, ServerStatus, StartupMode};
-use crate::protocol::{self, Changed};
+use crate::protocol::{self, Changed, Request as _};
 use crate::virtual_controller::NewController;
 
 async fn refuses_to_start(new: NewController, expected: ErrorCode) -> Bench {
     let bench = Bench::new(new).await;
     let client = bench.client().await;
     assert_eq!(bench.status(), (ServerStatus::Stop, None));
-    assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), expected);
+    assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), expected);
     assert_eq!(bench.status(), (ServerStatus::Error, Some(expected)));
-    let stopped: Changed = client.post(protocol::SERVER_STOP, &()).await.unwrap();
+    let stopped: Changed = client.post(protocol::StopServer::PATH, &()).await.unwrap();
     assert_eq!(stopped, Changed { revision: 1, status: ServerStatus::Stop });
     assert_eq!(bench.status(), (ServerStatus::Stop, None));
     bench
@@ -42,28 +42,28 @@ async fn a_number_goes_when_its_cause_is_mended() {
         bare.activated = false;
         let bench = Bench::new(bare).await;
         let client = bench.client().await;
-        assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), ErrorCode::NotActivated);
+        assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::NotActivated);
         let crate::model::activation::ActivationKeys { licence, activation } =
             crate::virtual_controller::demo_keys(&bench.controller.serial());
         let keys = json!({ "revision": 1, "licence": licence, "activation": activation });
-        let changed: Changed = client.post(protocol::ACTIVATION, &keys).await.unwrap();
+        let changed: Changed = client.post(protocol::Activate::PATH, &keys).await.unwrap();
         assert_eq!(changed.status, ServerStatus::Error);
         assert_eq!(bench.status(), (ServerStatus::Error, Some(ErrorCode::NoCertificate)), "the next reason");
 
         let bench = Bench::new(initial(CURRENT)).await;
         let client = bench.client().await;
-        assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), ErrorCode::NoCertificate);
+        assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::NoCertificate);
         let make = json!({ "revision": 1, "request": super::bench::request("robot", 2048) });
-        let made: protocol::Installed = client.post(protocol::SELF_SIGNED, &make).await.unwrap();
+        let made: protocol::Installed = client.post(protocol::MakeSelfSigned::PATH, &make).await.unwrap();
         assert_eq!(made.changed.status, ServerStatus::Stop);
         assert_eq!(bench.status(), (ServerStatus::Stop, None));
 
         let blocker = std::net::TcpListener::bind(("127.0.0.1", bench.state().settings.port.get())).unwrap();
-        assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), ErrorCode::PortConflict);
+        assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::PortConflict);
         assert_eq!(bench.status(), (ServerStatus::Error, Some(ErrorCode::PortConflict)));
         drop(blocker);
         assert_eq!(bench.status(), (ServerStatus::Stop, None));
-        let started: Changed = client.post(protocol::SERVER_START, &()).await.unwrap();
+        let started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
         assert_eq!(started.status, ServerStatus::Run);
     })
     .await;
@@ -75,17 +75,17 @@ async fn an_error_lasts_until_a_start_succeeds() {
         let bench = Bench::new(with_certificate(initial(CURRENT))).await;
         let client = bench.client().await;
         bench.controller.faults().update(|switches| switches.server_error = true);
-        assert_eq!(code(client.post::<Changed>(protocol::SERVER_START, &()).await), ErrorCode::ServerError);
+        assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::ServerError);
         let body = json!({ "revision": 1, "name": "operator1", "password": "Passw0rd" });
-        let changed: Changed = client.post(protocol::USERS, &body).await.unwrap();
+        let changed: Changed = client.post(protocol::GetUsers::PATH, &body).await.unwrap();
         assert_eq!(changed, Changed { revision: 2, status: ServerStatus::Error });
         bench.controller.faults().update(|switches| switches.server_error = false);
         for _ in 0..2 {
-            let started: Changed = client.post(protocol::SERVER_START, &()).await.unwrap();
+            let started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
             assert_eq!(started, Changed { revision: 2, status: ServerStatus::Run });
         }
         assert!(bench.answers());
-        let stopped: Changed = client.post(protocol::SERVER_STOP, &()).await.unwrap();
+        let stopped: Changed = client.post(protocol::StopServer::PATH, &()).await.unwrap();
         assert_eq!(stopped.status, ServerStatus::Stop);
         assert!(!bench.answers());
     })

@@ -14,6 +14,7 @@ use tokio_rustls::TlsConnector;
 use super::bench::{Bench, CURRENT, Client, PASSWORD, bounded, initial, tls};
 use crate::model::ControllerInfo;
 use crate::protocol;
+use crate::protocol::Request as _;
 
 /// A connection from another address of this machine.
 async fn dial(to: SocketAddr, from: [u8; 4]) -> std::io::Result<TcpStream> {
@@ -84,7 +85,7 @@ async fn serves_the_engineer(bench: &Bench) -> Duration {
         let asked = Instant::now();
         let mut client = Client::new(&bench.controller);
         client.login(PASSWORD).await.unwrap();
-        let _: ControllerInfo = client.get(protocol::INFO).await.unwrap();
+        let _: ControllerInfo = client.get(protocol::GetInfo::PATH).await.unwrap();
         longest = longest.max(asked.elapsed());
     }
     longest
@@ -103,7 +104,7 @@ async fn strangers_keep_no_engineer_out() {
             let longest = serves_the_engineer(&bench).await;
             println!("10 of 10 while {count} connections send {what}; the longest took {longest:?}");
             assert!(longest < Duration::from_secs(5), "{what}: {longest:?}");
-            let _: ControllerInfo = working.get(protocol::INFO).await.unwrap();
+            let _: ControllerInfo = working.get(protocol::GetInfo::PATH).await.unwrap();
             drop(strangers.tasks);
         }
         let mut strangers = JoinSet::new();

@@ -4,7 +4,9 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, LEGACY, Refusal, bounded, clients, code, initial, switch_on, with_certificate};
 use crate::model::{ClientList, ErrorCode, ServerStatus, StartupMode};
-use crate::protocol::{self, Base64Bytes, ListedCrl, RejectedClient, Revisioned, TrustChanged, TrustStamp, TrustStep};
+use crate::protocol::{
+    self, Base64Bytes, ListedCrl, RejectedClient, Request as _, Revisioned, TrustChanged, TrustStamp, TrustStep,
+};
 use crate::virtual_controller::{DropPoint, Switches};
 
 fn edit(revision: u64, steps: &[TrustStep]) -> Value {
@@ -60,7 +62,7 @@ async fn steps_are_made_in_order_and_all_of_them_or_none() {
         let certificates = clients("c", 3);
         let (two, last) = certificates.split_at(2);
         let steps = [add(Trusted, two), relist(Trusted, Issuers, &two[..1]), add(Trusted, last)];
-        let done: TrustChanged = client.post(protocol::TRUST, &edit(1, &steps)).await.unwrap();
+        let done: TrustChanged = client.post(protocol::EditTrust::PATH, &edit(1, &steps)).await.unwrap();
         assert_eq!((done.changed.revision, done.changed.status, done.cut.len()), (2, ServerStatus::Run, 0));
         let state = bench.state();
         assert_eq!((state.trusted.len(), state.issuers.len()), (2, 1));
@@ -76,11 +78,12 @@ async fn steps_are_made_in_order_and_all_of_them_or_none() {
             (TrustStep::RemoveCrls { ids: vec!["AB".to_owned()] }, ErrorCode::NotInList),
             (TrustStep::AddCrls { crls: Vec::new() }, ErrorCode::BadCrl),
         ] {
-            let result = client.post::<TrustChanged>(protocol::TRUST, &edit(2, &[good.clone(), bad.clone()])).await;
+            let result =
+                client.post::<TrustChanged>(protocol::EditTrust::PATH, &edit(2, &[good.clone(), bad.clone()])).await;
             assert_eq!(code(result), expected, "{bad:?}");
         }
         let many = vec![good; protocol::MAX_TRUST_STEPS + 1];
-        assert_eq!(code(client.post::<Value>(protocol::TRUST, &edit(2, &many)).await), ErrorCode::Refused);
+        assert_eq!(code(client.post::<Value>(protocol::EditTrust::PATH, &edit(2, &many)).await), ErrorCode::Refused);
         assert_eq!(bench.state(), state);
     })
     .await;
@@ -92,13 +95,13 @@ async fn legacy_firmware_has_no_issuers() {
         let bench = Bench::new(initial(LEGACY)).await;
         let client = bench.client().await;
         let certificates = clients("c", 1);
-        client.post::<Value>(protocol::TRUST, &edit(1, &[add(Trusted, &certificates)])).await.unwrap();
+        client.post::<Value>(protocol::EditTrust::PATH, &edit(1, &[add(Trusted, &certificates)])).await.unwrap();
         for step in [
             add(Issuers, &clients("d", 1)),
             relist(Trusted, Issuers, &certificates),
             TrustStep::Remove { list: Issuers, thumbprints: vec!["AB".to_owned()] },
         ] {
-            let result = client.post::<Value>(protocol::TRUST, &edit(2, &[step])).await;
+            let result = client.post::<Value>(protocol::EditTrust::PATH, &edit(2, &[step])).await;
             assert_eq!(code(result), ErrorCode::FirmwareTooOld);
         }
         assert_eq!(bench.revision(), 2);
@@ -115,23 +118,28 @@ async fn a_crl_replaces_an_older_one_of_its_issuer_and_no_other() {
         let (one, two, three) = (crl("A", &key, 1), crl("A", &key, 2), crl("A", &key, 3));
         let other = crl("B", &other_key, 1);
         let both = edit(1, &[add_crls(&[("a.crl", &two), ("b.crl", &other)])]);
-        client.post::<TrustChanged>(protocol::TRUST, &both).await.unwrap();
+        client.post::<TrustChanged>(protocol::EditTrust::PATH, &both).await.unwrap();
         for (der, expected) in [(&one, ErrorCode::CrlOutdated), (&two, ErrorCode::DuplicateCrl)] {
-            let result = client.post::<Value>(protocol::TRUST, &edit(2, &[add_crls(&[("x.crl", der)])])).await;
+            let result =
+                client.post::<Value>(protocol::EditTrust::PATH, &edit(2, &[add_crls(&[("x.crl", der)])])).await;
             assert_eq!(code(result), expected);
         }
         for junk in [Base64Bytes(vec![0x30, 0]), Base64Bytes(three.0[..three.0.len() - 1].to_vec())] {
-            let result = client.post::<Value>(protocol::TRUST, &edit(2, &[add_crls(&[("junk.crl", &junk)])])).await;
+            let result =
+                client.post::<Value>(protocol::EditTrust::PATH, &edit(2, &[add_crls(&[("junk.crl", &junk)])])).await;
             assert_eq!(code(result), ErrorCode::BadCrl);
         }
-        client.post::<TrustChanged>(protocol::TRUST, &edit(2, &[add_crls(&[("a3.crl", &three)])])).await.unwrap();
-        let listed: Revisioned<Vec<ListedCrl>> = client.get(protocol::CRLS).await.unwrap();
+        client
+            .post::<TrustChanged>(protocol::EditTrust::PATH, &edit(2, &[add_crls(&[("a3.crl", &three)])]))
+            .await
+            .unwrap();
+        let listed: Revisioned<Vec<ListedCrl>> = client.get(protocol::GetCrls::PATH).await.unwrap();
         let names: Vec<&str> = listed.value.iter().map(|crl| crl.file_name.as_str()).collect();
         assert_eq!((listed.revision, names), (3, vec!["b.crl", "a3.crl"]));
         assert_eq!(listed.value[1].crl.as_ref(), Some(&three));
         let id = &listed.value[1].summary.id;
-        assert_eq!(client.get::<Base64Bytes>(&protocol::crl_path(id)).await.unwrap(), three);
-        assert_eq!(code(client.get::<Value>(&protocol::crl_path("AB")).await), ErrorCode::NotInList);
+        assert_eq!(client.get::<Base64Bytes>(&protocol::GetCrl { id: id.clone() }.target()).await.unwrap(), three);
+        assert_eq!(code(client.get::<Value>("/v1/crls/AB").await), ErrorCode::NotInList);
         let again = switch_on(bench.folder.path(), initial(CURRENT)).await.unwrap();
         assert_eq!(again.state(), bench.state());
     })
@@ -150,14 +158,15 @@ async fn a_crl_that_its_authority_did_not_sign_is_refused() {
         params.is_ca = rcgen::IsCa::Ca(rcgen::BasicConstraints::Unconstrained);
         let authority = params.self_signed(&key).unwrap().der().to_vec();
         let issuers = add(Issuers, &[("a.der".to_owned(), Base64Bytes(authority))]);
-        client.post::<Value>(protocol::TRUST, &edit(1, &[issuers])).await.unwrap();
+        client.post::<Value>(protocol::EditTrust::PATH, &edit(1, &[issuers])).await.unwrap();
         let mut forged = crl("A", &key, 9);
         *forged.0.last_mut().unwrap() ^= 1;
-        let refused = client.post::<Value>(protocol::TRUST, &edit(2, &[add_crls(&[("x.crl", &forged)])])).await;
+        let refused =
+            client.post::<Value>(protocol::EditTrust::PATH, &edit(2, &[add_crls(&[("x.crl", &forged)])])).await;
         assert_eq!(code(refused), ErrorCode::BadCrl);
         // One of another key of the same name may belong to an authority that is added later.
         let later = edit(2, &[add_crls(&[("later.crl", &crl("A", &forger, 9)), ("a.crl", &crl("A", &key, 1))])]);
-        client.post::<TrustChanged>(protocol::TRUST, &later).await.unwrap();
+        client.post::<TrustChanged>(protocol::EditTrust::PATH, &later).await.unwrap();
         assert_eq!(bench.state().crls.len(), 2);
     })
     .await;
@@ -169,9 +178,9 @@ async fn a_certificate_is_never_in_no_list_and_never_in_two() {
         let bench = running().await;
         let client = bench.client().await;
         let certificates = clients("c", 2);
-        client.post::<Value>(protocol::TRUST, &edit(1, &[add(Trusted, &certificates)])).await.unwrap();
+        client.post::<Value>(protocol::EditTrust::PATH, &edit(1, &[add(Trusted, &certificates)])).await.unwrap();
         let rejected = async || client.get::<Revisioned<Vec<RejectedClient>>>("/v1/clients/rejected").await.unwrap();
-        let stamp = async || client.get::<TrustStamp>(protocol::TRUST).await.unwrap();
+        let stamp = async || client.get::<TrustStamp>(protocol::EditTrust::PATH).await.unwrap();
         let away = edit(2, &[relist(Trusted, Rejected, &certificates[..1])]);
         let (state, before) = (bench.state(), stamp().await);
 
@@ -181,12 +190,12 @@ async fn a_certificate_is_never_in_no_list_and_never_in_two() {
             |switches: &mut Switches| switches.task_running = true,
         ] {
             bench.controller.faults().update(fault);
-            client.post::<Value>(protocol::TRUST, &away).await.unwrap_err();
+            client.post::<Value>(protocol::EditTrust::PATH, &away).await.unwrap_err();
             bench.controller.faults().update(|switches| *switches = Switches::default());
             assert_eq!((bench.state(), rejected().await.value.len()), (state.clone(), 0));
         }
         bench.controller.faults().update(|switches| switches.drop_next_change = Some(DropPoint::AfterApply));
-        assert!(matches!(client.post::<Value>(protocol::TRUST, &away).await, Err(Refusal::Lost)));
+        assert!(matches!(client.post::<Value>(protocol::EditTrust::PATH, &away).await, Err(Refusal::Lost)));
         assert_eq!((bench.state().trusted.len(), bench.revision()), (1, 3));
         assert_eq!(rejected().await.value[0].count, 0);
         assert!(stamp().await.rejected > before.rejected);
@@ -196,19 +205,25 @@ async fn a_certificate_is_never_in_no_list_and_never_in_two() {
 
         // Whatever way it comes back, it leaves the rejected ones.
         let back = edit(3, &[add(Trusted, &certificates[..1])]);
-        client.post::<Value>(protocol::TRUST, &back).await.unwrap();
+        client.post::<Value>(protocol::EditTrust::PATH, &back).await.unwrap();
         assert_eq!((bench.state().trusted.len(), rejected().await.value.len()), (2, 0));
 
         // Forgetting is no change of the configuration, but as careful.
-        client.post::<Value>(protocol::TRUST, &edit(4, &[relist(Trusted, Rejected, &certificates)])).await.unwrap();
+        client
+            .post::<Value>(protocol::EditTrust::PATH, &edit(4, &[relist(Trusted, Rejected, &certificates)]))
+            .await
+            .unwrap();
         let thumbprints = certificates.iter().map(|(_, der)| thumbprint(der)).collect();
         let forget = [TrustStep::Remove { list: Rejected, thumbprints }];
-        assert_eq!(code(client.post::<Value>(protocol::TRUST, &edit(4, &forget)).await), ErrorCode::ChangedMeanwhile);
+        assert_eq!(
+            code(client.post::<Value>(protocol::EditTrust::PATH, &edit(4, &forget)).await),
+            ErrorCode::ChangedMeanwhile
+        );
         bench.controller.faults().update(|switches| switches.disk_full = true);
-        assert_eq!(code(client.post::<Value>(protocol::TRUST, &edit(5, &forget)).await), ErrorCode::DiskFull);
+        assert_eq!(code(client.post::<Value>(protocol::EditTrust::PATH, &edit(5, &forget)).await), ErrorCode::DiskFull);
         assert_eq!(rejected().await.value.len(), 2);
         bench.controller.faults().update(|switches| switches.disk_full = false);
-        let forgotten: TrustChanged = client.post(protocol::TRUST, &edit(5, &forget)).await.unwrap();
+        let forgotten: TrustChanged = client.post(protocol::EditTrust::PATH, &edit(5, &forget)).await.unwrap();
         assert_eq!((forgotten.changed.revision, rejected().await.value.len()), (5, 0));
         bench.controller.shutdown().await;
     })

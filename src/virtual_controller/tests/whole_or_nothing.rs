@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, Refusal, bounded, clients, code, initial, request, switch_on, with_certificate};
 use crate::model::{ErrorCode, ServerStatus, StartupMode};
-use crate::protocol::{self, Changed};
+use crate::protocol::{self, Changed, Request as _};
 use crate::virtual_controller::{DropPoint, Switches};
 
 type Throw = fn(&mut Switches);
@@ -12,10 +12,10 @@ type Throw = fn(&mut Switches);
 /// Every kind of change that touches a running server.
 fn changes(revision: u64) -> [(&'static str, Value); 3] {
     [
-        (protocol::USERS, json!({ "revision": revision, "name": "operator1", "password": "Passw0rd" })),
-        (protocol::SELF_SIGNED, json!({ "revision": revision, "request": request("another", 2048) })),
+        (protocol::GetUsers::PATH, json!({ "revision": revision, "name": "operator1", "password": "Passw0rd" })),
+        (protocol::MakeSelfSigned::PATH, json!({ "revision": revision, "request": request("another", 2048) })),
         (
-            protocol::TRUST,
+            protocol::EditTrust::PATH,
             json!({ "revision": revision, "steps": [{ "add": { "list": "trusted", "certificates": clients("c", 2) } }] }),
         ),
     ]
@@ -53,7 +53,7 @@ async fn a_change_that_fails_leaves_everything_as_it_was() {
             [(full, Some(ErrorCode::DiskFull)), (lost, None), (broken, Some(ErrorCode::ServerError))];
         for (fault, expected) in faults {
             for (path, body) in changes(1) {
-                if expected == Some(ErrorCode::ServerError) && path == protocol::TRUST {
+                if expected == Some(ErrorCode::ServerError) && path == protocol::EditTrust::PATH {
                     continue; // does not restart the server
                 }
                 bench.controller.faults().update(fault);
@@ -99,7 +99,7 @@ async fn a_client_that_leaves_in_the_middle_does_not_stop_a_change() {
         let asking = client.post::<Value>(path, &body);
         let _ = tokio::time::timeout(std::time::Duration::from_millis(30), asking).await;
         // The next one takes its turn after it, whatever became of it.
-        let _: Changed = client.post(protocol::SERVER_START, &()).await.unwrap();
+        let _: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
         assert_eq!(bench.status(), (ServerStatus::Run, None));
         assert!(bench.answers());
         let on_disk = switch_on(bench.folder.path(), initial(CURRENT)).await.unwrap();

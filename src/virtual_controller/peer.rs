@@ -1,0 +1,43 @@
+use std::net::{IpAddr, SocketAddr};
+
+use tokio_util::sync::CancellationToken;
+
+use super::connection_limits::{Activity, Occupant, Source, Standing};
+
+/// One connection of a peer of the management protocol.
+#[derive(Debug)]
+pub struct Peer {
+    address: IpAddr,
+    pub(super) activity: Activity,
+    pub(super) evicted: CancellationToken,
+}
+
+impl Peer {
+    pub fn new(address: SocketAddr) -> Self {
+        Self { address: address.ip().to_canonical(), activity: Activity::new(), evicted: CancellationToken::new() }
+    }
+
+    pub fn address(&self) -> IpAddr {
+        self.address
+    }
+
+    /// A request with a valid session has come.
+    pub fn has_session(&self) {
+        self.activity.reached(Standing::InSession);
+        self.activity.used();
+    }
+}
+
+impl Occupant for Peer {
+    fn source(&self) -> Source {
+        Source::new(self.address)
+    }
+
+    fn activity(&self) -> &Activity {
+        &self.activity
+    }
+
+    fn evict(&self) {
+        self.evicted.cancel();
+    }
+}
