@@ -2,14 +2,11 @@ use std::collections::BTreeSet;
 use std::io::{self, ErrorKind};
 use std::net::SocketAddr;
 use std::sync::Arc;
-use std::time::Duration;
 
 use opcua::crypto::SecurityPolicy as WirePolicy;
 use opcua::server::ServerHandle;
 use opcua::types::StatusCode;
-use tokio::net::TcpListener;
-use tokio::task::{JoinSet, spawn_blocking};
-use tokio::time::sleep;
+use tokio::task::spawn_blocking;
 
 use super::super::certificate_store::PkiFolder;
 use super::super::endpoints::wire;
@@ -83,27 +80,6 @@ impl Gate {
     pub(in super::super) fn attach(self: &Arc<Self>, server: ServerHandle) -> Attached {
         self.server.attach(Some(server));
         Attached(self.clone())
-    }
-
-    /// Serves clients until it is dropped.
-    pub(in super::super) async fn run(self: Arc<Self>, clients: TcpListener) {
-        let mut connections = JoinSet::new();
-        loop {
-            tokio::select! {
-                accepted = clients.accept() => match accepted {
-                    Ok((client, address)) => {
-                        let gate = self.clone();
-                        connections.spawn(async move { gate.serve(client, address).await });
-                    }
-                    Err(e) => {
-                        // Most likely out of file descriptors, which passes.
-                        tracing::warn!("cannot accept an OPC UA connection: {e}");
-                        sleep(ACCEPT_PAUSE).await;
-                    }
-                },
-                Some(_) = connections.join_next() => {}
-            }
-        }
     }
 
     /// Puts other trust lists in force and ends every open connection that would not be let in now.
@@ -361,9 +337,3 @@ impl Drop for Attached {
 fn unproven(leaf: &Certificate) -> String {
     format!("no proof that the client has the key of its certificate ({})", leaf.subject())
 }
-
-const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
-
-#[cfg(test)]
-#[path = "tests.rs"]
-mod tests;

@@ -6,8 +6,8 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `gate` | who is let in |
-//! | `service` | one connection from its first byte to its last |
+//! | `gate` | [`Gate`]: which clients are accepted |
+//! | `service` | accepts connections, and serves each from its first byte to its last |
 //! | `judge` | the trust lists in force, and what a peer is told of its rejection |
 //! | `inner_server` | how the gate, and nothing else, reaches the crate's server |
 //! | `client_to_server` | whole chunks only, and requests for sessions and logins looked at |
@@ -24,6 +24,10 @@
 //! | `limits` | how many, how long, how large |
 //! | `report` | who is told of a refusal |
 //! | `fault` | why a peer is turned away, in the words it is told |
+//!
+//! # Layers
+//! `service` uses `client_to_server` and `server_to_client`; these, `guard` and `logins` use `gate`; `gate` uses `judge`,
+//! `connections`, `sessions`, `report` and `inner_server`; these use what is left. Nothing uses a layer above its own.
 //!
 //! # The walk of a connection
 //! Hello; then OpenSecureChannel, whose policy and certificates travel in clear: they are judged, and the request passes
@@ -63,6 +67,8 @@ mod rewrap;
 mod server_to_client;
 mod service;
 mod sessions;
+#[cfg(test)]
+mod tests;
 
 pub use gate::CutConnection;
 pub(super) use gate::{Attached, Gate, Settings};

@@ -4,9 +4,10 @@ use std::time::Duration;
 
 use opcua::types::StatusCode;
 use tokio::io::AsyncReadExt as _;
-use tokio::net::TcpStream;
 use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
+use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::watch;
+use tokio::task::JoinSet;
 use tokio::time::{Instant, sleep, sleep_until, timeout};
 
 use super::client_to_server::{ClientToServer, read_hello};
@@ -16,8 +17,29 @@ use super::gate::Gate;
 use super::server_to_client::{ServerToClient, say};
 
 impl Gate {
+    /// Accepts and serves clients until the future is dropped.
+    pub(in super::super) async fn run(self: Arc<Self>, clients: TcpListener) {
+        let mut connections = JoinSet::new();
+        loop {
+            tokio::select! {
+                accepted = clients.accept() => match accepted {
+                    Ok((client, address)) => {
+                        let gate = self.clone();
+                        connections.spawn(async move { gate.serve(client, address).await });
+                    }
+                    Err(e) => {
+                        // Most likely out of file descriptors, which passes.
+                        tracing::warn!("cannot accept an OPC UA connection: {e}");
+                        sleep(ACCEPT_PAUSE).await;
+                    }
+                },
+                Some(_) = connections.join_next() => {}
+            }
+        }
+    }
+
     /// Serves one connection from its first byte to its last.
-    pub(super) async fn serve(self: Arc<Self>, client: TcpStream, address: SocketAddr) {
+    async fn serve(self: Arc<Self>, client: TcpStream, address: SocketAddr) {
         let (stop, stopped) = watch::channel(None);
         let Some(place) = self.connections.enter(address, stop) else {
             self.reporter.too_many(address);
@@ -31,7 +53,7 @@ impl Gate {
         let (mut from, mut to) = client.into_split();
         if self.talk(place.connection(), &mut from, &mut to, stopped).await {
             // Closing while there is something unread could keep the last words from arriving.
-            let _ = timeout(self.limits().linger, unheard(&mut from)).await;
+            let _ = timeout(self.limits().linger, read_to_end(&mut from)).await;
         }
         self.reporter.disconnected(address);
     }
@@ -97,7 +119,7 @@ impl Gate {
             // The client says no more; what the server still has to say gets some time.
             sleep(limits.stall).await;
         };
-        let in_vain = async {
+        let without_session = async {
             sleep_until(start + limits.open + limits.session).await;
             if !connection.activity.has_session() {
                 connection.stop(Stop::Told(Fault::new(StatusCode::BadTimeout, "no session in time")));
@@ -107,7 +129,7 @@ impl Gate {
         tokio::select! {
             told = down.run(from_server, to, stopped) => told,
             () = up => false,
-            () = in_vain => false,
+            () = without_session => false,
         }
     }
 
@@ -120,11 +142,13 @@ impl Gate {
     }
 }
 
-/// Reads on until the client has hung up.
-async fn unheard(from: &mut OwnedReadHalf) {
+/// Reads and discards until the client closes its side of the connection.
+async fn read_to_end(from: &mut OwnedReadHalf) {
     let mut bytes = [0; 4096];
     while matches!(from.read(&mut bytes).await, Ok(1..)) {}
 }
 
-/// What the server gets for the sessions of a client that has left.
+/// How long the server may take to close the sessions of a client that has left.
 const LEAVE: Duration = Duration::from_secs(2);
+/// After an error of `accept`, which is most likely that the process is out of file descriptors.
+const ACCEPT_PAUSE: Duration = Duration::from_millis(100);

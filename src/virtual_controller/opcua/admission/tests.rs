@@ -1,20 +1,29 @@
 //! The gate in front of a server that is not one, with little patience.
 
-use std::net::Ipv4Addr;
-use std::sync::LazyLock;
+use std::net::{Ipv4Addr, SocketAddr};
+use std::sync::{Arc, LazyLock};
+use std::time::Duration;
 
 use opcua::core::comms::tcp_types::ErrorMessage;
-use opcua::types::{DecodingOptions, SimpleBinaryDecodable as _};
+use opcua::types::{DecodingOptions, SimpleBinaryDecodable as _, StatusCode};
 use tempfile::TempDir;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
-use tokio::net::TcpStream;
+use tokio::net::{TcpListener, TcpStream};
 use tokio::task::JoinHandle;
-use tokio::time::{Instant, timeout};
+use tokio::time::{Instant, sleep, timeout};
 
-use super::super::super::Events;
-use super::super::super::tests::identity::Identity;
-use super::super::{frame, judge};
-use super::*;
+use super::super::Events;
+use super::super::certificate_store::PkiFolder;
+use super::super::tests::identity::Identity;
+use super::fault::Fault;
+use super::gate::{Gate, Settings};
+use super::inner_server::InnerServer;
+use super::judge::Judge;
+use super::limits::Limits;
+use super::report::Reporter;
+use super::rewrap::Own;
+use super::{frame, judge};
+use crate::model::SecurityPolicy;
 use crate::pki::{TrustLists, TrustPolicy};
 
 static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("server"));
