@@ -2,20 +2,22 @@
 
 #[path = "../common/samples.rs"]
 mod samples;
-#[path = "../common/trust_samples.rs"]
+#[allow(dead_code, reason = "the pictures need more of it")]
+#[path = "../pictures/trust_samples.rs"]
 mod trust_samples;
 
 use std::time::{Duration, Instant};
 
 use chrono::{DateTime, Utc};
 use egui::{Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
-use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
-use opcua_configurator::model::Language;
+use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary, TrustSnapshot};
+use opcua_configurator::model::{CertificateStatus, FirmwareGeneration, Language};
 use opcua_configurator::ui::App;
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
 use opcua_configurator::ui::command::UiCommand;
 use opcua_configurator::ui::model::{Column, Message, Model, reduce};
 use opcua_configurator::workspace::Workspace;
+use trust_samples::{listed, refused};
 
 const ROWS: usize = 10_000;
 const CERTIFICATES: usize = 1_000;
@@ -55,7 +57,7 @@ fn trust(mut model: Model, now: DateTime<Utc>) -> Model {
     });
     let job = job.expect("the lists are read");
     let start = Instant::now();
-    let result = Ok(Outcome::TrustLists(Box::new(trust_samples::many(CERTIFICATES, now))));
+    let result = Ok(Outcome::TrustLists(Box::new(many_certificates(CERTIFICATES, now))));
     let event = JobEvent::Finished { index: 0, report: Box::new(Report { result, info: None }) };
     reduce(&mut model, Message::Event(Event::Job { job, event }));
     report("trust, lists arrive", start.elapsed());
@@ -103,4 +105,18 @@ fn frames(model: Model, scrolling: bool) -> Vec<Duration> {
         output.drop_without_applying_deltas();
     }
     times
+}
+
+/// As many certificates as that, evenly over the three lists.
+fn many_certificates(count: usize, clock: DateTime<Utc>) -> TrustSnapshot {
+    let mut held = trust_samples::nothing(FirmwareGeneration::Current, clock);
+    for n in 0..count {
+        let name = format!("Station {n}");
+        match n % 3 {
+            0 => held.trusted.push(listed(n, &name, "Plant CA", "station.der", n as i64 % 500, clock)),
+            1 => held.issuers.push(listed(n, &name, "Plant root CA", "authority.der", 1000, clock)),
+            _ => held.rejected.push(refused(n, &name, &name, CertificateStatus::Untrusted, 3, n as i64, clock)),
+        }
+    }
+    held
 }

@@ -1,5 +1,4 @@
 //! A certification authority, and OPC UA applications with certificates from it or from themselves.
-#![allow(dead_code, reason = "a test uses a part of it")]
 
 use std::net::{IpAddr, Ipv4Addr};
 
@@ -51,10 +50,6 @@ impl Application {
 
     pub fn application_uri(&self) -> String {
         uri(&self.name)
-    }
-
-    pub fn thumbprint(&self) -> String {
-        Certificate::from_der(&self.der).unwrap().thumbprint_sha1()
     }
 }
 

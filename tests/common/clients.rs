@@ -1,7 +1,5 @@
 //! Real OPC UA clients, and an authority that makes certificates and CRLs for them.
 
-#![allow(dead_code, reason = "not every story needs everything")]
-
 use std::fs;
 use std::net::{IpAddr, Ipv4Addr};
 use std::sync::Arc;

@@ -1,7 +1,5 @@
 //! A desk at the command line: a workspace folder, and virtual controllers in a process of their own.
 
-#![allow(dead_code, reason = "not every story needs everything")]
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -9,7 +7,7 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::process::{Finished, Running};
+use super::process::{Finished, Running};
 
 pub const DONE: Duration = Duration::from_secs(120);
 

@@ -28,7 +28,6 @@ pub async fn listener() -> (TcpListener, Address) {
 }
 
 /// A server that answers each request by its first line, such as `GET /v1/info HTTP/1.1`: status line and body.
-#[allow(dead_code, reason = "not every story needs one")]
 pub async fn serve(answer: impl Fn(&str) -> (String, String) + Send + Sync + 'static) -> (Address, TlsIdentity) {
     let (acceptor, identity) = tls("a liar");
     let (listener, address) = listener().await;

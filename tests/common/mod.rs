@@ -1,7 +1,15 @@
-//! Shared by the stories. Each story uses a part of it.
-#![allow(dead_code)]
+//! What the tests share: virtual controllers, processes, the window, certificates of test authorities.
 
-pub mod pictures;
+pub mod authority;
+pub mod ca;
+pub mod clients;
+pub mod desk;
+pub mod harness;
+pub mod https;
+pub mod opcua_client;
+pub mod plant;
+pub mod process;
 pub mod samples;
 pub mod soft_renderer;
 pub mod window;
+pub mod window_desk;

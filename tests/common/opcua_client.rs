@@ -1,5 +1,4 @@
 //! An OPC UA client, from the OPC UA crate, with a certificate of one's choice.
-#![allow(dead_code, reason = "a story uses a part of it")]
 
 use std::fs;
 use std::sync::Arc;
@@ -11,7 +10,7 @@ use tempfile::TempDir;
 use tokio::task::JoinHandle;
 use tokio::time::timeout;
 
-use crate::authority::Application;
+use super::authority::Application;
 
 const PATIENCE: Duration = Duration::from_secs(60);
 

@@ -29,13 +29,11 @@ impl Plant {
     }
 
     /// Controllers whose connection password is empty.
-    #[allow(dead_code, reason = "not every story needs them")]
     pub async fn without_password(count: usize, firmware: FleetFirmware) -> Self {
         Self::made(count, firmware, true, "").await
     }
 
     /// Legacy controllers whose OPC UA function nobody has paid for yet.
-    #[allow(dead_code, reason = "not every story needs them")]
     pub async fn not_activated(count: usize) -> Self {
         Self::made(count, FleetFirmware::Legacy, false, PASSWORD).await
     }
@@ -114,7 +112,6 @@ pub async fn run(
     (reports, summary)
 }
 
-#[allow(dead_code, reason = "not every story needs a stranger")]
 /// Somebody who is not a controller of this plant.
 pub fn nobody() -> Fingerprint {
     Fingerprint::of(b"nobody")

@@ -19,7 +19,6 @@ pub struct Finished {
     /// `None` if a signal ended it.
     pub code: Option<i32>,
     pub stdout: String,
-    #[allow(dead_code, reason = "not every story reads it")]
     pub stderr: String,
 }
 
@@ -51,7 +50,6 @@ impl Running {
     }
 
     /// The next line on standard output. Panics, with what the program wrote to standard error, if none comes.
-    #[allow(dead_code, reason = "not every story waits for a line")]
     pub fn next_line(&mut self, deadline: Duration) -> String {
         match self.lines.recv_timeout(deadline) {
             Ok(line) => line,
@@ -63,7 +61,6 @@ impl Running {
     }
 
     /// Writes a line to standard input, which must be a pipe.
-    #[allow(dead_code, reason = "not every story talks to a program")]
     pub fn write_line(&mut self, line: &str) {
         let stdin = self.child.stdin.as_mut().expect("stdin is piped");
         writeln!(stdin, "{line}").unwrap_or_else(|why| panic!("{} does not listen: {why}", self.program));
@@ -71,7 +68,6 @@ impl Running {
 
     /// Sends a signal to the program.
     #[cfg(unix)]
-    #[allow(dead_code, reason = "not every story sends signals")]
     pub fn signal(&self, signal: libc::c_int) {
         // SAFETY: the process was not waited for yet, so the number is still its own.
         assert_eq!(unsafe { libc::kill(self.child.id().cast_signed(), signal) }, 0);

@@ -1,19 +1,19 @@
 //! An engineer's desk: a plant of virtual controllers, and the real window over it. Each story adds what it needs.
-#![allow(dead_code, reason = "a story uses a part of it")]
 
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
+use egui_kittest::kittest::Queryable as _;
 use opcua_configurator::jobs::Operation;
-use opcua_configurator::model::Problem;
+use opcua_configurator::model::{CertificateType, Problem, SerialNumber};
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
 use opcua_configurator::ui::picker::{FileKind, FilePicker, FixedPicker, Picked};
-use opcua_configurator::virtual_controller::FleetFirmware;
+use opcua_configurator::virtual_controller::{FleetFirmware, demo_keys};
 use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved, Workspace};
 
-use crate::common::window::{self, SIZE, agree, click, shows, wait_until, window_in};
-use crate::plant::Plant;
+use super::plant::Plant;
+use super::window::{self, SIZE, agree, click, settle, shows, wait_until, window_in};
 
 /// Long enough for a busy machine to make keys.
 pub const PATIENCE: Duration = Duration::from_secs(60);
@@ -39,6 +39,20 @@ impl FilePicker for FileManager {
     fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
         self.0.lock().unwrap().push(folder.to_owned());
         Ok(())
+    }
+}
+
+/// A file as the desktop hands it over: its path.
+#[derive(Debug)]
+struct DroppedFile(PathBuf);
+
+impl egui::DroppedFile for DroppedFile {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("the window must not read files itself".into())
     }
 }
 
@@ -108,6 +122,36 @@ impl Desk {
         for name in names {
             self.click(&format!("Tick {name}"));
         }
+    }
+
+    /// Waits until a field holds this.
+    pub fn wait_for_value(&mut self, text: &str) {
+        wait_until(&mut self.window, PATIENCE, |window| window.query_all_by_value(text).next().is_some());
+    }
+
+    /// Drops files of the desktop onto the window.
+    pub fn drop_files(&mut self, paths: &[PathBuf]) {
+        self.window.input_mut().hovered_files.clear();
+        for path in paths {
+            self.window.input_mut().dropped_files.push(Arc::new(DroppedFile(path.clone())));
+        }
+        settle(&mut self.window);
+    }
+
+    pub fn serial(&self, index: usize) -> SerialNumber {
+        self.plant.controller(index).serial()
+    }
+
+    /// The line of a controller in an activation file.
+    pub fn activation_line(&self, index: usize) -> String {
+        let serial = self.serial(index);
+        let keys = demo_keys(&serial);
+        format!("{serial},{},{}\n", keys.licence, keys.activation)
+    }
+
+    /// The type of the certificate that a controller uses.
+    pub fn in_use(&self, index: usize) -> Option<CertificateType> {
+        self.plant.controller(index).info().certificate.map(|certificate| certificate.kind)
     }
 
     /// Waits for the summary, checks it and closes it.

@@ -23,8 +23,8 @@ use opcua_configurator::virtual_controller::{
 use opcua_configurator::workspace::Workspace;
 use serde::Serialize;
 
+use crate::common::samples;
 use crate::readers::PASSWORD;
-use crate::samples;
 
 /// Replaces every seed below the folder.
 pub fn write(corpus: &Path) {

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::peers::{ClientCertificate, OpenSsl};
+use super::peers::{ClientCertificate, OpenSsl};
 
 /// Who a certificate is for. The application URI is `urn:interop:<name>`.
 pub struct Application {

@@ -10,8 +10,8 @@ use serde::Deserialize;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::peers::ClientCertificate;
-use crate::process::Running;
+use super::peers::ClientCertificate;
+use crate::common::process::Running;
 
 const NAME: &str = "cell-1";
 const CONNECTION_PASSWORD: &str = "interop";

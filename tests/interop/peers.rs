@@ -11,7 +11,7 @@ use std::time::Duration;
 use chrono::NaiveDateTime;
 use serde_json::Value;
 
-use crate::process::{Finished, Running};
+use crate::common::process::{Finished, Running};
 
 const ANSWER: Duration = Duration::from_secs(90);
 

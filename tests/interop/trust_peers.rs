@@ -7,9 +7,9 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 use serde_json::Value;
 
-use crate::authority::Application;
-use crate::peers::{Node, Python};
-use crate::process::Running;
+use super::authority::Application;
+use super::peers::{Node, Python};
+use crate::common::process::Running;
 
 /// Security policies and message modes, as the peers name them.
 pub const NONE: [&str; 2] = ["None", "None"];

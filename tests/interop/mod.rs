@@ -1,0 +1,12 @@
+//! The real program against peers of other projects: asyncua, node-opcua and OpenSSL.
+//!
+//! A peer that is not installed skips its story and says so. With `OPCUA_INTEROP_REQUIRED=1` a missing peer is a
+//! failure. `OPCUA_INTEROP_PYTHON` names a Python with asyncua (default `python3`), `OPCUA_INTEROP_NODE_MODULES` the
+//! `node_modules` folder with node-opcua-client.
+
+mod authority;
+mod cell;
+mod connections;
+pub mod peers;
+mod trust;
+mod trust_peers;

@@ -1,0 +1,217 @@
+//! The window as it looks, pixel by pixel.
+
+use opcua_configurator::jobs::{JobEvent, Outcome, Report, Step, Summary};
+use opcua_configurator::model::{ControllerSeries, ErrorCode, Language, Problem, ServerSettings};
+use opcua_configurator::pki::Fingerprint;
+use opcua_configurator::protocol::Revisioned;
+use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::model::Message;
+use opcua_configurator::workspace::{Configuration, ThemeChoice};
+
+use crate::harness::{SIZE, choose, click, now, settle, type_into, window};
+use crate::pictures::{W, job, picture, say, tell, tick};
+use crate::samples::{configuration, info};
+
+fn open(count: usize) -> W {
+    window(RecordingBackend::default(), configuration(count, now()), SIZE)
+}
+
+fn finished(index: usize, result: Result<Outcome, Problem>) -> JobEvent {
+    let info = result.is_ok().then(|| info(index, now(), ControllerSeries::Rc800));
+    JobEvent::Finished { index, report: Box::new(Report { result, info }) }
+}
+
+fn load(window: &mut W, outcome: Outcome) {
+    let job = job(window);
+    tell(window, Event::Job { job, event: finished(0, Ok(outcome)) });
+    tell(window, Event::JobEnded { job, summary: Summary { done: 1, ..Summary::default() } });
+}
+
+fn settings() -> Outcome {
+    Outcome::Settings(Revisioned { revision: 4, value: ServerSettings::default() })
+}
+
+#[test]
+fn main_window() {
+    let mut window = open(24);
+    tick(&mut window, &["Weld 2", "Paint booth"]);
+    picture(&mut window, "main_light");
+    say(&mut window, Message::SetTheme(ThemeChoice::Dark));
+    picture(&mut window, "main_dark");
+    say(&mut window, Message::SetTheme(ThemeChoice::Light));
+    say(&mut window, Message::SetLanguage(Language::Zh));
+    picture(&mut window, "main_chinese");
+}
+
+#[test]
+fn small_window_and_search() {
+    let mut window = window(RecordingBackend::default(), configuration(24, now()), [900.0, 500.0]);
+    tick(&mut window, &["Weld 2", "Paint booth"]);
+    type_into(&mut window, "Search", "weld");
+    picture(&mut window, "main_small");
+}
+
+#[test]
+fn welcome() {
+    let mut window = window(RecordingBackend::default(), Configuration::default(), SIZE);
+    window.state_mut().model.virtual_available = true;
+    settle(&mut window);
+    window.step();
+    picture(&mut window, "welcome");
+}
+
+#[test]
+fn menu() {
+    let mut window = open(24);
+    choose(&mut window, &["Certificate", "Create and save"]);
+    picture(&mut window, "menu");
+}
+
+#[test]
+fn add_controller() {
+    let mut window = window(RecordingBackend::default(), Configuration::default(), SIZE);
+    click(&mut window, "Add a controller");
+    type_into(&mut window, "Name", "Weld 1");
+    type_into(&mut window, "IP address", "10.0.0.999");
+    picture(&mut window, "add_controller");
+    type_into(&mut window, "IP address", "10.0.0.9");
+    click(&mut window, "Apply");
+    let probe = job(&window);
+    tell(&mut window, Event::Probed { job: probe, result: Ok(Fingerprint::of(b"weld 1")) });
+    picture(&mut window, "add_controller_fingerprint");
+    click(&mut window, "It matches, add");
+    let enroll = job(&window);
+    tell(&mut window, Event::Enrolled { job: enroll, result: Err(ErrorCode::WrongPassword.into()) });
+    picture(&mut window, "add_controller_wrong_password");
+}
+
+#[test]
+fn confirm_and_delete() {
+    let mut window = open(24);
+    tick(&mut window, &["Weld 1", "Weld 2", "Paint booth"]);
+    click(&mut window, "Stop");
+    picture(&mut window, "confirm_stop");
+    click(&mut window, "Cancel");
+    choose(&mut window, &["Controller", "Delete…"]);
+    picture(&mut window, "delete");
+}
+
+#[test]
+fn processing() {
+    let mut window = open(24);
+    tick(&mut window, &["Weld 1", "Weld 2", "Weld 10", "Paint booth", "Press feeder"]);
+    click(&mut window, "Get new information");
+    let job = job(&window);
+    tell(&mut window, Event::Job { job, event: finished(0, Ok(Outcome::Done)) });
+    let unreachable = Problem::with_detail(ErrorCode::Unreachable, "connection refused (os error 111)");
+    tell(&mut window, Event::Job { job, event: finished(1, Err(unreachable)) });
+    tell(&mut window, Event::Job { job, event: JobEvent::Step { index: 2, step: Step::Connect } });
+    tell(&mut window, Event::Job { job, event: JobEvent::Step { index: 3, step: Step::Read } });
+    click(&mut window, "Cancel");
+    picture(&mut window, "processing");
+    click(&mut window, "Go on");
+    for index in [2, 3] {
+        tell(&mut window, Event::Job { job, event: finished(index, Ok(Outcome::Done)) });
+    }
+    tell(&mut window, Event::Job { job, event: finished(4, Err(ErrorCode::Cancelled.into())) });
+    tell(&mut window, Event::JobEnded { job, summary: Summary { done: 3, failed: 1, not_started: 1 } });
+    picture(&mut window, "processing_summary");
+    say(&mut window, Message::SetLanguage(Language::Zh));
+    picture(&mut window, "processing_summary_chinese");
+}
+
+#[test]
+fn password() {
+    let mut window = open(24);
+    tick(&mut window, &["Weld 1", "Weld 2"]);
+    click(&mut window, "Get new information");
+    let job = job(&window);
+    for index in [0, 1] {
+        tell(&mut window, Event::Job { job, event: finished(index, Err(ErrorCode::PasswordMissing.into())) });
+    }
+    tell(&mut window, Event::JobEnded { job, summary: Summary { failed: 2, ..Summary::default() } });
+    picture(&mut window, "password");
+}
+
+#[test]
+fn basic_settings() {
+    let mut window = open(24);
+    tick(&mut window, &["Weld 1"]);
+    choose(&mut window, &["Server settings", "Basic settings…"]);
+    load(&mut window, settings());
+    load(&mut window, Outcome::Users(Revisioned { revision: 4, value: vec![] }));
+    picture(&mut window, "settings");
+    click(&mut window, "On");
+    type_into(&mut window, "Port", "80");
+    say(&mut window, Message::SetTheme(ThemeChoice::Dark));
+    picture(&mut window, "settings_dark");
+}
+
+#[test]
+fn settings_for_many_in_chinese() {
+    let mut window = open(24);
+    tick(&mut window, &["Weld 1", "Weld 2"]);
+    choose(&mut window, &["Server settings", "Basic settings…"]);
+    say(&mut window, Message::SetLanguage(Language::Zh));
+    picture(&mut window, "settings_many_chinese");
+}
+
+#[test]
+fn users() {
+    let mut window = open(24);
+    tick(&mut window, &["Weld 1"]);
+    choose(&mut window, &["Server settings", "Users…"]);
+    let users = ["operator1", "Maintenance7", "scada2026"].map(|name| name.parse().unwrap()).to_vec();
+    load(&mut window, Outcome::Users(Revisioned { revision: 4, value: users }));
+    click(&mut window, "scada2026");
+    picture(&mut window, "users");
+    click(&mut window, "Add user…");
+    type_into(&mut window, "User name", "operator1");
+    type_into(&mut window, "Password", "short");
+    picture(&mut window, "add_user");
+}
+
+#[test]
+fn self_signed() {
+    let mut window = open(24);
+    tick(&mut window, &["Weld 1"]);
+    choose(&mut window, &["Certificate", "Create and save", "Self-signed…"]);
+    load(&mut window, settings());
+    type_into(&mut window, "Organisation", "Example");
+    picture(&mut window, "self_signed");
+    click(&mut window, "Create and save");
+    picture(&mut window, "confirm_self_signed");
+    click(&mut window, "Cancel");
+    click(&mut window, "Cancel");
+    tick(&mut window, &["Weld 2"]);
+    choose(&mut window, &["Certificate", "Create and save", "Self-signed…"]);
+    say(&mut window, Message::SetLanguage(Language::Zh));
+    picture(&mut window, "self_signed_many_chinese");
+}
+
+#[test]
+fn options_and_help() {
+    let mut window = open(5);
+    choose(&mut window, &["Options", "Options…"]);
+    picture(&mut window, "options");
+    click(&mut window, "Close");
+    choose(&mut window, &["Options", "Backup…"]);
+    picture(&mut window, "backup");
+    click(&mut window, "Cancel");
+    choose(&mut window, &["Help", "Keyboard shortcuts"]);
+    picture(&mut window, "shortcuts");
+    click(&mut window, "Close");
+    choose(&mut window, &["Help", "About"]);
+    picture(&mut window, "about");
+}
+
+#[test]
+fn error() {
+    let mut window = open(5);
+    window.state_mut().model.show_problem(Problem::with_detail(
+        ErrorCode::ConfigurationDamaged,
+        "expected value at line 3 column 7; kept as epson_opcua_config.damaged-20260601T083000Z.json",
+    ));
+    window.step();
+    picture(&mut window, "error");
+}

@@ -1,0 +1,227 @@
+//! The certificate dialogs as they look.
+
+use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
+use opcua_configurator::model::{
+    CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Problem, SelfSignedRequest,
+    ServerSettings, Subject, Validity,
+};
+use opcua_configurator::pki::{
+    Certificate, CertificateFlaw, Finding, Issuers, KeyUsage, PrivateKey, ServerNames, Severity, self_signed,
+};
+use opcua_configurator::protocol::{Base64Bytes, HeldCertificate, HeldCertificates, Revisioned};
+use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::workspace::SavedFile;
+
+use crate::harness::{SIZE, choose, click, now, type_into, window};
+use crate::pictures::{W, chinese, job, picture, tell, tick};
+use crate::samples::{configuration, info};
+
+/// Of current firmware, and of legacy firmware.
+const CURRENT: &str = "Weld 1";
+const LEGACY: &str = "Weld 2";
+
+fn open(ticked: &[&str]) -> W {
+    let mut window = window(RecordingBackend::default(), configuration(24, now()), SIZE);
+    tick(&mut window, ticked);
+    window
+}
+
+/// The last job that was started ends like this, one result a controller.
+fn end(window: &mut W, results: Vec<Result<Outcome, Problem>>) {
+    let job = job(window);
+    let failed = results.iter().filter(|result| result.is_err()).count();
+    let summary = Summary { done: results.len() - failed, failed, not_started: 0 };
+    for (index, result) in results.into_iter().enumerate() {
+        // What a row shows is not what these pictures are about.
+        let event = JobEvent::Finished { index, report: Box::new(Report { result, info: None }) };
+        tell(window, Event::Job { job, event });
+    }
+    tell(window, Event::JobEnded { job, summary });
+}
+
+/// A certificate whose visible parts are the same in every picture.
+fn certificate() -> Base64Bytes {
+    let subject = Subject {
+        common_name: "EpsonRC.SN0000123.192.168.010.001".into(),
+        country: String::new(),
+        state: String::new(),
+        locality: String::new(),
+        organisation: "Example".into(),
+    };
+    let key = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
+    let validity = Validity::try_from(5).unwrap();
+    let request = SelfSignedRequest { subject, key_length: KeyLength::Rsa2048, validity };
+    let names = ServerNames { application_uri: "urn:EpsonRC.SN0000123".into(), ips: vec![], dns: vec!["weld".into()] };
+    Base64Bytes(self_signed(&request, &names, &key, now()).unwrap().der().to_vec())
+}
+
+fn held(kinds: &[CertificateType], selected: CertificateType) -> Outcome {
+    let certificate = certificate();
+    let held = kinds.iter().map(|kind| HeldCertificate { kind: *kind, certificate: certificate.clone() }).collect();
+    Outcome::Certificates(Revisioned { revision: 4, value: HeldCertificates { selected, held, csr: None } })
+}
+
+#[test]
+fn type_select() {
+    use CertificateType::{CaSigned, SelfSigned};
+    let mut window = open(&[CURRENT]);
+    choose(&mut window, &["Certificate", "Type select…"]);
+    end(&mut window, vec![Ok(held(&[SelfSigned], SelfSigned))]);
+    click(&mut window, "CA signed");
+    picture(&mut window, "type_select");
+    click(&mut window, "Cancel");
+    click(&mut window, &format!("Tick {CURRENT}"));
+    for name in [LEGACY, "Weld 10"] {
+        click(&mut window, &format!("Tick {name}"));
+    }
+    choose(&mut window, &["Certificate", "Type select…"]);
+    end(&mut window, vec![Ok(held(&[SelfSigned, CaSigned], CaSigned)), Ok(held(&[SelfSigned], SelfSigned))]);
+    click(&mut window, "CA signed");
+    picture(&mut window, "type_select_many");
+    chinese(&mut window);
+    picture(&mut window, "type_select_many_chinese");
+}
+
+#[test]
+fn export_self_signed() {
+    let mut window = open(&[CURRENT]);
+    choose(&mut window, &["Certificate", "Export self-signed…"]);
+    picture(&mut window, "export_self_signed");
+    click(&mut window, "Cancel");
+    click(&mut window, &format!("Tick {LEGACY}"));
+    choose(&mut window, &["Certificate", "Export self-signed…"]);
+    click(&mut window, "pem");
+    click(&mut window, "Export");
+    picture(&mut window, "confirm_export_self_signed");
+    click(&mut window, "Export");
+    let file = window.state().model.workspace.root().join("SN0000123/Cert/SelfSigned/1_cert.pem");
+    let moved_aside = vec![file.with_file_name("20260301_120000").join("1_cert.pem")];
+    let exported = Outcome::Exported { summary: summary(), saved: SavedFile { file, moved_aside } };
+    end(&mut window, vec![Ok(exported), Err(ErrorCode::CertificateNotStored.into())]);
+    picture(&mut window, "export_self_signed_completed");
+}
+
+#[test]
+fn ca_signed() {
+    let mut window = open(&[CURRENT]);
+    choose(&mut window, &["Certificate", "Create and save", "CA signed…"]);
+    picture(&mut window, "ca_signed");
+    click(&mut window, "Create CSR…");
+    let settings = Revisioned { revision: 4, value: ServerSettings::default() };
+    end(&mut window, vec![Ok(Outcome::Settings(settings))]);
+    picture(&mut window, "csr");
+    click(&mut window, "Create and save");
+    picture(&mut window, "confirm_csr");
+    for button in ["Cancel", "Cancel"] {
+        click(&mut window, button);
+    }
+    click(&mut window, "Import…");
+    let hosts = CertificateFlaw::HostName { hosts: vec!["192.168.10.1".into()], names: vec!["192.168.0.1".into()] };
+    let hosts = Finding { flaw: hosts, severity: Severity::Warning };
+    end(&mut window, vec![checked(vec![hosts])]);
+    picture(&mut window, "import_warning");
+}
+
+#[test]
+fn ca_signed_for_many() {
+    let mut window = open(&[CURRENT, LEGACY, "Weld 10", "Paint booth"]);
+    choose(&mut window, &["Certificate", "Create and save", "CA signed…"]);
+    chinese(&mut window);
+    picture(&mut window, "ca_signed_many_chinese");
+    click(&mut window, "导入…");
+    let not_after = now() - chrono::Duration::days(3);
+    end(
+        &mut window,
+        vec![
+            checked(vec![]),
+            checked(vec![
+                Finding { flaw: CertificateFlaw::Expired { until: not_after, now: now() }, severity: Severity::Error },
+                Finding {
+                    flaw: CertificateFlaw::KeyUsageLacks { missing: vec![KeyUsage::NonRepudiation] },
+                    severity: Severity::Warning,
+                },
+            ]),
+            Err(Problem::with_detail(ErrorCode::FileNotFound, "Cert/CASigned: no .der")),
+            Err(ErrorCode::CsrMismatch.into()),
+        ],
+    );
+    picture(&mut window, "import_many_chinese");
+}
+
+#[test]
+fn user_specified() {
+    let mut window = open(&[LEGACY]);
+    choose(&mut window, &["Certificate", "Create and save", "User specified…"]);
+    picture(&mut window, "user_specified");
+    click(&mut window, "Certificate and key (.der, .key)");
+    type_into(&mut window, "Certificate file", "/media/usb/robot.der");
+    picture(&mut window, "user_specified_pair");
+    type_into(&mut window, "Key file", "/media/usb/robot.key");
+    click(&mut window, "Import…");
+    end(&mut window, vec![Err(ErrorCode::KeyMismatch.into())]);
+    picture(&mut window, "user_specified_not_a_pair");
+}
+
+#[test]
+fn the_chain_before_an_import() {
+    let mut window = open(&[CURRENT]);
+    choose(&mut window, &["Certificate", "Create and save", "CA signed…"]);
+    click(&mut window, "Import…");
+    let issuers =
+        Issuers { chain: vec![ca("Plant CA", Some("Works root"), 2024), ca("Works root", None, 2020)], complete: true };
+    end(&mut window, vec![checked_with(vec![], Some(issuers.clone()))]);
+    picture(&mut window, "import_chain");
+    click(&mut window, "Cancel");
+    chinese(&mut window);
+    click(&mut window, "导入…");
+    let issuers = Issuers { chain: issuers.chain[..1].to_vec(), complete: false };
+    end(&mut window, vec![checked_with(vec![], Some(issuers))]);
+    picture(&mut window, "import_chain_incomplete_chinese");
+}
+
+/// A certificate of an authority, valid for five years, whose visible parts are the same in every picture.
+#[test]
+fn restore() {
+    let mut window = open(&[LEGACY]);
+    choose(&mut window, &["Certificate", "Restore backup…"]);
+    picture(&mut window, "restore");
+    click(&mut window, "CSR, its key and the certificate from the CA (3_key.pfx)");
+    click(&mut window, "Restore…");
+    end(&mut window, vec![Ok(Outcome::Checked { summary: None, findings: vec![], issuers: None })]);
+    picture(&mut window, "restore_request");
+    click(&mut window, "Cancel");
+    click(&mut window, "Cancel");
+    click(&mut window, "Tick Palletiser south");
+    choose(&mut window, &["Certificate", "Restore backup…"]);
+    chinese(&mut window);
+    picture(&mut window, "restore_many_chinese");
+}
+
+fn ca(name: &str, by: Option<&str>, from: i32) -> Certificate {
+    let params = |name: &str| {
+        let mut params = rcgen::CertificateParams::default();
+        params.distinguished_name.push(rcgen::DnType::CommonName, name);
+        params.not_before = rcgen::date_time_ymd(from, 3, 1);
+        params.not_after = rcgen::date_time_ymd(from + 5, 3, 1);
+        params
+    };
+    let key = rcgen::KeyPair::generate().unwrap();
+    let made = match by {
+        None => params(name).self_signed(&key).unwrap(),
+        Some(by) => params(name).signed_by(&key, &rcgen::Issuer::new(params(by), &key)).unwrap(),
+    };
+    Certificate::from_der(made.der()).unwrap()
+}
+
+fn checked(findings: Vec<Finding>) -> Result<Outcome, Problem> {
+    checked_with(findings, None)
+}
+
+fn checked_with(findings: Vec<Finding>, issuers: Option<Issuers>) -> Result<Outcome, Problem> {
+    let summary = CertificateSummary { issued_by: "Plant CA".into(), ..summary() };
+    Ok(Outcome::Checked { summary: Some(summary), findings, issuers })
+}
+
+fn summary() -> CertificateSummary {
+    info(0, now(), ControllerSeries::Rc800).certificate.expect("a certificate").summary
+}

@@ -1,0 +1,68 @@
+//! How the vault for connection passwords looks, and adding a controller that is switched off.
+
+use opcua_configurator::model::{ErrorCode, Problem};
+use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::model::{Message, VaultRequest};
+use opcua_configurator::workspace::{PasswordPlace, StoreStatus, VaultState};
+
+use crate::harness::{SIZE, choose, click, now, type_into, window};
+use crate::pictures::{W, chinese, job, picture, say, tell};
+use crate::samples::configuration;
+
+fn open(place: PasswordPlace, vault: VaultState) -> W {
+    let mut configuration = configuration(5, now());
+    configuration.options.passwords = place;
+    let mut window = window(RecordingBackend::default(), configuration, SIZE);
+    let keyring_fails = place == PasswordPlace::Keyring;
+    tell(&mut window, Event::PasswordStore(StoreStatus { place, keyring_fails, vault }));
+    window
+}
+
+#[test]
+fn options() {
+    let mut window = open(PasswordPlace::Vault, VaultState::Open { passwords: 4 });
+    choose(&mut window, &["Options", "Options…"]);
+    picture(&mut window, "options_vault");
+}
+
+#[test]
+fn create() {
+    let mut window = open(PasswordPlace::Keyring, VaultState::None);
+    tell(&mut window, Event::PasswordNotKept(ErrorCode::KeyringUnavailable.into()));
+    picture(&mut window, "passwords_not_kept");
+    click(&mut window, "Passwords are not kept");
+    type_into(&mut window, "Passphrase", "short");
+    type_into(&mut window, "Passphrase again", "longer");
+    picture(&mut window, "vault_create");
+}
+
+#[test]
+fn wrong_passphrase() {
+    let mut window = open(PasswordPlace::Vault, VaultState::Closed);
+    say(&mut window, Message::Vault(VaultRequest::Open));
+    type_into(&mut window, "Passphrase", "correct house");
+    click(&mut window, "Open");
+    tell(&mut window, Event::VaultDone(Err(ErrorCode::VaultPassphrase.into())));
+    chinese(&mut window);
+    picture(&mut window, "vault_open_chinese");
+}
+
+#[test]
+fn change() {
+    let mut window = open(PasswordPlace::Vault, VaultState::Open { passwords: 4 });
+    say(&mut window, Message::Vault(VaultRequest::ChangePassphrase));
+    picture(&mut window, "vault_change");
+}
+
+#[test]
+fn unreachable() {
+    let mut window = open(PasswordPlace::Vault, VaultState::Closed);
+    choose(&mut window, &["Controller", "Add controller…"]);
+    type_into(&mut window, "Name", "Weld 1b");
+    type_into(&mut window, "IP address", "10.0.0.9");
+    click(&mut window, "Apply");
+    let probe = job(&window);
+    let unreachable = Problem::with_detail(ErrorCode::Unreachable, "connection refused (os error 111)");
+    tell(&mut window, Event::Probed { job: probe, result: Err(unreachable) });
+    picture(&mut window, "add_controller_unreachable");
+}

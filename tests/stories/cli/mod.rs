@@ -1,0 +1,17 @@
+//! The program itself, started as a process, as from a shell.
+
+mod activation;
+mod admission;
+mod backup;
+mod certificate_authority;
+mod client_certificates;
+mod connection_list;
+mod lying_controller;
+mod main_job;
+mod odd_paths;
+mod pki;
+mod server_settings;
+mod terminal;
+mod vault;
+mod verify;
+mod virtual_controllers;

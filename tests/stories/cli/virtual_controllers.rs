@@ -1,0 +1,90 @@
+//! Virtual controllers in a process of their own, and what is switched in them from another.
+
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use crate::common::desk::{DONE, Desk, assert_error, program};
+use crate::common::process::Running;
+
+/// Switches all controllers of the fleet.
+fn switch(data: &str, arguments: &[&str]) -> Vec<Value> {
+    let mut command = program();
+    command.args(["virtual", "switch", "--data", data]).args(arguments);
+    let finished = Running::start(&mut command).unwrap().finish(DONE);
+    assert_eq!(finished.code, Some(0), "{}", finished.stderr);
+    finished.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect()
+}
+
+/// Repeats a command until it ends as expected: switches are looked at twice a second.
+fn until(desk: &Desk, arguments: &[&str], holds: impl Fn(&Value) -> bool) {
+    let end = Instant::now() + Duration::from_secs(60);
+    loop {
+        // A server that was started before the switch was seen would stay so.
+        if arguments[0] == "start" {
+            desk.json(&["stop", "cell", "--yes"]);
+        }
+        let (_, lines) = desk.json(arguments);
+        if holds(&lines[0]) {
+            return;
+        }
+        assert!(Instant::now() < end, "{lines:?}");
+    }
+}
+
+#[test]
+fn faults_are_switched_from_another_process() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("fleet").display().to_string();
+    let desk = Desk::with(1, &["--firmware", "current", "--data", &data]);
+    assert_eq!(desk.add(0, "cell").0, Some(0));
+    let serial = desk.ready[0]["serial"].as_str().unwrap();
+    let names = ["--country", "JP", "--state", "x", "--locality", "x", "--organisation", "x"];
+    assert_eq!(desk.json(&[&["cert", "self-signed", "--yes", "cell"][..], &names].concat()).0, Some(0));
+
+    let refused = |code: &'static str| move |line: &Value| line["error"]["code"] == code;
+    let shown = switch(&data, &["--task-running", "on", serial]);
+    assert_eq!((&shown[0]["serial"], &shown[0]["task_running"]), (&serial.into(), &true.into()));
+    until(&desk, &["start", "cell"], refused("task-running"));
+    assert_eq!(desk.json(&["info", "cell"]).0, Some(0), "questions are answered");
+    switch(&data, &["--task-running", "off", "--teach-pendant", "on", "--all"]);
+    until(&desk, &["start", "cell"], refused("teach-pendant-connected"));
+    switch(&data, &["--teach-pendant", "off", "--server-error", "on", "--all"]);
+    until(&desk, &["start", "cell"], refused("580"));
+    until(&desk, &["info", "cell"], |line| line["result"]["error"] == "580" && line["result"]["status"] == "Error");
+    assert!(desk.run(&["info", "cell"]).stdout.contains("Error (580)"));
+    switch(&data, &["--server-error", "off", "--all"]);
+    until(&desk, &["start", "cell"], |line| line["result"]["status"] == "Run");
+
+    assert_eq!(switch(&data, &["--all"])[0]["server_error"], false, "without a switch it shows them");
+    let mut unknown = program();
+    unknown.args(["virtual", "switch", "--data", &data, "--task-running", "on", "R7A9999999"]);
+    let unknown = Running::start(&mut unknown).unwrap().finish(DONE);
+    assert_eq!(unknown.code, Some(2), "{}", unknown.stderr);
+}
+
+#[test]
+fn a_busy_management_port_is_named_as_such() {
+    let busy = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let port = busy.local_addr().unwrap().port().to_string();
+    let mut command = program();
+    command.args(["--json", "virtual", "--management-port", &port]);
+    let finished = Running::start(&mut command).unwrap().finish(DONE);
+    assert_eq!(finished.code, Some(2), "{}", finished.stderr);
+    let line: Value = serde_json::from_str(&finished.stdout).unwrap();
+    assert_error(&[line], "cannot-listen");
+    assert!(finished.stderr.contains("management protocol cannot listen on 127.0.0.1:"), "{}", finished.stderr);
+    assert!(!finished.stderr.contains("OPC UA server"), "{}", finished.stderr);
+}
+
+#[test]
+fn a_workspace_named_like_a_device_is_refused_on_every_system() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["NUL", "con.old", "plant."] {
+        let mut command = program();
+        command.arg("--json").arg("--workspace").arg(folder.path().join(name)).args(["backup", "on"]);
+        let finished = Running::start(&mut command).unwrap().finish(DONE);
+        assert_eq!(finished.code, Some(2), "{}", finished.stderr);
+        assert_error(&[serde_json::from_str(&finished.stdout).unwrap()], "bad-file-name");
+    }
+}

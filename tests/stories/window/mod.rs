@@ -1,0 +1,15 @@
+//! The real window without a display, driven by labels, over virtual controllers.
+
+mod activation;
+mod backup;
+mod certificate_authority;
+mod client_certificates;
+mod closing;
+mod drop;
+mod files;
+mod main_job;
+mod server_certificates;
+mod settings_transfer;
+mod start;
+mod vault;
+mod verify;
