@@ -6,11 +6,11 @@ use clap::Args;
 use super::batch::{Presentation, Shown};
 use super::output::say;
 use super::select::Select;
-use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{Activate, KeySource};
 use crate::model::activation::{self, ActivationFile, ActivationKeys, KeyError, MAX_ACTIVATION_FILE_BYTES};
 use crate::model::{ErrorCode, Problem};
+use crate::texts::TextKey;
 
 #[derive(Debug, Args)]
 pub struct ActivateArgs {
@@ -28,7 +28,7 @@ pub struct ActivateArgs {
 }
 
 const ACTIVATED: Presentation = Presentation {
-    header: &[phrases::SERIAL, phrases::ACTIVATED, phrases::STATUS],
+    header: &[TextKey::HeadingSerial, TextKey::HeadingActivated, TextKey::HeadingStatus],
     show: |_, info| Shown {
         json: serde_json::json!({
             "serial": info.serial,

@@ -2,8 +2,9 @@ use clap::Subcommand;
 use serde_json::json;
 
 use super::output::json_path;
-use super::{Ending, Settled, texts};
+use super::{Ending, Settled};
 use crate::model::Problem;
+use crate::texts::cli as texts;
 
 #[derive(Debug, Subcommand)]
 pub enum BackupCommand {

@@ -9,15 +9,16 @@ use parking_lot::Mutex;
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
 
+use super::cell::Cell;
 use super::output::say;
 use super::table::table;
-use super::texts::{self, Cell, Phrase, phrases};
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Operation, Outcome, Report};
 use crate::model::{ControllerInfo, ErrorCode, Problem, clock};
 use crate::pki::Severity;
 use crate::platform::stop_signal::StopSignals;
 use crate::session::ManagementConnector;
+use crate::texts::{TextKey, cli as texts};
 use crate::workspace::{Configuration, ControllerEntry, Retrieved, WorkspaceLock};
 
 /// What is shown of one controller's success.
@@ -34,13 +35,13 @@ const INTERRUPTED: i32 = 130;
 /// How an operation's outcomes are shown.
 pub struct Presentation {
     /// Column headings after `NAME`.
-    pub header: &'static [Phrase],
+    pub header: &'static [TextKey],
     pub show: fn(&Outcome, &ControllerInfo) -> Shown,
 }
 
 /// The usual: the server's state after the change.
 pub const STATE: Presentation = Presentation {
-    header: &[phrases::STATUS, phrases::REVISION],
+    header: &[TextKey::HeadingStatus, TextKey::HeadingRevision],
     show: |_, info| Shown {
         json: json!({ "status": info.status, "revision": info.revision }),
         cells: vec![info.status.into(), info.revision.to_string().into()],
@@ -140,7 +141,7 @@ impl Settled {
             if findings.iter().all(|finding| finding.severity == Severity::Warning) {
                 good += 1;
                 if !findings.is_empty() {
-                    remarks.push(texts::clients_may_complain(self.output.language()));
+                    remarks.push(TextKey::CliClientsMayComplain.text(self.output.language()));
                 }
             }
         }
@@ -202,7 +203,7 @@ impl Settled {
                 let cancel = cancel.clone();
                 tokio::spawn(async move {
                     stop.received().await;
-                    say(texts::stopping(language));
+                    say(TextKey::CliStopping.text(language));
                     cancel.cancel();
                     stop.received().await;
                     std::process::exit(INTERRUPTED);
@@ -259,7 +260,7 @@ impl Settled {
             }
         }
         if !rows.is_empty() {
-            let headings = std::iter::once(&phrases::NAME).chain(presentation.header);
+            let headings = std::iter::once(&TextKey::HeadingName).chain(presentation.header);
             let headings: Vec<&str> = headings.map(|heading| heading.text(language)).collect();
             self.output.text(&table(&headings, &rows));
         }
@@ -292,7 +293,7 @@ impl Settled {
         for remark in remarks {
             say(&format!("  - {remark}"));
         }
-        eprint!("{}", texts::go_on(self.output.language()));
+        eprint!("{} ", TextKey::CliGoOn.text(self.output.language()));
         let mut answer = String::new();
         let read = std::io::stderr().flush().and_then(|()| std::io::stdin().read_line(&mut answer));
         match (read, answer.trim()) {

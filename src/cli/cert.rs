@@ -4,10 +4,10 @@ use clap::{Args, Subcommand, ValueEnum};
 use serde_json::{Value, json};
 
 use super::batch::{Presentation, STATE, Shown};
+use super::cell::Cell;
 use super::output::{json_path, json_paths};
 use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
-use super::texts::{Cell, phrases};
 use super::{Ending, Settled};
 use crate::jobs::{
     CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, CreateCsr, CsrFields,
@@ -18,6 +18,7 @@ use crate::model::{
     CertificateSummary, CertificateType, ErrorCode, FileFormat, KeyLength, Language, Problem, Validity,
 };
 use crate::pki::{Finding, Severity};
+use crate::texts::TextKey;
 use crate::workspace::{BackupKind, Configuration, ControllerEntry, KeyBackupSource};
 
 #[derive(Debug, Subcommand)]
@@ -182,7 +183,7 @@ pub struct SelfSignedArgs {
 }
 
 const CERTIFICATE: Presentation = Presentation {
-    header: &[phrases::STATUS, phrases::COMMON_NAME, phrases::EXPIRY, phrases::THUMBPRINT],
+    header: &[TextKey::HeadingStatus, TextKey::HeadingCommonName, TextKey::HeadingExpiry, TextKey::HeadingThumbprint],
     show: |outcome, info| {
         let Outcome::Certificate { summary, saved } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -208,7 +209,7 @@ const CERTIFICATE: Presentation = Presentation {
 };
 
 const CSR: Presentation = Presentation {
-    header: &[phrases::STATUS, phrases::COMMON_NAME, phrases::FILE],
+    header: &[TextKey::HeadingStatus, TextKey::HeadingCommonName, TextKey::HeadingFile],
     show: |outcome, info| {
         let Outcome::Csr { common_name, saved } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -227,12 +228,12 @@ const CSR: Presentation = Presentation {
 
 pub const IMPORTED: Presentation = Presentation {
     header: &[
-        phrases::STATUS,
-        phrases::ISSUED_TO,
-        phrases::ISSUED_BY,
-        phrases::EXPIRY,
-        phrases::THUMBPRINT,
-        phrases::WARNINGS,
+        TextKey::HeadingStatus,
+        TextKey::HeadingIssuedTo,
+        TextKey::HeadingIssuedBy,
+        TextKey::HeadingExpiry,
+        TextKey::HeadingThumbprint,
+        TextKey::HeadingWarnings,
     ],
     show: |outcome, info| {
         let Outcome::Imported { summary, findings, moved_aside } = outcome else {
@@ -258,7 +259,7 @@ pub const IMPORTED: Presentation = Presentation {
 };
 
 const EXPORTED: Presentation = Presentation {
-    header: &[phrases::EXPIRY, phrases::THUMBPRINT, phrases::FILE],
+    header: &[TextKey::HeadingExpiry, TextKey::HeadingThumbprint, TextKey::HeadingFile],
     show: |outcome, _| {
         let Outcome::Exported { summary, saved } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -279,7 +280,13 @@ const EXPORTED: Presentation = Presentation {
 };
 
 const RESTORED: Presentation = Presentation {
-    header: &[phrases::STATUS, phrases::ISSUED_TO, phrases::EXPIRY, phrases::THUMBPRINT, phrases::WARNINGS],
+    header: &[
+        TextKey::HeadingStatus,
+        TextKey::HeadingIssuedTo,
+        TextKey::HeadingExpiry,
+        TextKey::HeadingThumbprint,
+        TextKey::HeadingWarnings,
+    ],
     show: |outcome, info| {
         let Outcome::Restored { summary, findings } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };

@@ -4,13 +4,14 @@ use clap::{Args, Subcommand, ValueEnum};
 use serde_json::{Value, json};
 
 use super::batch::{Presentation, Shown};
+use super::cell::Cell;
 use super::select::{Select, ThingsThenSelect};
-use super::texts::{Cell, phrases};
 use super::trust_files::{read_trust_files, show_move, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, Outcome, RemoveClients, TrustChange, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, Language, Problem};
 use crate::protocol::{ListedCertificate, RejectedClient};
+use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
 pub enum ClientsCommand {
@@ -55,15 +56,15 @@ pub enum AddTo {
 }
 
 const ALL_LISTS: Presentation = Presentation {
-    header: &[phrases::CERTIFICATES],
+    header: &[TextKey::HeadingCertificates],
     show: |outcome, _| shown(outcome, &[ClientList::Trusted, ClientList::Issuers, ClientList::Rejected]),
 };
 const TRUSTED: Presentation =
-    Presentation { header: &[phrases::TRUSTED], show: |outcome, _| shown(outcome, &[ClientList::Trusted]) };
+    Presentation { header: &[TextKey::HeadingTrusted], show: |outcome, _| shown(outcome, &[ClientList::Trusted]) };
 const ISSUERS: Presentation =
-    Presentation { header: &[phrases::ISSUERS], show: |outcome, _| shown(outcome, &[ClientList::Issuers]) };
+    Presentation { header: &[TextKey::HeadingIssuers], show: |outcome, _| shown(outcome, &[ClientList::Issuers]) };
 const REJECTED: Presentation =
-    Presentation { header: &[phrases::REJECTED], show: |outcome, _| shown(outcome, &[ClientList::Rejected]) };
+    Presentation { header: &[TextKey::HeadingRejected], show: |outcome, _| shown(outcome, &[ClientList::Rejected]) };
 
 /// What a list holds in one cell.
 pub fn listing(lines: &[String]) -> String {
@@ -135,13 +136,13 @@ fn refused_line(rejected: &RejectedClient) -> String {
 /// A change of lists or CRLs: how many there are now, and who was disconnected.
 pub const CHANGE: Presentation = Presentation {
     header: &[
-        phrases::STATUS,
-        phrases::REVISION,
-        phrases::TRUSTED,
-        phrases::ISSUERS,
-        phrases::REJECTED,
-        phrases::CRLS,
-        phrases::DISCONNECTED,
+        TextKey::HeadingStatus,
+        TextKey::HeadingRevision,
+        TextKey::HeadingTrusted,
+        TextKey::HeadingIssuers,
+        TextKey::HeadingRejected,
+        TextKey::HeadingCrls,
+        TextKey::HeadingDisconnected,
     ],
     show: |outcome, info| {
         let Outcome::TrustChanged(change) = outcome else {

@@ -6,11 +6,11 @@ use serde_json::json;
 
 use super::output::say;
 use super::table::table;
-use super::texts::{self, phrases};
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Enrolled};
 use crate::model::{Address, ControllerName, ControllerSeries, ErrorCode, Problem, clock};
 use crate::pki::Fingerprint;
+use crate::texts::{TextKey, cli as texts};
 use crate::workspace::{
     ConnectionList, ControllerEntry, MAX_CONNECTION_LIST_BYTES, PlannedConnection, Retrieved, VaultState,
 };
@@ -106,12 +106,18 @@ fn list(settled: &Settled) -> Result<Ending, Problem> {
             .iter()
             .map(|c| {
                 let seen = c.last.as_ref().map_or("-".into(), |l| l.at.format("%Y-%m-%d %H:%M UTC").to_string());
-                let identity = if c.fingerprint.is_some() { phrases::CONFIRMED } else { phrases::NOT_CONFIRMED };
+                let identity = if c.fingerprint.is_some() { TextKey::Confirmed } else { TextKey::NotConfirmed };
                 let identity = identity.text(settled.output.language()).to_owned();
                 vec![c.name.to_string(), c.series.to_string(), c.address.to_string(), identity, seen]
             })
             .collect();
-        let headings = [phrases::NAME, phrases::TYPE, phrases::ADDRESS, phrases::IDENTITY, phrases::RETRIEVED];
+        let headings = [
+            TextKey::HeadingName,
+            TextKey::HeadingType,
+            TextKey::HeadingAddress,
+            TextKey::HeadingIdentity,
+            TextKey::HeadingRetrieved,
+        ];
         settled.output.text(&table(&headings.map(|heading| heading.text(settled.output.language())), &rows));
     }
     Ok(Ending::AllDone)
@@ -138,7 +144,7 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
             Ok(Enrolled { fingerprint, info, .. }) => (fingerprint, info),
             Err(code) => {
                 if code.is_unreached() && !settled.output.is_json() {
-                    say(texts::add_unconfirmed(language));
+                    say(&format!("    {}", TextKey::CliAddUnconfirmed.text(language)));
                 }
                 return Ok(Ending::SomeFailed);
             }
@@ -295,7 +301,7 @@ fn remove(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
     }
     let vault = passwords.store().map(|store| store.status().vault);
     if matches!(vault, Some(VaultState::Closed | VaultState::Declined)) {
-        say(texts::vault_keeps(settled.output.language()));
+        say(TextKey::CliVaultKeeps.text(settled.output.language()));
     }
     Ok(Ending::AllDone)
 }

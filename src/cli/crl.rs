@@ -6,13 +6,13 @@ use serde_json::json;
 use super::batch::{Presentation, Shown};
 use super::clients::{CHANGE, hexadecimal, listing};
 use super::select::{Select, ThingsThenSelect};
-use super::texts::phrases;
 use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, Outcome, RemoveCrls};
 use crate::model::Problem;
 use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
 use crate::protocol::ListedCrl;
+use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
 pub enum CrlCommand {
@@ -25,7 +25,7 @@ pub enum CrlCommand {
 }
 
 const CRLS: Presentation = Presentation {
-    header: &[phrases::CRLS],
+    header: &[TextKey::HeadingCrls],
     show: |outcome, _| {
         let Outcome::TrustLists(held) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };

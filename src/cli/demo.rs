@@ -5,8 +5,9 @@ use clap::Args;
 
 use super::output::say;
 use super::virtual_plant::VirtualPlant;
-use super::{Ending, Settled, texts, window};
+use super::{Ending, Settled, window};
 use crate::model::{ErrorCode, Language, Problem};
+use crate::texts::cli as texts;
 use crate::virtual_controller::DEMO_COUNT;
 use crate::workspace::{Configuration, MemoryPasswords, Passwords, Workspace};
 

@@ -2,10 +2,10 @@ use clap::Args;
 use serde_json::json;
 
 use super::table::table;
-use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::licences::{Component, Licences};
 use crate::model::{ErrorCode, Problem};
+use crate::texts::TextKey;
 
 #[derive(Debug, Args)]
 pub struct LicencesArgs {
@@ -55,6 +55,6 @@ fn list(settled: &Settled, components: &[Component]) {
         .iter()
         .map(|component| vec![component.name.clone(), component.version.clone(), component.licence.clone()])
         .collect();
-    let headings = [phrases::NAME, phrases::VERSION, phrases::LICENCE];
+    let headings = [TextKey::HeadingName, TextKey::HeadingVersion, TextKey::HeadingLicence];
     settled.output.text(&table(&headings.map(|heading| heading.text(settled.output.language())), &rows));
 }

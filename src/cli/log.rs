@@ -3,10 +3,10 @@ use serde_json::json;
 
 use super::batch::{Presentation, STATE, Shown};
 use super::select::Select;
-use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{LogPart, Outcome, ReadLog, SetSettings, SettingsChange};
 use crate::model::{Problem, foreign_text};
+use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
 pub enum LogCommand {
@@ -23,7 +23,7 @@ pub enum LogCommand {
 }
 
 const LOG: Presentation = Presentation {
-    header: &[phrases::LOG],
+    header: &[TextKey::HeadingLog],
     show: |outcome, _| {
         let Outcome::Log(log) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };

@@ -7,12 +7,14 @@ mod activate;
 mod backup;
 mod batch;
 mod ca;
+mod cell;
 mod cert;
 mod clients;
 mod connection_passwords;
 mod controllers;
 mod crl;
 mod demo;
+mod help;
 mod licences;
 mod log;
 mod output;
@@ -25,7 +27,6 @@ mod settings;
 mod settings_transfer;
 mod start_failure;
 mod table;
-mod texts;
 mod trust_files;
 mod users;
 mod vault;
@@ -199,7 +200,7 @@ pub fn main() -> ExitCode {
     console::attach();
     start_failure::show_panics();
     let language = language_of(std::env::args_os()).unwrap_or_else(system_language);
-    let parsed = texts::localised(Cli::command(), language).try_get_matches();
+    let parsed = help::localised(Cli::command(), language).try_get_matches();
     let cli = parsed.and_then(|matches| Cli::from_arg_matches(&matches)).unwrap_or_else(|error| {
         start_failure::show_usage(&error);
         error.exit()
@@ -322,7 +323,7 @@ mod tests {
     #[test]
     fn the_command_line_is_well_formed_in_every_language() {
         for language in Language::ALL {
-            texts::localised(Cli::command(), language).debug_assert();
+            help::localised(Cli::command(), language).debug_assert();
         }
     }
 

@@ -5,6 +5,7 @@ use serde_json::{Value, json};
 
 use crate::model::{Language, Problem};
 use crate::pki::{Finding, Severity};
+use crate::texts::TextKey;
 
 /// Standard output and error, in the form that was asked for.
 #[derive(Debug, Clone, Copy)]
@@ -97,11 +98,9 @@ impl Output {
     /// What clients will say about a certificate, on standard error.
     pub fn findings(self, who: &str, findings: &[Finding]) {
         for finding in findings {
-            let severity = match (finding.severity, self.language) {
-                (Severity::Error, Language::En) => "error",
-                (Severity::Warning, Language::En) => "warning",
-                (Severity::Error, Language::Zh) => "错误",
-                (Severity::Warning, Language::Zh) => "警告",
+            let severity = match finding.severity {
+                Severity::Error => TextKey::CliError.text(self.language),
+                Severity::Warning => TextKey::CliWarning.text(self.language),
             };
             say(&format!("{who}: {severity}: {} ({})", finding.explain(self.language), finding.status()));
         }

@@ -1,22 +1,23 @@
 use serde_json::json;
 
 use super::batch::{Presentation, STATE, Shown};
+use super::cell::Cell;
 use super::select::Select;
-use super::texts::{Cell, phrases};
 use super::{Ending, Settled};
 use crate::jobs::{GetInfo, StartServer, StopServer};
 use crate::model::{Problem, ServerCertificate};
+use crate::texts::TextKey;
 
 const INFO: Presentation = Presentation {
     header: &[
-        phrases::TYPE,
-        phrases::SERIAL,
-        phrases::FIRMWARE,
-        phrases::STATUS,
-        phrases::CERTIFICATE,
-        phrases::EXPIRY,
-        phrases::ACTIVATED,
-        phrases::ENDPOINT,
+        TextKey::HeadingType,
+        TextKey::HeadingSerial,
+        TextKey::HeadingFirmware,
+        TextKey::HeadingStatus,
+        TextKey::HeadingCertificate,
+        TextKey::HeadingExpiry,
+        TextKey::HeadingActivated,
+        TextKey::HeadingEndpoint,
     ],
     show: |_, info| {
         let (kind, expiry) = match &info.certificate {

@@ -9,12 +9,12 @@ use super::batch::{Presentation, STATE, Shown};
 use super::passwords::ask_secret;
 use super::secret_file::read_secret;
 use super::select::Select;
-use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{Outcome, ReadSettings, SetSettings, SettingsChange};
 use crate::model::{
     ErrorCode, PortError, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
 };
+use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
 pub enum SettingsCommand {
@@ -75,7 +75,13 @@ fn log_password(file: Option<&Path>) -> Result<String, Problem> {
 }
 
 const SETTINGS: Presentation = Presentation {
-    header: &[phrases::PORT, phrases::STARTUP, phrases::POLICIES, phrases::TOKENS, phrases::LOG],
+    header: &[
+        TextKey::HeadingPort,
+        TextKey::HeadingStartup,
+        TextKey::HeadingPolicies,
+        TextKey::HeadingTokens,
+        TextKey::HeadingLog,
+    ],
     show: |outcome, _| {
         let Outcome::Settings(settings) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -89,7 +95,7 @@ const SETTINGS: Presentation = Presentation {
                 startup.as_str().to_owned().into(),
                 join(security_policies.iter().map(|p| p.as_str()).collect()).into(),
                 join(user_tokens.iter().map(|t| t.as_str()).collect()).into(),
-                if *server_log { phrases::ON } else { phrases::OFF }.into(),
+                if *server_log { TextKey::On } else { TextKey::Off }.into(),
             ],
         }
     },

@@ -7,10 +7,10 @@ use super::batch::{Presentation, Shown};
 use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
-use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{ExportSettings, ImportSettings, Outcome};
 use crate::model::Problem;
+use crate::texts::TextKey;
 use crate::workspace::check_passphrase;
 
 #[derive(Debug, Args)]
@@ -24,7 +24,7 @@ pub struct TransferArgs {
 }
 
 const EXPORTED: Presentation = Presentation {
-    header: &[phrases::SERIAL, phrases::FILE],
+    header: &[TextKey::HeadingSerial, TextKey::HeadingFile],
     show: |outcome, info| {
         let Outcome::SettingsExported { path } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };
@@ -37,7 +37,7 @@ const EXPORTED: Presentation = Presentation {
 };
 
 const IMPORTED: Presentation = Presentation {
-    header: &[phrases::STATUS, phrases::REVISION, phrases::FILE],
+    header: &[TextKey::HeadingStatus, TextKey::HeadingRevision, TextKey::HeadingFile],
     show: |outcome, info| {
         let Outcome::SettingsImported { path } = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };

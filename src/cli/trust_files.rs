@@ -5,11 +5,11 @@ use std::path::Path;
 
 use super::output::say;
 use super::table::table;
-use super::texts::{self, Phrase, phrases};
 use super::{Settled, read_bounded};
 use crate::jobs::{Destination, Fate, Note, Target, Thing, TrustFile, TrustPlan, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Language, ListLimits, Problem, clock};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
+use crate::texts::{TextKey, cli as texts};
 use crate::workspace::ControllerEntry;
 
 /// Reads them all; one that is no good, or has no CRL where CRLs are asked for, makes the request wrong.
@@ -56,9 +56,9 @@ pub fn show_plan(
         let plan = TrustPlan::new(files, destination, generation, ListLimits::of(generation), now, None);
         unclear |= plan.needs_a_look();
         if plan.needs_a_look() && !settled.output.is_json() {
-            let headings = [phrases::FILE, phrases::WHAT, phrases::GOES_TO, phrases::NOTE];
+            let headings = [TextKey::HeadingFile, TextKey::HeadingWhat, TextKey::HeadingGoesTo, TextKey::HeadingNote];
             let plan = table(&headings.map(|heading| heading.text(language)), &rows(&plan, language));
-            say(&format!("{}\n{plan}", texts::controllers_with(language, generation)));
+            say(&texts::over_plan(language, texts::controllers_with(generation), &plan));
         }
     }
     if unclear { agreed(settled) } else { Ok(()) }
@@ -72,7 +72,7 @@ fn agreed(settled: &Settled) -> Result<(), Problem> {
     if !std::io::stdin().is_terminal() {
         return Err(ErrorCode::NotConfirmed.into());
     }
-    eprint!("{}", texts::go_on(settled.output.language()));
+    eprint!("{} ", TextKey::CliGoOn.text(settled.output.language()));
     let mut answer = String::new();
     let read = std::io::stderr().flush().and_then(|()| std::io::stdin().read_line(&mut answer));
     match (read, answer.trim()) {
@@ -97,7 +97,7 @@ pub fn show_move(
     if rows.is_empty() {
         return Ok(());
     }
-    let headings = [phrases::NAME, phrases::CERTIFICATES, phrases::NOTE];
+    let headings = [TextKey::HeadingName, TextKey::HeadingCertificates, TextKey::HeadingNote];
     say(&table(&headings.map(|heading| heading.text(settled.output.language())), &rows));
     agreed(settled)
 }
@@ -114,18 +114,18 @@ fn rows(plan: &TrustPlan, language: Language) -> Vec<Vec<String>> {
             let (to, note) = match &item.fate {
                 Fate::Goes { to, notes } => (target(*to).text(language), words(notes, language)),
                 Fate::Skipped(reason) => ("-", crate::texts::skipped_thing(*reason).text(language).to_owned()),
-                Fate::Refused(problem) => ("-", texts::problem(language, problem)),
+                Fate::Refused(problem) => ("-", problem.in_one_line(language)),
             };
             vec![item.file_name.clone(), what, to.to_owned(), note]
         })
         .collect()
 }
 
-const fn target(target: Target) -> Phrase {
+const fn target(target: Target) -> TextKey {
     match target {
-        Target::Trusted => phrases::TRUSTED,
-        Target::Issuers => phrases::ISSUERS,
-        Target::Crls => phrases::CRLS,
+        Target::Trusted => TextKey::HeadingTrusted,
+        Target::Issuers => TextKey::HeadingIssuers,
+        Target::Crls => TextKey::HeadingCrls,
     }
 }
 

@@ -7,10 +7,10 @@ use serde_json::json;
 use super::batch::{Presentation, STATE, Shown};
 use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
-use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{AddUser, ListUsers, Outcome, RemoveUsers};
 use crate::model::{Credential, CredentialError, ErrorCode, Problem, UserName, UserPassword};
+use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
 pub enum UsersCommand {
@@ -30,7 +30,7 @@ pub enum UsersCommand {
 }
 
 const USERS: Presentation = Presentation {
-    header: &[phrases::USERS],
+    header: &[TextKey::HeadingUsers],
     show: |outcome, _| {
         let Outcome::Users(users) = outcome else {
             return Shown { json: json!(null), cells: Vec::new() };

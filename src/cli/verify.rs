@@ -9,12 +9,12 @@ use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
 use super::table::table;
-use super::texts::phrases;
 use super::{Ending, Settled};
 use crate::jobs::{Outcome, Refusal, Verdict, Verify, VerifyReport};
 use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword, foreign_text};
 use crate::pki::{Rejection, Severity};
 use crate::session::opcua_client::{MessageSecurity, Patience};
+use crate::texts::{TextKey, cli as texts};
 
 /// Exit code 1 if anything that is offered does not work.
 #[derive(Debug, Args)]
@@ -53,11 +53,7 @@ pub fn run(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
         patience: Patience::default(),
     };
     let language = settled.output.language();
-    let presentation = match language {
-        Language::En => ENGLISH,
-        Language::Zh => CHINESE,
-    };
-    let reports = settled.reports(&configuration, &chosen, verify, &presentation)?;
+    let reports = settled.reports(&configuration, &chosen, verify, &PRESENTATION)?;
     if !settled.output.is_json() {
         for (entry, report) in chosen.iter().zip(&reports) {
             match &report.result {
@@ -72,14 +68,14 @@ pub fn run(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
     Ok(Ending::of(&reports))
 }
 
-const ENGLISH: Presentation = Presentation { header: &[], show: |outcome, _| shown(outcome, Language::En) };
-const CHINESE: Presentation = Presentation { header: &[], show: |outcome, _| shown(outcome, Language::Zh) };
+const PRESENTATION: Presentation = Presentation { header: &[], show: |outcome, _| shown(outcome) };
 
-fn shown(outcome: &Outcome, language: Language) -> Shown {
+/// JSON is for programs: its messages are English.
+fn shown(outcome: &Outcome) -> Shown {
     let Outcome::Verified(report) = outcome else {
         return Shown { json: json!(null), cells: Vec::new() };
     };
-    Shown { json: as_json(report, language), cells: Vec::new() }
+    Shown { json: as_json(report, Language::En), cells: Vec::new() }
 }
 
 fn as_json(report: &VerifyReport, language: Language) -> Value {
@@ -173,10 +169,9 @@ fn words(report: &VerifyReport, language: Language) -> String {
         line(mark(finding.severity()), &finding.explain(language));
     }
     if let Some(verdict) = &report.certificate {
-        match (&verdict.refused, language) {
-            (None, Language::En) => line('✓', "A careful client accepts the server's certificate"),
-            (None, Language::Zh) => line('✓', "客户端可接受服务器证书"),
-            (Some(rejection), _) => {
+        match &verdict.refused {
+            None => line('✓', TextKey::CliCertificateAccepted.text(language)),
+            Some(rejection) => {
                 line('✗', &format!("{}: {}", rejection.status(), rejection.cause().explain(language)));
             }
         }
@@ -197,16 +192,14 @@ fn words(report: &VerifyReport, language: Language) -> String {
         }
     }
     if !rows.is_empty() {
-        let header = [phrases::ENDPOINT, phrases::USER_TOKEN, phrases::RESULT].map(|heading| heading.text(language));
+        let header = [TextKey::HeadingEndpoint, TextKey::HeadingUserToken, TextKey::HeadingResult]
+            .map(|heading| heading.text(language));
         text.push('\n');
         text.push_str(&table(&header, &rows));
     }
     if report.lacks_trust() {
-        let file = report.own.certificate_path.display();
-        text.push_str(&match language {
-            Language::En => format!("The certificate of this configurator is {file}; --trust-me puts it into Trusted"),
-            Language::Zh => format!("本配置工具的证书为 {file}；使用 --trust-me 可将其添加到[信任]"),
-        });
+        let file = report.own.certificate_path.display().to_string();
+        text.push_str(&texts::own_certificate(language, &file));
     }
     text
 }

@@ -8,6 +8,7 @@ use super::{Ending, Settled, system_language};
 use crate::model::{Language, Problem};
 use crate::platform::console;
 use crate::session::ManagementConnector;
+use crate::texts::TextKey;
 use crate::ui::{self, WindowOptions};
 use crate::workspace::{
     Configuration, Passwords, Shown, Workspace, WorkspaceError, WorkspaceLock, show_running_window,
@@ -16,10 +17,7 @@ use crate::workspace::{
 /// The window on the workspace.
 pub fn run(settled: &Settled, language: Option<Language>) -> Result<Ending, Problem> {
     let Some(lock) = lock_or_show(&settled.workspace)? else {
-        let text = match settled.output.language() {
-            Language::En => "The workspace is open already; its window was brought to the front.",
-            Language::Zh => "该工作区已打开，已将其窗口置于最前。",
-        };
+        let text = TextKey::CliWindowBroughtToFront.text(settled.output.language());
         settled.output.finished(&json!({ "window": "shown" }), text);
         return Ok(Ending::AllDone);
     };

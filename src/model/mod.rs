@@ -17,7 +17,7 @@ pub mod clock;
 mod controller;
 mod country;
 mod crl_summary;
-mod error_texts;
+mod error_code;
 pub mod file_names;
 pub mod foreign_text;
 mod held_certificates;
@@ -44,13 +44,14 @@ pub use client_list::{ClientList, ListLimits};
 pub use controller::{
     ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber, VersionError,
 };
-pub use country::{COUNTRIES, Country};
+pub use country::Country;
 pub use crl_summary::CrlSummary;
+pub use error_code::{ErrorCode, ErrorOrigin};
 pub use held_certificates::{HeldCertificate, HeldCertificates};
 pub use info::{ControllerInfo, ServerCertificate, ServerStatus};
 pub use language::Language;
 pub use log_chunk::LogChunk;
-pub use problem::{ErrorCode, Explanation, Problem};
+pub use problem::Problem;
 pub use settings::{
     PortError, SecurityPolicy, ServerPort, ServerSettings, SettingsError, SettingsWarning, StartupMode, UserTokenPolicy,
 };

@@ -99,7 +99,7 @@ pub use error::PkiError;
 pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, KeyUsage};
 pub use file_content::{FileContent, Wanted};
 pub use fingerprint::{Fingerprint, FingerprintError};
-pub use flaw::{CertificateFlaw, CrlFlaw, CrlUnusable, RefusalCause, explain_refusal};
+pub use flaw::{CertificateFlaw, CrlFlaw, CrlUnusable, RefusalCause};
 pub use identity::{TlsIdentity, tls_identity};
 pub use issuers::{Issuers, issuers_of};
 pub use key::PrivateKey;

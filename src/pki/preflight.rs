@@ -8,7 +8,7 @@ use super::flaw::quoted;
 use super::signature::{Hash, PublicKey, Verdict};
 use super::trust::checks;
 use super::{AlternativeName, Certificate, CertificateFlaw, KeyUsage, PkiError, Role};
-use crate::model::{Language, SecurityPolicy, offered_key_lengths};
+use crate::model::{SecurityPolicy, offered_key_lengths};
 
 /// What a certificate is to be compared with.
 #[derive(Debug, Clone, Copy)]
@@ -43,11 +43,6 @@ impl Finding {
     /// The OPC UA status a client would give.
     pub const fn status(&self) -> &'static str {
         self.flaw.status(false).as_str()
-    }
-
-    /// What is wrong and what to do.
-    pub fn explain(&self, language: Language) -> String {
-        self.flaw.explain(language)
     }
 }
 
@@ -330,7 +325,7 @@ mod tests {
     }
 
     #[test]
-    fn every_finding_has_a_status_and_two_texts_and_errors_come_first() {
+    fn every_finding_has_a_status_and_errors_come_first() {
         let findings = found(|p| {
             p.subject_alt_names.clear();
             p.key_usages = vec![KeyUsagePurpose::KeyCertSign];
@@ -341,7 +336,6 @@ mod tests {
         assert_eq!(findings[0].severity, Severity::Error);
         for finding in findings {
             assert!(finding.status().starts_with("BadCertificate"));
-            assert_ne!(finding.explain(Language::En), finding.explain(Language::Zh));
         }
     }
 

@@ -1,8 +1,8 @@
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
-use super::{RefusalCause, explain_refusal};
-use crate::model::{Base64Bytes, CertificateStatus, CertificateSummary, Language};
+use super::RefusalCause;
+use crate::model::{Base64Bytes, CertificateStatus, CertificateSummary};
 
 /// A client certificate that a controller refused and keeps, so that a person can decide about it (manual 2.7.3). There is
 /// one entry for each certificate.
@@ -30,11 +30,4 @@ pub struct RejectedClient {
     pub last_seen: DateTime<Utc>,
     /// The number of refusals. 0 when the certificate was moved here from another list and was not refused since.
     pub count: u64,
-}
-
-impl RejectedClient {
-    /// What the refusal means and what to do about it.
-    pub fn explain(&self, language: Language) -> String {
-        explain_refusal(self.status, self.cause.as_ref(), language)
-    }
 }

@@ -1,25 +1,129 @@
 //! What is said of reports about connecting as a client.
 
-use crate::jobs::Counts;
+use super::explain_refusal;
+use crate::jobs::{Counts, NotTried, Refusal, Told, Verdict, VerifyFinding};
 use crate::model::Language;
+use crate::session::opcua_client::TokenKind;
 
-/// What came of everything that is offered.
-pub fn verify_counts(language: Language, counts: Counts) -> String {
-    let Counts { work, fail, not_tried } = counts;
-    match language {
-        Language::En => format!("{work} work, {fail} do not, {not_tried} not tried"),
-        Language::Zh => format!("{work} 个正常，{fail} 个失败，{not_tried} 个未尝试"),
+in_every_language! {
+    verify:
+    /// What came of everything that is offered.
+    fn verify_counts(counts: Counts) -> String;
+    /// Where a sentence holds, when there are many places.
+    fn endpoints_named(names: &[String]) -> String;
+}
+
+impl Verdict {
+    /// One sentence: what works, or why not and what helps.
+    pub fn explain(&self, language: Language) -> String {
+        match self {
+            Self::Works => super::TextKey::VerdictWorks.text(language).to_owned(),
+            Self::Fails(refusal) => refusal.explain(language),
+            Self::NotTried(why) => why.explain(language).to_owned(),
+        }
     }
 }
 
-/// Where a sentence holds, when there are many places.
-pub fn endpoints_named(language: Language, names: &[String]) -> String {
-    match (names, language) {
-        (names, Language::En) if names.len() > MOST => format!("{} endpoints", names.len()),
-        (names, Language::Zh) if names.len() > MOST => format!("{} 个端点", names.len()),
-        (names, Language::En) => names.join(", "),
-        (names, Language::Zh) => names.join("、"),
+impl Told {
+    pub fn explain(&self, language: Language) -> String {
+        explain_refusal(self.status, self.cause.as_ref(), language)
     }
 }
 
-const MOST: usize = 4;
+impl Refusal {
+    pub fn explain(&self, language: Language) -> String {
+        in_language!(language, verify::refusal(self))
+    }
+}
+
+impl NotTried {
+    pub const fn explain(self, language: Language) -> &'static str {
+        in_language!(language, verify::not_tried(self))
+    }
+}
+
+impl VerifyFinding {
+    /// What it is, and what helps.
+    pub fn explain(&self, language: Language) -> String {
+        in_language!(language, verify::verify_finding(self))
+    }
+}
+
+impl TokenKind {
+    pub const fn text(self, language: Language) -> &'static str {
+        in_language!(language, verify::token_kind(self))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::model::{CertificateStatus, ErrorCode, SecurityPolicy, ServerStatus, UserTokenPolicy};
+    use chrono::TimeDelta;
+
+    fn told(status: CertificateStatus) -> Told {
+        Told { status, cause: None, reason: "why".into() }
+    }
+
+    #[test]
+    fn everything_is_said_in_both_languages() {
+        let refusals = [
+            Refusal::NotReachable("why".into()),
+            Refusal::TimedOut,
+            Refusal::NotOpcUa("why".into()),
+            Refusal::Closed,
+            Refusal::OwnCertificate(None),
+            Refusal::OwnCertificate(Some(told(CertificateStatus::Untrusted))),
+            Refusal::OwnCertificate(Some(told(CertificateStatus::Revoked))),
+            Refusal::OtherCertificate,
+            Refusal::Password,
+            Refusal::Anonymous,
+            Refusal::Busy("why".into()),
+            Refusal::State(3),
+            Refusal::Status { name: "Bad".into(), reason: String::new() },
+            Refusal::Status { name: "Bad".into(), reason: "why".into() },
+        ];
+        let findings = [
+            VerifyFinding::NotRunning { status: ServerStatus::Error, error: Some(ErrorCode::PortConflict) },
+            VerifyFinding::NotRunning { status: ServerStatus::Stop, error: None },
+            VerifyFinding::NoAnswer(Refusal::TimedOut),
+            VerifyFinding::NoEndpoints,
+            VerifyFinding::PolicyMissing(SecurityPolicy::Basic256),
+            VerifyFinding::PolicyNotTicked(SecurityPolicy::Basic256),
+            VerifyFinding::TokenMissing(UserTokenPolicy::Anonymous),
+            VerifyFinding::TokenNotTicked(UserTokenPolicy::UserName),
+            VerifyFinding::OtherAddress { url: "opc.tcp://x".into(), reachable: true },
+            VerifyFinding::OtherAddress { url: "opc.tcp://x".into(), reachable: false },
+            VerifyFinding::WeakPolicy(SecurityPolicy::None),
+            VerifyFinding::WeakPolicy(SecurityPolicy::Basic256),
+            VerifyFinding::NoUsers,
+            VerifyFinding::Clock(TimeDelta::days(-400)),
+        ];
+        let not_tried = [
+            NotTried::NoPassword,
+            NotTried::PasswordRefused,
+            NotTried::PasswordInTheClear,
+            NotTried::OtherToken,
+            NotTried::UnknownSecurity,
+            NotTried::OtherCertificate,
+            NotTried::Chain,
+        ];
+        let of = |language: Language| -> Vec<String> {
+            let said = refusals.iter().map(|refusal| refusal.explain(language));
+            let said = said.chain(findings.iter().map(|finding| finding.explain(language)));
+            said.chain(not_tried.iter().map(|why| why.explain(language).to_owned())).collect()
+        };
+        for (en, zh) in of(Language::En).into_iter().zip(of(Language::Zh)) {
+            assert!(en.is_ascii() && !en.ends_with('.') && en.len() > 10, "{en}");
+            assert!(!zh.is_ascii() && !zh.ends_with('。'), "{zh}");
+        }
+    }
+
+    #[test]
+    fn a_clock_is_told_in_words_a_person_uses() {
+        let said = |minutes| VerifyFinding::Clock(TimeDelta::minutes(minutes)).explain(Language::En);
+        assert!(said(-30).contains("30 minutes behind"));
+        assert!(said(180).contains("3 hours ahead"));
+        assert!(said(60 * 24 * 400).contains("400 days ahead"));
+    }
+}

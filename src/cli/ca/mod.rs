@@ -15,10 +15,11 @@ use serde_json::json;
 
 use super::output::json_path;
 use super::passwords::ca_passphrase;
-use super::{Ending, Settled, texts};
+use super::{Ending, Settled};
 use crate::jobs::SharedAuthority;
 use crate::model::{Problem, clock};
 use crate::pki::{REVOCATION_REASONS, RevocationReason};
+use crate::texts::cli as texts;
 use crate::workspace::authority::Authority;
 
 #[derive(Debug, Subcommand)]

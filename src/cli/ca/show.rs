@@ -5,9 +5,9 @@ use serde_json::{Value, json};
 
 use crate::cli::output::json_path;
 use crate::cli::table::table;
-use crate::cli::texts::phrases;
 use crate::cli::{Ending, Settled};
 use crate::model::{Language, Problem, clock};
+use crate::texts::TextKey;
 use crate::workspace::authority::{AuthorityOverview, IssuedCertificate, PublishedAuthority};
 
 pub fn run(settled: &Settled) -> Result<Ending, Problem> {
@@ -67,13 +67,13 @@ pub fn text(overview: &AuthorityOverview, language: Language) -> String {
         })
         .collect();
     let header = [
-        phrases::CA,
-        phrases::ISSUED_BY,
-        phrases::EXPIRY,
-        phrases::BITS,
-        phrases::REVOKED,
-        phrases::CRL_NUMBER,
-        phrases::NEXT_CRL_BY,
+        TextKey::HeadingCa,
+        TextKey::HeadingIssuedBy,
+        TextKey::HeadingExpiry,
+        TextKey::HeadingBits,
+        TextKey::HeadingRevoked,
+        TextKey::HeadingCrlNumber,
+        TextKey::HeadingNextCrlBy,
     ]
     .map(|heading| heading.text(language));
     let mut text = format!("{}\n\n{}", overview.folder.display(), table(&header, &authorities));
@@ -98,12 +98,12 @@ pub fn text(overview: &AuthorityOverview, language: Language) -> String {
             .collect();
         text.push('\n');
         let header = [
-            phrases::SERIAL,
-            phrases::ISSUED_TO,
-            phrases::PROFILE,
-            phrases::STATUS,
-            phrases::EXPIRY,
-            phrases::CONTROLLER,
+            TextKey::HeadingSerial,
+            TextKey::HeadingIssuedTo,
+            TextKey::HeadingProfile,
+            TextKey::HeadingStatus,
+            TextKey::HeadingExpiry,
+            TextKey::HeadingController,
         ]
         .map(|heading| heading.text(language));
         text.push_str(&table(&header, &rows));

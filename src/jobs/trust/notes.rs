@@ -1,10 +1,9 @@
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use chrono::{DateTime, SecondsFormat, Utc};
+use chrono::{DateTime, Utc};
 
 use super::{Target, TrustSnapshot};
-use crate::model::{ClientList, Language};
+use crate::model::ClientList;
 use crate::pki::{Certificate, CertificateFlaw, is_authority, never_accepted};
 
 /// What a person may want to think about before something goes into a list.
@@ -27,58 +26,6 @@ pub enum Note {
     Expired,
     /// Its validity has not begun.
     NotYetValid,
-}
-
-impl Note {
-    /// What a person reads: the end of a sentence.
-    pub fn text(&self, language: Language) -> Cow<'static, str> {
-        let (en, zh) = match self {
-            Self::NeverAccepted { authority, flaw } => return never(*authority, flaw, language).into(),
-            Self::NumberStartsAgain { number, date, before, date_before } => {
-                return starts_again((number, date), (before, date_before), language).into();
-            }
-            Self::TrustsAllItIssues => {
-                ("lets in every client with a certificate from it", "允许其签发的所有客户端连接")
-            }
-            Self::OnlyCompletesAChain => ("only completes the chain", "仅用于补全证书链"),
-            Self::CrlAmongCertificates => ("CRL among certificates", "证书中包含的 CRL"),
-            Self::ReplacesOlder => ("replaces the older one", "替换旧的 CRL"),
-            Self::Expired => ("expired", "已过期"),
-            Self::NotYetValid => ("not valid yet", "尚未生效"),
-        };
-        match language {
-            Language::En => en.into(),
-            Language::Zh => zh.into(),
-        }
-    }
-}
-
-fn starts_again(
-    (number, date): (&str, &DateTime<Utc>),
-    (before, date_before): (&str, &DateTime<Utc>),
-    language: Language,
-) -> String {
-    let text = |date: &DateTime<Utc>| date.to_rfc3339_opts(SecondsFormat::Secs, true);
-    let (date, date_before) = (text(date), text(date_before));
-    match language {
-        Language::En => format!(
-            "its number starts again: {number} of {date}, after {before} of {date_before}; ask the authority whether it was \
-             set up anew"
-        ),
-        Language::Zh => format!(
-            "编号重新开始：{date} 的编号为 {number}，此前 {date_before} 的编号为 {before}；请向颁发者确认是否已重新建立"
-        ),
-    }
-}
-
-fn never(authority: bool, flaw: &CertificateFlaw, language: Language) -> String {
-    let (reason, remedy) = (flaw.reason(language), flaw.remedy(language));
-    match (language, authority) {
-        (Language::En, false) => format!("no client is ever let in with it: {reason}; {remedy}"),
-        (Language::En, true) => format!("no client with a certificate from it is ever let in: {reason}; {remedy}"),
-        (Language::Zh, false) => format!("使用该证书的客户端永远无法连接：{reason}，{remedy}"),
-        (Language::Zh, true) => format!("持有其所签发证书的客户端永远无法连接：{reason}，{remedy}"),
-    }
 }
 
 /// What there is to think about before the certificate goes into the trusted or the issuers list.

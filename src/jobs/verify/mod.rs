@@ -3,7 +3,6 @@
 //! | file | what |
 //! |---|---|
 //! | `report` | [`VerifyReport`]: what came of it |
-//! | `texts` | the same in words |
 //! | `certificate` | how a client judges the server's certificate |
 //! | `trust` | [`TrustConfigurator`]: what helps most often |
 //! | `probe` | every endpoint with every token, and what a failure means |
@@ -11,7 +10,6 @@
 mod certificate;
 mod probe;
 mod report;
-mod texts;
 mod trust;
 
 use std::collections::HashSet;

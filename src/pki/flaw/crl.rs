@@ -1,10 +1,7 @@
-use std::fmt;
-
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
-use super::{CertificateFlaw, quoted};
-use crate::model::Language;
+use super::CertificateFlaw;
 use crate::pki::OutOfScope;
 
 /// Why a revocation list does not say whether a certificate was revoked.
@@ -77,12 +74,6 @@ pub enum CrlUnusable {
 }
 
 impl CrlFlaw {
-    /// What is wrong with the list of that authority and what to do.
-    pub fn explain(&self, authority: &str, language: Language) -> String {
-        let flaw = CertificateFlaw::RevocationUnknown { authority: quoted(authority), crl: self.clone() };
-        flaw.explain(language)
-    }
-
     /// The one to tell of two lists: the one that comes nearer to an answer, the first if none does.
     pub(in crate::pki) fn or_nearer(self, other: Self) -> Self {
         if other.rank() > self.rank() { other } else { self }
@@ -104,27 +95,5 @@ impl CrlFlaw {
             Self::Expired { .. } => 11,
             Self::SomeReasons => 12,
         }
-    }
-}
-
-impl CrlUnusable {
-    /// What is wrong, as the end of a sentence about the list.
-    pub fn reason(&self, language: Language) -> String {
-        match language {
-            Language::En => self.english(),
-            Language::Zh => self.chinese(),
-        }
-    }
-}
-
-impl fmt::Display for CrlUnusable {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.reason(Language::En))
-    }
-}
-
-impl fmt::Display for OutOfScope {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.english())
     }
 }

@@ -1,24 +1,14 @@
-//! What can be wrong with a certificate: values that decide the OPC UA status, the words and the remedy.
-//!
-//! | file | content |
-//! |---|---|
-//! | `english`, `chinese` | what is wrong and what to do, in these languages |
-//! | `crl` | [`CrlFlaw`]: what can be wrong with a revocation list |
-//! | `crl_english`, `crl_chinese` | its words in these languages |
+//! What can be wrong with a certificate, as values. They decide the OPC UA status; `texts` has the words and the remedy.
 
-mod chinese;
 mod crl;
-mod crl_chinese;
-mod crl_english;
-mod english;
 
 pub use crl::{CrlFlaw, CrlUnusable};
 
-use chrono::{DateTime, SecondsFormat, Utc};
+use chrono::{DateTime, Utc};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::{KeyUsage, RevocationReason, Role, name};
-use crate::model::{CertificateStatus as Status, Language};
+use crate::model::CertificateStatus as Status;
 
 /// One thing that is wrong with a certificate.
 ///
@@ -252,25 +242,9 @@ impl CertificateFlaw {
         }
     }
 
-    /// What is wrong, as the end of a sentence about the certificate: "its key is not an RSA key".
-    pub fn reason(&self, language: Language) -> String {
-        printable(match language {
-            Language::En => self.english(),
-            Language::Zh => self.chinese(),
-        })
-    }
-
-    /// What to do, as the end of a sentence: "make a new one".
-    pub fn remedy(&self, language: Language) -> String {
-        printable(match language {
-            Language::En => self.english_remedy(),
-            Language::Zh => self.chinese_remedy(),
-        })
-    }
-
-    /// What is wrong and what to do.
-    pub fn explain(&self, language: Language) -> String {
-        sentence(&self.reason(language), &self.remedy(language), language)
+    /// That the list of an authority does not say whether a certificate was revoked. The name is cut to 200 characters.
+    pub fn of_list(crl: CrlFlaw, authority: &str) -> Self {
+        Self::RevocationUnknown { authority: quoted(authority), crl }
     }
 }
 
@@ -289,46 +263,11 @@ impl RefusalCause {
         self.flaw.status(self.at_fault.is_some())
     }
 
-    /// What is wrong and what to do.
-    pub fn explain(&self, language: Language) -> String {
-        let reason = self.flaw.reason(language);
-        let reason = match (&self.at_fault, language) {
-            (None, _) => reason,
-            (Some(issuer), Language::En) => printable(format!("its issuer {issuer} is at fault: {reason}")),
-            (Some(issuer), Language::Zh) => printable(format!("问题在于其签发者 {issuer}：{reason}")),
-        };
-        sentence(&reason, &self.flaw.remedy(language), language)
-    }
-
     /// For serde: a cause that is not known, as a newer controller may send, is none.
     pub fn if_known<'de, D: Deserializer<'de>>(from: D) -> Result<Option<Self>, D::Error> {
         let value = serde_json::Value::deserialize(from)?;
         Ok(serde_json::from_value(value).ok())
     }
-}
-
-/// What a refusal means and what to do: by its cause, or by its status where the cause is not told.
-pub fn explain_refusal(status: Status, cause: Option<&RefusalCause>, language: Language) -> String {
-    cause.map_or_else(|| status.explain(language).to_owned(), |cause| cause.explain(language))
-}
-
-fn sentence(reason: &str, remedy: &str, language: Language) -> String {
-    match language {
-        Language::En => format!("{}. {}.", capital(reason), capital(remedy)),
-        Language::Zh => format!("{reason}。{remedy}。"),
-    }
-}
-
-fn capital(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map(|first| first.to_uppercase().chain(chars).collect()).unwrap_or_default()
-}
-
-/// A cause may come from a controller: its texts are not to be trusted more than a certificate's. Longer than what is said
-/// of names that are [`quoted`], so that only what nothing here made is cut.
-fn printable(text: String) -> String {
-    const MOST: usize = 2500;
-    name::printable(&text).chars().take(MOST).collect()
 }
 
 /// A text of a certificate or a peer, made fit for a [`CertificateFlaw`].
@@ -339,14 +278,6 @@ pub(super) fn quoted(text: &str) -> String {
         quoted.push('…');
     }
     quoted
-}
-
-fn date(when: &DateTime<Utc>) -> String {
-    when.to_rfc3339_opts(SecondsFormat::Secs, true)
-}
-
-fn usages(usages: &[KeyUsage]) -> Vec<&'static str> {
-    usages.iter().map(|usage| usage.as_str()).collect()
 }
 
 #[cfg(test)]

@@ -37,6 +37,15 @@ pub enum TokenKind {
     Issued,
 }
 
+impl From<UserTokenPolicy> for TokenKind {
+    fn from(policy: UserTokenPolicy) -> Self {
+        match policy {
+            UserTokenPolicy::Anonymous => Self::Anonymous,
+            UserTokenPolicy::UserName => Self::UserName,
+        }
+    }
+}
+
 impl TokenKind {
     /// The policy of the basic settings that stands for it.
     pub const fn policy(self) -> Option<UserTokenPolicy> {

@@ -1,6 +1,6 @@
 use egui::{ComboBox, DragValue, Popup, PopupCloseBehavior, Response, RichText, ScrollArea, TextEdit, Ui};
 
-use crate::model::{COUNTRIES, Country, Language, Validity};
+use crate::model::{Country, Language, Validity};
 use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Model, SelfSignedForm};
 use crate::ui::theme::{self, palette};
@@ -93,17 +93,10 @@ fn complain(ui: &mut Ui, certificate: &SelfSignedForm, field: &str, model: &Mode
     }
 }
 
-fn name(country: &Country, language: Language) -> &'static str {
-    match language {
-        Language::En => country.en,
-        Language::Zh => country.zh,
-    }
-}
-
-/// A list to choose from that can be searched in both languages and by code.
+/// A list to choose from that can be searched in every language and by code.
 fn country(ui: &mut Ui, certificate: &mut SelfSignedForm, language: Language) -> Response {
     let chosen = match Country::from_code(certificate.country) {
-        Some(country) => format!("{} – {}", country.code, name(country, language)),
+        Some(country) => format!("{} – {}", country.code(), country.name(language)),
         None => T::CountryNone.text(language).to_owned(),
     };
     let list = ComboBox::from_id_salt("country")
@@ -126,12 +119,11 @@ fn country(ui: &mut Ui, certificate: &mut SelfSignedForm, language: Language) ->
                 if wanted.is_empty() {
                     choose(ui, "", T::CountryNone.text(language));
                 }
-                for country in COUNTRIES {
-                    let found = country.en.to_lowercase().contains(&wanted)
-                        || country.zh.contains(&wanted)
-                        || country.code.to_lowercase() == wanted;
-                    if found {
-                        choose(ui, country.code, &format!("{} – {}", country.code, name(country, language)));
+                for country in Country::ALL {
+                    let named = |language| country.name(language).to_lowercase().contains(&wanted);
+                    if Language::ALL.into_iter().any(named) || country.code().to_lowercase() == wanted {
+                        let label = format!("{} – {}", country.code(), country.name(language));
+                        choose(ui, country.code(), &label);
                     }
                 }
             });

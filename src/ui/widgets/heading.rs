@@ -12,7 +12,7 @@ pub fn sort_heading(ui: &mut Ui, title: T, ascending: Option<bool>, language: La
     let label = RichText::new(title.text(language)).size(theme::HEADER_TEXT).strong().color(color);
     let response = ui.add(Label::new(label).truncate().selectable(false).sense(Sense::click()));
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, texts::sort_by(language, title)));
-    let clicked = response.on_hover_text(texts::sorted_tip(language)).clicked();
+    let clicked = response.on_hover_text(T::SortedTip.text(language)).clicked();
     if let Some(ascending) = ascending {
         sort_arrow(ui, ascending, color);
     }

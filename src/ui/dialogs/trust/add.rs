@@ -152,7 +152,7 @@ fn plans(ui: &mut Ui, form: &AddTrustForm, model: &Model) {
                 FirmwareGeneration::Legacy => T::TrustOnLegacy,
             };
             if let Err(problem) = plan.check() {
-                let said = texts::on_firmware(language, firmware, &problem);
+                let said = texts::on_firmware(language, firmware, problem.code);
                 ui.add(Label::new(RichText::new(said).color(palette.warning)).wrap());
             }
         }
@@ -221,7 +221,7 @@ fn one(ui: &mut Ui, item: &Planned, model: &Model) {
     let (to, color, notes) = match &item.fate {
         Fate::Goes { to, notes } => {
             let notes: Vec<_> = notes.iter().map(|note| note.text(language)).collect();
-            (texts::pane(PaneKind::of(*to)), palette.ok, notes)
+            (PaneKind::of(*to).title(), palette.ok, notes)
         }
         Fate::Skipped(reason) => {
             (T::TrustNothing, palette.off, vec![texts::skipped_thing(*reason).text(language).into()])

@@ -19,7 +19,7 @@ pub fn show(ui: &Ui, asked: &DeleteTrust, model: &Model) -> Answer {
     dialog(ui, "delete trust", &title, theme::DIALOG, buttons, |ui| {
         note(ui, palette(ui).warning, |ui| drop(ui.add(Label::new(text(remark)).wrap())));
         ui.add_space(theme::SPACE);
-        ui.label(egui::RichText::new(text(texts::pane(asked.from))).size(theme::SMALL_TEXT).color(palette(ui).weak));
+        ui.label(egui::RichText::new(text(asked.from.title())).size(theme::SMALL_TEXT).color(palette(ui).weak));
         list(ui, "what", asked.what.len(), 8, |ui, index| {
             ui.add(Label::new(&asked.what[index].1).truncate());
         });

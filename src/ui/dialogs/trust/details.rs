@@ -98,8 +98,8 @@ fn chain(ui: &mut Ui, nodes: &[ChainNode], model: &Model) {
                     } else {
                         ui.painter().circle_filled(rect.center(), 4.0, color);
                     }
-                    let states = node.states.iter().map(|state| texts::chain_state(*state).text(language));
-                    let list = node.list.map(|list| texts::pane(list).text(language));
+                    let states = node.states.iter().map(|state| state.text_key().text(language));
+                    let list = node.list.map(|list| list.title().text(language));
                     let words = list.into_iter().chain(states).collect::<Vec<_>>().join(", ");
                     let name = RichText::new(&node.name).strong();
                     let name = if missing { name.color(palette.error) } else { name };

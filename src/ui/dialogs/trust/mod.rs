@@ -105,7 +105,7 @@ fn remarks(ui: &mut Ui, form: &TrustForm, model: &Model) {
     if let Some(done) = &form.done {
         let color = if form.cut.is_empty() { palette.ok } else { palette.warning };
         note(ui, color, |ui| {
-            let said = texts::trust_done(language, done);
+            let said = done.text(language);
             ui.add(Label::new(RichText::new(said).strong()).wrap());
             cut(ui, &form.cut, model);
         });
@@ -137,11 +137,14 @@ pub(super) fn cut(ui: &mut Ui, clients: &[crate::protocol::CutClient], model: &M
     }
     ui.label(RichText::new(T::TrustCutTitle.text(language)).size(theme::SMALL_TEXT).strong());
     for client in clients.iter().take(MOST_CUT) {
-        let said = texts::cut(language, client);
+        let said = texts::cut(language, &client.issued_to, &client.address, client.status);
         ui.add(Label::new(RichText::new(&said).size(theme::SMALL_TEXT)).truncate()).on_hover_text(said);
     }
     if clients.len() > MOST_CUT {
-        let rest: Vec<String> = clients[MOST_CUT..].iter().map(|client| texts::cut(language, client)).collect();
+        let rest: Vec<String> = clients[MOST_CUT..]
+            .iter()
+            .map(|client| texts::cut(language, &client.issued_to, &client.address, client.status))
+            .collect();
         let more = texts::and_more(language, rest.len());
         ui.label(RichText::new(more).size(theme::SMALL_TEXT)).on_hover_text(rest.join("\n"));
     }

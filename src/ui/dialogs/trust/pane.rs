@@ -65,7 +65,7 @@ fn head(ui: &mut Ui, form: &mut TrustForm, index: usize, alone: bool, model: &Mo
 
 fn title(ui: &mut Ui, pane: &Pane, model: &Model) {
     let (language, palette) = (model.language, palette(ui));
-    ui.label(RichText::new(texts::pane(pane.kind).text(language)).strong());
+    ui.label(RichText::new(pane.kind.title().text(language)).strong());
     if pane.new_ones() > 0 {
         chip(ui, &texts::new_clients(language, pane.new_ones()), palette.warning);
     }
@@ -91,12 +91,12 @@ fn fullness(pane: &Pane, model: &Model) -> String {
 fn tabs(ui: &mut Ui, form: &mut TrustForm, model: &Model) {
     for index in 0..form.panes.len() {
         let pane = &form.panes[index];
-        let mut said = format!("{}  {}", texts::pane(pane.kind).text(model.language), fullness(pane, model));
+        let mut said = format!("{}  {}", pane.kind.title().text(model.language), fullness(pane, model));
         if pane.new_ones() > 0 {
             said = format!("{said} ({})", texts::new_clients(model.language, pane.new_ones()));
         }
         let selected = form.focus == index;
-        let name = texts::pane(pane.kind).text(model.language);
+        let name = pane.kind.title().text(model.language);
         let text = RichText::new(said.trim_end());
         let button = Button::selectable(selected, if selected { text.strong() } else { text });
         if ui.add(button).accessible_name(name).clicked() {
@@ -111,7 +111,7 @@ fn buttons(ui: &mut Ui, form: &TrustForm, index: usize, model: &Model, messages:
     let pane = &form.panes[index];
     let busy = (!form.is_ready()).then_some(T::TrustBusy);
     let nothing = (pane.ticked_count() == 0 && pane.cursor().is_none()).then_some(T::TrustChoose);
-    let name = text(texts::pane(pane.kind));
+    let name = text(pane.kind.title());
     let mut button = |ui: &mut Ui, label: T, why: Option<T>, tip: Option<T>, action: TrustAction| {
         let response = ui.add_enabled(why.is_none(), Button::new(text(label)).min_size(vec2(0.0, theme::DENSE_HEIGHT)));
         let response = response.accessible_name(format!("{}: {}", name, text(label)));
@@ -142,7 +142,7 @@ fn empty(ui: &mut Ui, form: &TrustForm, index: usize, height: f32, model: &Model
     let key = match pane.kind {
         _ if !pane.is_empty() => T::TrustNothingFound,
         PaneKind::Issuers if !form.has_issuers() => T::TrustIssuersLegacy,
-        kind => texts::pane_empty(kind),
+        kind => kind.empty_text(),
     };
     let weak = palette(ui).weak;
     ui.add_space((height * 0.2).max(0.0));
@@ -197,7 +197,7 @@ fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &M
                     header.col(|ui| {
                         beyond = ui.max_rect().left() > ui.clip_rect().right();
                         let ascending = (pane.sort.0 == *column).then_some(pane.sort.1);
-                        if sort_heading(ui, texts::trust_column(*column), ascending, model.language) {
+                        if sort_heading(ui, column.heading(), ascending, model.language) {
                             pane.sort_by(*column);
                         }
                     });
@@ -232,7 +232,7 @@ fn tick_all(ui: &mut Ui, pane: &mut Pane, model: &Model) {
     ui.add_space(10.0);
     let mut all = pane.all_shown_ticked();
     let some = pane.ticked_count() > pane.ticked_hidden() && !all;
-    let name = format!("{}: {}", texts::pane(pane.kind).text(model.language), T::TickAll.text(model.language));
+    let name = format!("{}: {}", pane.kind.title().text(model.language), T::TickAll.text(model.language));
     let response = ui.add(Checkbox::without_text(&mut all).indeterminate(some)).accessible_name(name);
     if response.clicked() {
         pane.tick_shown(all);

@@ -4,9 +4,10 @@ use chrono::{DateTime, Duration, Utc};
 
 use super::TrustColumn;
 use crate::model::{CertificateStatus, CertificateSummary, Language};
-use crate::pki::{CrlHealth, RefusalCause, explain_refusal};
+use crate::pki::{CrlHealth, RefusalCause};
 use crate::protocol::{ListedCertificate, ListedCrl, RejectedClient};
 use crate::texts::Zone;
+use crate::texts::explain_refusal;
 use crate::ui::model::EXPIRES_SOON;
 
 /// A point in time, and how it is shown.

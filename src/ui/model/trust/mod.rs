@@ -19,6 +19,7 @@ mod entry;
 mod form;
 mod pane;
 mod task;
+mod texts;
 mod watch;
 
 pub use add::{AddFile, AddTrustForm, MAX_TRUST_FILES, ReadTrustFile};

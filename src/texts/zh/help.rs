@@ -1,82 +1,21 @@
-use clap::{Arg, ArgAction, Command};
+//! The help of the command line in Chinese.
 
-use crate::model::Language;
+use crate::texts::HelpTexts;
 
-/// The command line with its help in a language. English stands in the doc comments of the arguments.
-pub fn localised(command: Command, language: Language) -> Command {
-    match language {
-        Language::En => command,
-        Language::Zh => chinese(command, ""),
-    }
-}
-
-fn chinese(command: Command, path: &str) -> Command {
-    let command = match text_of(path) {
-        Some(about) => command.about(about).long_about(about),
-        None => command,
-    };
-    let names: Vec<String> = command.get_subcommands().map(|below| below.get_name().to_owned()).collect();
-    let help = Arg::new("help").short('h').long("help").action(ArgAction::Help);
-    let mut command = command.disable_help_flag(true).arg(help);
-    if path.is_empty() {
-        let version = Arg::new("version").short('V').long("version").action(ArgAction::Version);
-        command = command.disable_version_flag(true).arg(version);
-    }
-    let command = command
-        .subcommand_help_heading("命令")
-        .help_template(TEMPLATE)
-        .disable_help_subcommand(true)
-        .mut_args(|arg| argument(arg, path));
-    names.into_iter().fold(command, |command, name| {
-        let below = if path.is_empty() { name.clone() } else { format!("{path} {name}") };
-        command.mut_subcommand(name, |subcommand| chinese(subcommand, &below))
+pub const fn texts() -> Option<HelpTexts> {
+    Some(HelpTexts {
+        commands_heading: "命令",
+        arguments_heading: "参数",
+        options_heading: "选项",
+        usage_heading: "用法：",
+        possible_values: " [可选值：{}]",
+        default_value: " [默认：{}]",
+        environment_variable: " [环境变量：{}]",
+        list_separator: "、",
+        commands: COMMANDS,
+        arguments: ARGUMENTS,
     })
 }
-
-fn argument(arg: Arg, path: &str) -> Arg {
-    let heading = if arg.is_positional() { "参数" } else { "选项" };
-    let text = help_of(path, arg.get_id().as_str()).map(|text| format!("{text}{}", choices(&arg)));
-    let takes_values = arg.get_action().takes_values();
-    let arg = arg.help_heading(heading);
-    let Some(text) = text else { return arg };
-    // One text for -h and --help; clap's own remarks are English.
-    let arg = arg.help(text.clone()).long_help(text);
-    if takes_values { arg.hide_possible_values(true).hide_default_value(true).hide_env(true) } else { arg }
-}
-
-/// The values to choose from, the default and the environment variable, as clap would add them.
-fn choices(arg: &Arg) -> String {
-    if !arg.get_action().takes_values() {
-        return String::new();
-    }
-    let mut text = String::new();
-    let possible: Vec<String> = arg.get_possible_values().iter().map(|value| value.get_name().to_owned()).collect();
-    if !possible.is_empty() {
-        text.push_str(&format!(" [可选值：{}]", possible.join("、")));
-    }
-    let default: Vec<_> = arg.get_default_values().iter().map(|value| value.to_string_lossy()).collect();
-    if default.iter().any(|value| !value.is_empty()) {
-        text.push_str(&format!(" [默认：{}]", default.join("、")));
-    }
-    if let Some(variable) = arg.get_env() {
-        text.push_str(&format!(" [环境变量：{}]", variable.to_string_lossy()));
-    }
-    text
-}
-
-fn text_of(path: &str) -> Option<&'static str> {
-    COMMANDS.iter().find(|(command, _)| *command == path).map(|(_, text)| *text)
-}
-
-/// The text of an argument of this command, or else of the argument that several commands share.
-fn help_of(path: &str, id: &str) -> Option<&'static str> {
-    let of = |wanted: &str| {
-        ARGUMENTS.iter().find(|(command, argument, _)| *command == wanted && *argument == id).map(|(_, _, text)| *text)
-    };
-    of(path).or_else(|| of(""))
-}
-
-const TEMPLATE: &str = "{about-with-newline}\n用法：{usage}\n\n{all-args}{after-help}";
 
 /// Commands, by their path.
 const COMMANDS: &[(&str, &str)] = &[
@@ -332,66 +271,3 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     ("licences", "components", "要显示许可证文本的组件，all 表示全部 [默认：仅列表]"),
     ("completions", "shell", "shell 名称"),
 ];
-
-#[cfg(test)]
-mod tests {
-    use clap::CommandFactory as _;
-
-    use super::*;
-    use crate::cli::Cli;
-
-    /// Paths of all commands, and of each the ids of its own arguments.
-    fn all(command: &Command, path: &str, found: &mut Vec<(String, Vec<String>)>) {
-        let ids = command.get_arguments().map(|arg| arg.get_id().to_string()).collect();
-        found.push((path.to_owned(), ids));
-        for below in command.get_subcommands() {
-            let path =
-                if path.is_empty() { below.get_name().to_owned() } else { format!("{path} {}", below.get_name()) };
-            all(below, &path, found);
-        }
-    }
-
-    #[test]
-    fn every_command_and_argument_has_a_chinese_text_and_no_text_is_left_over() {
-        let mut found = Vec::new();
-        all(&Cli::command(), "", &mut found);
-        let missing_commands: Vec<_> = found.iter().filter(|(path, _)| text_of(path).is_none()).collect();
-        let missing_arguments: Vec<_> = found
-            .iter()
-            .flat_map(|(path, ids)| ids.iter().map(move |id| (path, id)))
-            .filter(|(path, id)| help_of(path, id).is_none())
-            .collect();
-        assert!(
-            missing_commands.is_empty() && missing_arguments.is_empty(),
-            "{missing_commands:?} {missing_arguments:?}"
-        );
-        for (path, _) in COMMANDS {
-            assert!(found.iter().any(|(known, _)| known == path), "no command is called {path:?}");
-        }
-        for (path, id, _) in ARGUMENTS.iter().filter(|(path, ..)| !path.is_empty()) {
-            let known = found.iter().any(|(command, ids)| command == path && ids.iter().any(|known| known == id));
-            assert!(known, "{path:?} has no argument {id:?}");
-        }
-    }
-
-    #[test]
-    fn the_help_is_chinese_and_english_by_choice() {
-        let help = |language, path: &[&str]| {
-            let mut command = localised(Cli::command(), language);
-            command.build();
-            let found = path.iter().fold(&mut command, |command, name| command.find_subcommand_mut(name).unwrap());
-            found.render_long_help().to_string()
-        };
-        let chinese = help(Language::Zh, &["cert", "self-signed"]);
-        for text in ["创建并安装自签名服务器证书", "用法：", "选项", "--country <CC>", "国家，ISO 3166-1", "显示帮助"]
-        {
-            assert!(chinese.contains(text), "no {text} in\n{chinese}");
-        }
-        for text in ["Options:", "Usage:", "Print help", "Country"] {
-            assert!(!chinese.contains(text), "{text} in\n{chinese}");
-        }
-        assert!(help(Language::En, &["cert", "self-signed"]).contains("Make and install a self-signed"));
-        let root = help(Language::Zh, &[]);
-        assert!(root.contains("命令") && root.contains("启动 OPC UA 服务器") && !root.contains("Commands:"), "{root}");
-    }
-}

@@ -1,0 +1,63 @@
+//! The cells of the tables that the command line prints.
+
+use crate::model::{CertificateType, Language, ServerStatus};
+use crate::texts::{self, TextKey};
+
+/// One cell of a table: a value as it is, or a word in the reader's language.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Cell {
+    Value(String),
+    Word(TextKey),
+    /// A word, then a value.
+    Both(TextKey, String),
+}
+
+impl Cell {
+    /// The same with this behind it.
+    pub fn followed_by(self, value: String) -> Self {
+        match self {
+            Self::Value(text) => Self::Value(text + &value),
+            Self::Word(word) => Self::Both(word, value),
+            Self::Both(word, text) => Self::Both(word, text + &value),
+        }
+    }
+
+    pub fn text(&self, language: Language) -> String {
+        match self {
+            Self::Value(value) => value.clone(),
+            Self::Word(word) => word.text(language).to_owned(),
+            Self::Both(word, value) => format!("{}{value}", word.text(language)),
+        }
+    }
+}
+
+impl From<String> for Cell {
+    fn from(value: String) -> Self {
+        Self::Value(value)
+    }
+}
+
+impl From<TextKey> for Cell {
+    fn from(word: TextKey) -> Self {
+        Self::Word(word)
+    }
+}
+
+impl From<ServerStatus> for Cell {
+    fn from(status: ServerStatus) -> Self {
+        Self::Word(texts::status(status))
+    }
+}
+
+impl From<CertificateType> for Cell {
+    fn from(kind: CertificateType) -> Self {
+        Self::Word(texts::certificate_type(kind))
+    }
+}
+
+/// Yes or no.
+impl From<bool> for Cell {
+    fn from(yes: bool) -> Self {
+        Self::Word(if yes { TextKey::Yes } else { TextKey::No })
+    }
+}

@@ -1,0 +1,39 @@
+use crate::model::Language;
+
+/// The help of the command line in a language.
+#[derive(Debug, Clone, Copy)]
+pub struct HelpTexts {
+    pub commands_heading: &'static str,
+    pub arguments_heading: &'static str,
+    pub options_heading: &'static str,
+    /// With what stands between it and the usage.
+    pub usage_heading: &'static str,
+    /// What is added to an argument's text; `{}` stands for the values.
+    pub possible_values: &'static str,
+    pub default_value: &'static str,
+    pub environment_variable: &'static str,
+    pub list_separator: &'static str,
+    /// Path of a command, such as `cert export`, and its text. The program itself has the empty path.
+    pub commands: &'static [(&'static str, &'static str)],
+    /// Path of a command, id of an argument, text. Those with the empty path are shared by several commands.
+    pub arguments: &'static [(&'static str, &'static str, &'static str)],
+}
+
+/// `None`: clap's own words and the doc comments of the arguments, which are English.
+pub const fn help(language: Language) -> Option<HelpTexts> {
+    in_language!(language, help::texts())
+}
+
+impl HelpTexts {
+    pub fn of_command(&self, path: &str) -> Option<&'static str> {
+        self.commands.iter().find(|(command, _)| *command == path).map(|(_, text)| *text)
+    }
+
+    /// The text of an argument of this command, or else of the argument that several commands share.
+    pub fn of_argument(&self, path: &str, id: &str) -> Option<&'static str> {
+        let of = |wanted: &str| {
+            self.arguments.iter().find(|(command, argument, _)| *command == wanted && *argument == id).map(|row| row.2)
+        };
+        of(path).or_else(|| of(""))
+    }
+}

@@ -1,0 +1,29 @@
+use chrono::{DateTime, Datelike as _, FixedOffset, Local, Offset as _, Utc};
+
+/// Where times are shown as of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Zone {
+    /// This computer's time zone.
+    #[default]
+    Local,
+    Fixed(FixedOffset),
+}
+
+impl Zone {
+    pub fn date(self, at: DateTime<Utc>) -> String {
+        self.format(at, "%Y-%m-%d")
+    }
+
+    pub fn date_time(self, at: DateTime<Utc>) -> String {
+        self.format(at, "%Y-%m-%d %H:%M")
+    }
+
+    fn format(self, at: DateTime<Utc>, pattern: &str) -> String {
+        // At the ends of what can be written, another zone has no such time.
+        let zone = if (0..=9999).contains(&at.year()) { self } else { Self::Fixed(Utc.fix()) };
+        match zone {
+            Self::Local => at.with_timezone(&Local).format(pattern).to_string(),
+            Self::Fixed(offset) => at.with_timezone(&offset).format(pattern).to_string(),
+        }
+    }
+}
