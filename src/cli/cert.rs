@@ -252,7 +252,7 @@ pub const IMPORTED: Presentation = Presentation {
                 summary.issued_by.clone().into(),
                 summary.not_after.format("%Y-%m-%d").to_string().into(),
                 summary.thumbprint.clone().into(),
-                findings.iter().map(Finding::status).collect::<Vec<_>>().join(" ").into(),
+                findings.iter().map(|finding| finding.status().as_str()).collect::<Vec<_>>().join(" ").into(),
             ],
         }
     },
@@ -303,7 +303,7 @@ const RESTORED: Presentation = Presentation {
                 cell(|summary| summary.issued_to.clone()),
                 cell(|summary| summary.not_after.format("%Y-%m-%d").to_string()),
                 cell(|summary| summary.thumbprint.clone()),
-                findings.iter().map(Finding::status).collect::<Vec<_>>().join(" ").into(),
+                findings.iter().map(|finding| finding.status().as_str()).collect::<Vec<_>>().join(" ").into(),
             ],
         }
     },

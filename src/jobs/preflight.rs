@@ -3,7 +3,7 @@
 use super::Run;
 use super::self_signed::server_names;
 use crate::model::{ControllerInfo, ErrorCode, Language, Problem};
-use crate::pki::{Certificate, CertificateFlaw, Expected, Finding, PkiError, Severity, preflight};
+use crate::pki::{Certificate, CertificateFlaw, Expected, Finding, PkiError, Severity, check_import};
 
 /// Compares a certificate with the controller it is for. Reads the controller's settings.
 pub(super) async fn examine(
@@ -12,11 +12,11 @@ pub(super) async fn examine(
     certificate: &Certificate,
 ) -> Result<Vec<Finding>, Problem> {
     let policies = run.session.settings().await?.value.security_policies;
-    let names = server_names(info, run.controller);
-    let hosts: Vec<String> = names.ips.iter().map(ToString::to_string).chain(names.dns).collect();
-    let expected =
-        Expected { application_uri: &names.application_uri, hosts: &hosts, policies: &policies, now: info.clock };
-    Ok(preflight(certificate, &expected))
+    let application_uri = server_names(info, run.controller).application_uri;
+    // The name that this computer uses, and that `verify` compares with the certificate.
+    let hosts = [run.controller.address.host().to_owned()];
+    let expected = Expected { application_uri: &application_uri, hosts: &hosts, policies: &policies, now: info.clock };
+    Ok(check_import(certificate, &expected))
 }
 
 /// Refuses what clients would refuse, and what they may complain about unless that is accepted. An expired certificate

@@ -9,7 +9,7 @@ use x509_parser::prelude::{FromDer, X509Certificate};
 use super::facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, Facts, KeyUsage};
 use super::parts::{Part, parts};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
-use super::signature::{PublicKey, Verdict};
+use super::signature::{PublicKey, SignatureCheck};
 use super::{Bundle, FileContent, PkiError, Wanted, tlv};
 use crate::model::CertificateSummary;
 
@@ -99,9 +99,9 @@ impl Certificate {
         self.facts.extensions.application_uri().map(str::to_owned)
     }
 
-    /// Whether subject and issuer have the same name. The signature is not looked at.
+    /// Whether subject and issuer have the same name, compared as RFC 5280 §7.1 says. The signature is not verified.
     pub fn is_self_signed(&self) -> bool {
-        self.facts.names_equal
+        self.facts.subject_folded == self.facts.issuer_folded
     }
 
     /// The subject's whole name, without control characters.
@@ -173,11 +173,11 @@ impl Certificate {
 
     /// Whether its signature was made with the key of `issuer`. Names, dates and usages are not looked at.
     pub fn verify_signed_by(&self, issuer: &Self) -> bool {
-        self.signature_by(issuer) == Verdict::Right
+        self.signature_by(issuer) == SignatureCheck::Valid
     }
 
     /// As [`Certificate::verify_signed_by`], and why nothing can be said about a signature.
-    pub(super) fn signature_by(&self, issuer: &Self) -> Verdict {
+    pub(super) fn signature_by(&self, issuer: &Self) -> SignatureCheck {
         let facts = &self.facts;
         facts.signature_algorithm.verify(&issuer.facts.public_key, &self.der[facts.signed.clone()], &facts.signature)
     }

@@ -14,7 +14,7 @@ use super::certificate::check_size;
 use super::distribution_point::{OutOfScope, Reasons, Scope};
 use super::facts::{date, range_within, significant};
 use super::flaw::quoted;
-use super::signature::{SignatureAlgorithm, Verdict};
+use super::signature::{SignatureAlgorithm, SignatureCheck};
 use super::{Certificate, CrlUnusable, PkiError, name, pem, tlv};
 use crate::model::CrlSummary;
 
@@ -43,7 +43,7 @@ struct Facts {
     this_update: DateTime<Utc>,
     next_update: Option<DateTime<Utc>>,
     /// Sorted by serial number.
-    entries: Vec<Entry>,
+    entries: Vec<RevokedEntry>,
     unusable: Option<CrlUnusable>,
     scope: Scope,
     signature_algorithm: SignatureAlgorithm,
@@ -53,7 +53,7 @@ struct Facts {
 
 /// Small, because a list may have a hundred thousand of them: the serial number itself stays in the DER.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Entry {
+struct RevokedEntry {
     start: u32,
     length: u32,
     date: i64,
@@ -267,10 +267,10 @@ impl Crl {
     /// Whether its signature was made with the key of `issuer`. Names, dates and usages are not looked at. Reads the
     /// whole list.
     pub fn verify_signed_by(&self, issuer: &Certificate) -> bool {
-        self.signature_by(issuer) == Verdict::Right
+        self.signature_by(issuer) == SignatureCheck::Valid
     }
 
-    pub(super) fn signature_by(&self, issuer: &Certificate) -> Verdict {
+    pub(super) fn signature_by(&self, issuer: &Certificate) -> SignatureCheck {
         let facts = &self.facts;
         facts.signature_algorithm.verify(&issuer.facts().public_key, &self.der[facts.signed.clone()], &facts.signature)
     }
@@ -296,7 +296,7 @@ impl fmt::Debug for Crl {
     }
 }
 
-impl Entry {
+impl RevokedEntry {
     fn serial<'a>(&self, der: &'a [u8]) -> &'a [u8] {
         let start = self.start as usize;
         &der[start..start + self.length as usize]
@@ -393,7 +393,7 @@ impl Facts {
         }
         let serial = significant(entry.raw_serial());
         let at = range_within(der, serial).ok_or(damaged.clone())?;
-        self.entries.push(Entry {
+        self.entries.push(RevokedEntry {
             start: u32::try_from(at.start).map_err(|_| damaged.clone())?,
             length: u32::try_from(at.len()).map_err(|_| damaged.clone())?,
             date: date(entry.revocation_date).map_err(|_| damaged)?.timestamp(),

@@ -10,7 +10,7 @@ use super::certificate::check_size;
 use super::parts::{Part, parts};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
 use super::self_signed::{alternative_names, distinguished_name};
-use super::signature::{PublicKey, SignatureAlgorithm, Verdict};
+use super::signature::{PublicKey, SignatureAlgorithm, SignatureCheck};
 use super::{Certificate, FileContent, MAX_CERTIFICATE_BYTES, PkiError, PrivateKey, ServerNames, Wanted, name, tlv};
 use crate::model::CsrRequest;
 
@@ -36,12 +36,12 @@ impl Csr {
         let info = &parsed.certification_request_info;
         let key = PublicKey::of(&info.subject_pki).map_err(|_| PkiError::NotACsr)?;
         let algorithm = SignatureAlgorithm::of(&parsed.signature_algorithm);
-        let verdict = algorithm.verify(&key, info.raw, &parsed.signature_value.data);
+        let check = algorithm.verify(&key, info.raw, &parsed.signature_value.data);
         let PublicKey::Rsa { pkcs1: public_key, bits: key_bits, .. } = key else { return Err(PkiError::NotACsr) };
-        match verdict {
-            Verdict::Right => {}
-            Verdict::Wrong => return Err(PkiError::CsrSignature),
-            Verdict::CannotSay(_) => return Err(PkiError::NotACsr),
+        match check {
+            SignatureCheck::Valid => {}
+            SignatureCheck::Invalid => return Err(PkiError::CsrSignature),
+            SignatureCheck::CannotVerify(_) => return Err(PkiError::NotACsr),
         }
         Ok(Self { der: der.to_vec(), common_name: name::common_name(&info.subject), key_bits, public_key })
     }

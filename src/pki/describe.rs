@@ -13,9 +13,8 @@ use super::csr::requested_extensions;
 use super::facts::Extensions;
 use super::general_name::{NameConstraints, Subtree};
 use super::parts::{Part, parts};
-use super::signature::{Curve, PublicKey, SignatureAlgorithm, Verdict};
+use super::signature::{Curve, PublicKey, SignatureAlgorithm, SignatureCheck};
 use super::signers::{Signed, Signers};
-use super::trust::checks;
 use super::{
     AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, FileContent, KeyUsage,
     MAX_BUNDLE_BYTES, PkiError, RevocationReason, Wanted, key_file, name, pkcs12, tlv,
@@ -264,7 +263,7 @@ impl Certificate {
             signature_algorithm: facts.signature_algorithm.name().to_owned(),
             self_signed: signed.by_itself,
             signed_by: signed.by.map(Self::thumbprint_sha1),
-            not_understood: checks::structure_flaw(self).map(|flaw| flaw.reason(Language::En)),
+            not_understood: super::rules::structure_flaw(self).map(|flaw| flaw.reason(Language::En)),
             sha1: self.thumbprint_sha1(),
             sha256: hex::encode_upper(self.sha256()),
         }
@@ -339,7 +338,7 @@ fn request(der: &[u8]) -> Result<CsrDescription, PkiError> {
         extended_key_usages: extensions.extended_key_usages,
         key: key.describe(),
         signature_algorithm: algorithm.name().to_owned(),
-        signature_is_right: algorithm.verify(&key, info.raw, &parsed.signature_value.data) == Verdict::Right,
+        signature_is_right: algorithm.verify(&key, info.raw, &parsed.signature_value.data) == SignatureCheck::Valid,
         sha1: hex::encode_upper(Sha1::digest(der)),
     })
 }

@@ -138,7 +138,6 @@ pub(super) struct Facts {
     pub issuer_folded: Vec<u8>,
     /// The mailboxes among the attributes of the subject (RFC 5280 §4.1.2.6).
     pub subject_emails: Vec<GeneralName>,
-    pub names_equal: bool,
     pub version: u32,
     pub serial_number: String,
     /// Without the bytes that only keep its sign.
@@ -214,7 +213,6 @@ impl Facts {
             subject_folded: name::folded(parsed.subject()),
             issuer_folded: name::folded(parsed.issuer()),
             subject_emails: name::emails(parsed.subject()).into_iter().map(GeneralName::Email).collect(),
-            names_equal: parsed.subject().as_raw() == parsed.issuer().as_raw(),
             version: parsed.version().0.saturating_add(1),
             serial_number: serial_number(parsed.raw_serial()),
             serial: significant(parsed.raw_serial()).to_vec(),

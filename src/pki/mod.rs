@@ -28,8 +28,9 @@
 //! | `kind` | [`recognise`]: what a file is, by its content |
 //! | `ca` | [`CertificateAuthority`]: the small CA that does so |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
-//! | `preflight` | [`preflight`]: what OPC UA clients would say about a certificate |
 //! | `rejected_client` | [`RejectedClient`]: a client certificate that a controller refused |
+//! | `rules` | the rules for certificates, each in one function |
+//! | `server_certificate` | [`check_import`], [`check_server`]: what OPC UA clients say about the certificate of a server |
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
 //! | `client_identity` | [`client_identity`]: what this computer shows of itself to OPC UA servers |
 //! | `tlv` | just enough DER to see from outside what a file is |
@@ -71,12 +72,13 @@ mod parts;
 mod password_encryption;
 mod pem;
 mod pkcs12;
-mod preflight;
 mod rejected_client;
+mod rules;
 #[cfg(test)]
 mod samples;
 mod sealed;
 mod self_signed;
+mod server_certificate;
 mod signature;
 mod signers;
 mod tlv;
@@ -108,9 +110,10 @@ pub use key_file::{MAX_KEY_FILE_BYTES, read_key_file, read_pair};
 pub use kind::{PkiKind, recognise};
 pub use pem::MAX_CERTIFICATE_FILE_BYTES;
 pub use pkcs12::{MAX_PKCS12_BYTES, PKCS12_ITERATIONS, pkcs12_read, pkcs12_read_key, pkcs12_write, pkcs12_write_key};
-pub use preflight::{Expected, Finding, Severity, check_usable, preflight};
 pub use rejected_client::RejectedClient;
+pub use rules::{crl_date_flaw, validity_flaw};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealCost, SealError, Sealed, SealingKey, open, seal};
 pub use self_signed::{ServerNames, self_signed};
+pub use server_certificate::{Expected, Finding, ServerCheck, Severity, check_import, check_server, check_usable};
 pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};
 pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

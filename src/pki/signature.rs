@@ -63,13 +63,13 @@ pub(super) enum Curve {
     P521,
 }
 
-/// What is known about a signature.
+/// The result of verifying one signature.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Verdict {
-    Right,
-    Wrong,
-    /// The algorithm, or the key of the signer, is not one that can be, or should be, believed.
-    CannotSay(String),
+pub(super) enum SignatureCheck {
+    Valid,
+    Invalid,
+    /// The algorithm or the key of the signer is not supported, or too weak to prove anything; why, in English.
+    CannotVerify(String),
 }
 
 impl SignatureAlgorithm {
@@ -103,34 +103,36 @@ impl SignatureAlgorithm {
     }
 
     /// Whether `signature` over `message` was made with this algorithm and the private half of `key`.
-    pub fn verify(&self, key: &PublicKey, message: &[u8], signature: &[u8]) -> Verdict {
+    pub fn verify(&self, key: &PublicKey, message: &[u8], signature: &[u8]) -> SignatureCheck {
         let Some((scheme, hash)) = self.known else {
-            return Verdict::CannotSay(format!("the signature algorithm {} is not supported", self.name));
+            return SignatureCheck::CannotVerify(format!("the signature algorithm {} is not supported", self.name));
         };
         if hash == Hash::Md5 {
-            return Verdict::CannotSay(format!("anybody can forge a signature made with {}", self.name));
+            return SignatureCheck::CannotVerify(format!("anybody can forge a signature made with {}", self.name));
         }
         match (scheme, key) {
             (Scheme::RsaPkcs1 | Scheme::RsaPss, PublicKey::Rsa { pkcs1, bits, exponent_fits }) => {
                 let fewest = if scheme == Scheme::RsaPss { 2048 } else { 1024 };
                 if !(fewest..=8192).contains(bits) || !exponent_fits {
-                    return Verdict::CannotSay(format!("the signer's RSA key of {bits} bits cannot be believed"));
+                    return SignatureCheck::CannotVerify(format!(
+                        "the signer's RSA key of {bits} bits cannot be believed"
+                    ));
                 }
                 // Only the combination of a short key and a middle-sized hash is missing in AWS-LC.
                 if scheme == Scheme::RsaPkcs1 && hash == Hash::Sha384 && *bits < 2048 {
-                    return verdict(short_sha384(pkcs1, message, signature));
+                    return checked(short_sha384(pkcs1, message, signature));
                 }
-                verdict(accepts(rsa(scheme, hash), pkcs1, message, signature))
+                checked(accepts(rsa(scheme, hash), pkcs1, message, signature))
             }
             (Scheme::Ecdsa, PublicKey::Ec { curve: Some(curve), point, .. }) => match ecdsa(*curve, hash) {
-                Some(algorithm) => verdict(accepts(algorithm, point, message, signature)),
-                None => Verdict::CannotSay(format!("{} with this curve is not supported", self.name)),
+                Some(algorithm) => checked(accepts(algorithm, point, message, signature)),
+                None => SignatureCheck::CannotVerify(format!("{} with this curve is not supported", self.name)),
             },
             (Scheme::Ecdsa, PublicKey::Ec { curve: None, .. }) => {
-                Verdict::CannotSay("the elliptic curve of the signer is not supported".to_owned())
+                SignatureCheck::CannotVerify("the elliptic curve of the signer is not supported".to_owned())
             }
             // A signature of one kind cannot be that of a key of another kind.
-            _ => Verdict::Wrong,
+            _ => SignatureCheck::Invalid,
         }
     }
 }
@@ -197,8 +199,8 @@ impl Curve {
     }
 }
 
-fn verdict(right: bool) -> Verdict {
-    if right { Verdict::Right } else { Verdict::Wrong }
+fn checked(valid: bool) -> SignatureCheck {
+    if valid { SignatureCheck::Valid } else { SignatureCheck::Invalid }
 }
 
 fn accepts(algorithm: &'static dyn VerificationAlgorithm, key: &[u8], message: &[u8], signature: &[u8]) -> bool {

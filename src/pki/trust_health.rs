@@ -1,8 +1,8 @@
 use chrono::{DateTime, Utc};
 use serde::Serialize;
 
-use super::signature::Verdict;
-use super::{Certificate, Crl, CrlFlaw, KeyUsage, TrustLists, is_authority};
+use super::signature::SignatureCheck;
+use super::{Certificate, Crl, CrlFlaw, TrustLists, crl_date_flaw, is_authority, rules};
 
 /// What is wrong with CRLs and the authorities they are for, before a client is refused because of it.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
@@ -56,12 +56,7 @@ impl CrlHealth {
             CrlIssuer::Held { .. } | CrlIssuer::Missing => None,
         };
         let of_content = || crl.unusable().map(|because| CrlFlaw::Unusable { because });
-        let of_dates = || match (self.dates, crl.next_update()) {
-            (CrlDates::Current, _) => None,
-            (CrlDates::NotYetValid, _) => Some(CrlFlaw::NotYetValid { from: crl.this_update(), now }),
-            (CrlDates::Expired, Some(until)) => Some(CrlFlaw::Expired { until, now }),
-            (CrlDates::Expired, None) | (CrlDates::NoEnd, _) => Some(CrlFlaw::NoEnd),
-        };
+        let of_dates = || crl_date_flaw(crl, now);
         of_signature.or_else(of_content).or_else(of_dates)
     }
 
@@ -128,16 +123,16 @@ fn issuer(lists: &TrustLists, index: usize) -> CrlIssuer {
 
 /// Whether the certificate's key signed the list, and if so, whether it may.
 fn is_signed_by(lists: &TrustLists, index: usize, signer: &Certificate) -> Option<bool> {
-    let is_signed = lists.crls()[index].is_of(signer) && lists.crl_signature(index, signer) == Verdict::Right;
-    is_signed.then(|| signer.key_usages().is_none_or(|usages| usages.contains(&KeyUsage::CrlSign)))
+    let is_signed = lists.crls()[index].is_of(signer) && lists.crl_signature(index, signer) == SignatureCheck::Valid;
+    is_signed.then(|| rules::may_sign_lists(signer))
 }
 
 fn dates(crl: &Crl, now: DateTime<Utc>) -> CrlDates {
-    match crl.next_update() {
-        _ if crl.this_update() > now => CrlDates::NotYetValid,
-        None => CrlDates::NoEnd,
-        Some(next) if next.timestamp() < now.timestamp() => CrlDates::Expired,
-        Some(_) => CrlDates::Current,
+    match crl_date_flaw(crl, now) {
+        None => CrlDates::Current,
+        Some(CrlFlaw::NotYetValid { .. }) => CrlDates::NotYetValid,
+        Some(CrlFlaw::NoEnd) => CrlDates::NoEnd,
+        Some(_) => CrlDates::Expired,
     }
 }
 

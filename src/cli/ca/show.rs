@@ -7,6 +7,7 @@ use crate::cli::output::json_path;
 use crate::cli::table::table;
 use crate::cli::{Ending, Settled};
 use crate::model::{Language, Problem, clock};
+use crate::pki::{CrlFlaw, crl_date_flaw, validity_flaw};
 use crate::texts::TextKey;
 use crate::workspace::authority::{AuthorityOverview, IssuedCertificate, PublishedAuthority};
 
@@ -22,7 +23,7 @@ pub fn json(overview: &AuthorityOverview) -> Value {
         json!({
             "certificate": ca.summary,
             "file": json_path(&overview.folder.join(format!("{name}.der"))),
-            "valid": (ca.certificate.not_before()..=ca.certificate.not_after()).contains(&now),
+            "valid": validity_flaw(&ca.certificate, now).is_none(),
             "crl": crl(&overview.folder, name, ca),
         })
     };
@@ -38,7 +39,8 @@ pub fn json(overview: &AuthorityOverview) -> Value {
 pub fn crl(folder: &Path, name: &str, ca: &PublishedAuthority) -> Value {
     let mut json = json!(ca.crl.summary());
     json["file"] = json_path(&folder.join(format!("{name}.crl")));
-    json["expired"] = json!(ca.crl.next_update().is_none_or(|next| next < clock::now()));
+    let is_expired = matches!(crl_date_flaw(&ca.crl, clock::now()), Some(CrlFlaw::NoEnd | CrlFlaw::Expired { .. }));
+    json["expired"] = json!(is_expired);
     json
 }
 

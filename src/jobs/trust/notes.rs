@@ -4,7 +4,7 @@ use chrono::{DateTime, Utc};
 
 use super::{Target, TrustSnapshot};
 use crate::model::ClientList;
-use crate::pki::{Certificate, CertificateFlaw, is_authority, never_accepted};
+use crate::pki::{Certificate, CertificateFlaw, is_authority, never_accepted, validity_flaw};
 
 /// What a person may want to think about before something goes into a list.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -37,11 +37,10 @@ pub(super) fn of_certificate(certificate: &Certificate, authority: bool, to: Tar
         notes.push(Note::TrustsAllItIssues);
     }
     notes.extend(never.map(|flaw| Note::NeverAccepted { authority, flaw }));
-    if certificate.not_after() < now {
-        notes.push(Note::Expired);
-    } else if certificate.not_before() > now {
-        notes.push(Note::NotYetValid);
-    }
+    notes.extend(validity_flaw(certificate, now).map(|flaw| match flaw {
+        CertificateFlaw::NotYetValid { .. } => Note::NotYetValid,
+        _ => Note::Expired,
+    }));
     notes
 }
 

@@ -3,11 +3,9 @@
 //! | file | what |
 //! |---|---|
 //! | `report` | [`VerifyReport`]: what came of it |
-//! | `certificate` | how a client judges the server's certificate |
 //! | `trust` | [`TrustConfigurator`]: what helps most often |
 //! | `probe` | every endpoint with every token, and what a failure means |
 
-mod certificate;
 mod probe;
 mod report;
 mod trust;
@@ -26,10 +24,9 @@ pub use trust::TrustConfigurator;
 
 use super::{Confirmation, Operation, Outcome, Run, Step};
 use crate::model::{ControllerInfo, Credential, Problem, ServerSettings, ServerStatus, UserTokenPolicy, clock};
-use crate::pki::Certificate;
+use crate::pki::{Certificate, Expected, check_server};
 use crate::session::opcua_client::{Endpoint, OpcUaClient, Patience, Target, is_reachable};
 use crate::workspace::OwnIdentityFiles;
-use certificate::{Wanted, judge};
 use probe::{Probe, clock, compare, offered_policies, refusal_of};
 
 /// Connects as an OPC UA client through every endpoint a controller offers, with every token: [`Outcome::Verified`].
@@ -139,25 +136,19 @@ impl Verify {
         known: &Known,
         target: &Target,
     ) -> Result<Option<CertificateVerdict>, Problem> {
-        let shown = endpoints.iter().filter_map(|endpoint| Some((endpoint, endpoint.certificates().ok()?)));
-        let is_other = |(_, (leaf, _)): &(&Endpoint, (Certificate, _))| Some(leaf) != known.selected.as_ref();
-        let mut shown: Vec<_> = shown.collect();
-        shown.sort_by_key(|shown| !is_other(shown));
-        let Some((endpoint, (leaf, chain))) = shown.into_iter().next() else { return Ok(None) };
+        let shown = endpoints.iter().filter_map(|endpoint| Some((endpoint, endpoint.certificates().ok()?.0)));
+        let mut shown: Vec<(&Endpoint, Certificate)> = shown.collect();
+        shown.sort_by_key(|(_, leaf)| Some(leaf) == known.selected.as_ref());
+        let Some((endpoint, leaf)) = shown.into_iter().next() else { return Ok(None) };
         let policies = offered_policies(endpoints);
-        let (selected, host, clock) = (known.selected.clone(), target.host.clone(), known.info.clock);
+        let (selected, hosts, controllers_clock) = (known.selected.clone(), [target.host.clone()], known.info.clock);
         let application_uri = endpoint.application_uri.clone();
         let verdict = run
             .on_a_core(move || {
-                let wanted = Wanted {
-                    selected: selected.as_ref(),
-                    application_uri: &application_uri,
-                    host: &host,
-                    policies: &policies,
-                    now: clock::now(),
-                    controllers_clock: clock,
-                };
-                judge(&leaf, &chain, &wanted)
+                let now = clock::now();
+                let expected = Expected { application_uri: &application_uri, hosts: &hosts, policies: &policies, now };
+                let check = check_server(&leaf, selected.as_ref(), &expected, controllers_clock);
+                CertificateVerdict { summary: leaf.summary(), refused: check.refused, findings: check.findings }
             })
             .await?;
         Ok(Some(verdict))

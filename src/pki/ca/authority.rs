@@ -14,7 +14,7 @@ use x509_cert::{TbsCertificate, Version};
 use super::encode;
 use crate::model::{AuthorityRequest, KeyLength};
 use crate::pki::self_signed::{CLOCK_SKEW, random_serial_number};
-use crate::pki::{Certificate, PkiError, PrivateKey};
+use crate::pki::{Certificate, CertificateFlaw, PkiError, PrivateKey, validity_flaw};
 
 /// A CA: its certificate, and the key that signs.
 ///
@@ -104,13 +104,11 @@ impl CertificateAuthority {
 
     /// Whether it may sign now: neither expired, nor ahead of the clock.
     pub fn check_valid(&self, now: DateTime<Utc>) -> Result<(), PkiError> {
-        if now > self.certificate.not_after() {
-            return Err(PkiError::AuthorityExpired(self.certificate.not_after()));
+        match validity_flaw(&self.certificate, now) {
+            None => Ok(()),
+            Some(CertificateFlaw::NotYetValid { from, .. }) => Err(PkiError::AuthorityNotYetValid(from)),
+            Some(_) => Err(PkiError::AuthorityExpired(self.certificate.not_after())),
         }
-        if now < self.certificate.not_before() {
-            return Err(PkiError::AuthorityNotYetValid(self.certificate.not_before()));
-        }
-        Ok(())
     }
 
     /// From a day ago until `now` plus `validity`, but never beyond this CA's own dates.

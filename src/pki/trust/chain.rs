@@ -1,10 +1,10 @@
 use std::collections::HashMap;
 
-use super::checks::{self, Failure, Step};
+use super::checks::{self, Step, StepFailure};
 use super::revocation::{OtherKeys, Revocation};
 use super::{Presented, Rejection, TrustLists, TrustPolicy};
 use crate::pki::flaw::quoted;
-use crate::pki::signature::Verdict;
+use crate::pki::signature::SignatureCheck;
 use crate::pki::{Certificate, CertificateFlaw};
 
 /// How many certificates a chain may have, from the application's to the root.
@@ -18,7 +18,7 @@ const MAX_STEPS: usize = 256;
 #[derive(Debug, Default)]
 pub(super) struct Budget {
     /// Who signed what, by SHA-256 of both.
-    signatures: HashMap<([u8; 32], [u8; 32]), Verdict>,
+    signatures: HashMap<([u8; 32], [u8; 32]), SignatureCheck>,
     steps: usize,
     exhausted: bool,
 }
@@ -97,7 +97,7 @@ impl<'a, 'b> Search<'a, 'b> {
         }
         let depth = chain.len() - 1;
         let itself = if self.names_equal(last) { Some(self.signature(last, last)) } else { None };
-        if itself == Some(Verdict::Right) {
+        if itself == Some(SignatureCheck::Valid) {
             return self.check(chain);
         }
         if chain.len() == MAX_CHAIN {
@@ -110,7 +110,7 @@ impl<'a, 'b> Search<'a, 'b> {
                 continue;
             }
             match self.signature(last, issuer) {
-                Verdict::Right => {
+                SignatureCheck::Valid => {
                     has_issuer = true;
                     if let Err(rejection) = checks::structure(issuer, depth + 1) {
                         self.note(Step::Structure, rejection);
@@ -122,18 +122,18 @@ impl<'a, 'b> Search<'a, 'b> {
                     }
                     chain.pop();
                 }
-                Verdict::Wrong => {
+                SignatureCheck::Invalid => {
                     let issuer = quoted(issuer.subject());
                     self.fail(Step::Signature, last, depth, CertificateFlaw::SignatureWrong { issuer });
                 }
-                Verdict::CannotSay(why) => {
+                SignatureCheck::CannotVerify(why) => {
                     self.fail(Step::Policy, last, depth, CertificateFlaw::SignatureUnverifiable { why: quoted(&why) });
                 }
             }
         }
         match itself {
             _ if has_issuer => {}
-            Some(Verdict::CannotSay(why)) => {
+            Some(SignatureCheck::CannotVerify(why)) => {
                 self.fail(Step::Policy, last, depth, CertificateFlaw::SignatureUnverifiable { why: quoted(&why) });
             }
             Some(_) => self.fail(Step::Signature, last, depth, CertificateFlaw::SelfSignatureWrong),
@@ -154,7 +154,7 @@ impl<'a, 'b> Search<'a, 'b> {
         for namesake in self.named(certificate) {
             // Half of the signatures that may be checked are left for chains.
             let is_affordable = self.budget.signatures.len() < MAX_SIGNATURES / 2;
-            if is_affordable && self.signature(certificate, namesake) == Verdict::Right {
+            if is_affordable && self.signature(certificate, namesake) == SignatureCheck::Valid {
                 return CertificateFlaw::IssuerKeyIdentifier { issuer, wanted: quoted(&wanted) };
             }
             flaw = CertificateFlaw::IssuerKey { issuer: issuer.clone() };
@@ -183,7 +183,7 @@ impl<'a, 'b> Search<'a, 'b> {
         }
     }
 
-    fn revocation(&mut self, chain: &[&'a Certificate]) -> Result<(), Failure> {
+    fn revocation(&mut self, chain: &[&'a Certificate]) -> Result<(), StepFailure> {
         let other_keys = match self.purpose {
             Purpose::Authority => return Ok(()),
             Purpose::Application => OtherKeys::WithAGoodChain(&mut *self.budget),
@@ -219,18 +219,18 @@ impl<'a, 'b> Search<'a, 'b> {
         certificate.facts().subject_folded == certificate.facts().issuer_folded
     }
 
-    fn signature(&mut self, certificate: &Certificate, issuer: &Certificate) -> Verdict {
+    fn signature(&mut self, certificate: &Certificate, issuer: &Certificate) -> SignatureCheck {
         let key = (certificate.sha256(), issuer.sha256());
         if let Some(known) = self.budget.signatures.get(&key) {
             return known.clone();
         }
         if self.budget.signatures.len() >= MAX_SIGNATURES {
             self.budget.exhausted = true;
-            return Verdict::CannotSay("there are too many possible issuers to check them all".to_owned());
+            return SignatureCheck::CannotVerify("there are too many possible issuers to check them all".to_owned());
         }
-        let verdict = certificate.signature_by(issuer);
-        self.budget.signatures.insert(key, verdict.clone());
-        verdict
+        let check = certificate.signature_by(issuer);
+        self.budget.signatures.insert(key, check.clone());
+        check
     }
 
     fn fail(&mut self, step: Step, certificate: &Certificate, depth: usize, flaw: CertificateFlaw) {

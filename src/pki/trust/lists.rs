@@ -7,7 +7,7 @@ use parking_lot::Mutex;
 
 use super::chain::{Budget, Search};
 use super::{Presented, Rejection, Role, TrustPolicy};
-use crate::pki::signature::Verdict;
+use crate::pki::signature::SignatureCheck;
 use crate::pki::{Certificate, Crl};
 
 /// The certificates somebody trusts, the issuers that complete their chains, and revocation lists; parsed and indexed
@@ -26,7 +26,7 @@ struct Inner {
     /// By issuer, the newest first.
     crls_by_issuer: HashMap<Vec<u8>, Vec<usize>>,
     /// Who signed which list. Reading millions of bytes for every client would be slow.
-    crl_signatures: Mutex<HashMap<(usize, [u8; 32]), Verdict>>,
+    crl_signatures: Mutex<HashMap<(usize, [u8; 32]), SignatureCheck>>,
 }
 
 impl TrustLists {
@@ -122,18 +122,18 @@ impl TrustLists {
     }
 
     /// Whether the revocation list is signed with the key of that certificate.
-    pub(in crate::pki) fn crl_signature(&self, index: usize, signer: &Certificate) -> Verdict {
+    pub(in crate::pki) fn crl_signature(&self, index: usize, signer: &Certificate) -> SignatureCheck {
         let key = (index, signer.sha256());
         if let Some(known) = self.0.crl_signatures.lock().get(&key) {
             return known.clone();
         }
-        let verdict = self.0.crls[index].signature_by(signer);
+        let check = self.0.crls[index].signature_by(signer);
         let mut signatures = self.0.crl_signatures.lock();
         if signatures.len() >= MAX_REMEMBERED {
             signatures.clear();
         }
-        signatures.insert(key, verdict.clone());
-        verdict
+        signatures.insert(key, check.clone());
+        check
     }
 }
 

@@ -41,7 +41,7 @@
 //!   revoked all the same, indirect ones left aside.
 
 mod chain;
-pub(super) mod checks;
+mod checks;
 mod lists;
 mod names;
 mod never;

@@ -2,7 +2,7 @@ use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
 use crate::model::SecurityPolicy;
-use crate::pki::Certificate;
+use crate::pki::{Certificate, CertificateFlaw, KeyUsage};
 
 /// What a peer shows of itself, and what it is compared with.
 #[derive(Debug, Clone, Copy)]
@@ -50,32 +50,19 @@ pub struct TrustPolicy {
     pub allow_incomplete_chain: bool,
     /// The key usages, and extended key usages, of the application's certificate do not matter.
     pub allow_any_usage: bool,
+    /// An application's certificate is accepted without a key usage, and with one that lacks only nonRepudiation, which
+    /// many applications do not miss.
+    pub allow_partial_key_usage: bool,
 }
 
-/// What a security policy (OPC 10000-7) wants of keys and signatures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Strength {
-    /// Of the application's key.
-    pub min_rsa_bits: u16,
-    /// Of the application's key; those of CAs may be longer.
-    pub max_rsa_bits: u16,
-    pub sha1: bool,
-}
-
-impl Strength {
-    pub fn of(policy: Option<SecurityPolicy>) -> Self {
-        match policy {
-            Some(SecurityPolicy::Basic128Rsa15 | SecurityPolicy::Basic256) => {
-                Self { min_rsa_bits: 1024, max_rsa_bits: 2048, sha1: true }
-            }
-            // Nothing is signed under "None", and a certificate that is shown there is no reason to want less.
-            None
-            | Some(
-                SecurityPolicy::None
-                | SecurityPolicy::Basic256Sha256
-                | SecurityPolicy::Aes128Sha256RsaOaep
-                | SecurityPolicy::Aes256Sha256RsaPss,
-            ) => Self { min_rsa_bits: 2048, max_rsa_bits: 4096, sha1: false },
-        }
+impl TrustPolicy {
+    /// Whether a flaw of the application's key usage is excused.
+    pub(in crate::pki) fn excuses_key_usage(&self, flaw: &CertificateFlaw) -> bool {
+        let is_partial = match flaw {
+            CertificateFlaw::KeyUsageMissing => true,
+            CertificateFlaw::KeyUsageLacks { missing } => *missing == [KeyUsage::NonRepudiation],
+            _ => false,
+        };
+        self.allow_any_usage || self.allow_partial_key_usage && is_partial
     }
 }

@@ -1,11 +1,11 @@
 use super::chain::{Budget, Search};
-use super::checks::{Failure, Step, accepts_hash};
+use super::checks::{Step, StepFailure};
 use super::{Presented, Rejection, TrustLists, TrustPolicy};
 use crate::pki::crl::Revoked;
 use crate::pki::distribution_point::Reasons;
 use crate::pki::flaw::quoted;
-use crate::pki::signature::{PublicKey, Verdict};
-use crate::pki::{Certificate, CertificateFlaw, Crl, CrlFlaw, KeyUsage};
+use crate::pki::signature::{PublicKey, SignatureCheck};
+use crate::pki::{Certificate, CertificateFlaw, Crl, CrlFlaw, rules};
 
 /// How many other certificates of an issuer are tried as the signer of one list.
 const MAX_SIGNERS: usize = 8;
@@ -36,7 +36,7 @@ pub(super) struct Revocation<'a, 'b> {
 
 impl Revocation<'_, '_> {
     /// Of a chain that is good so far. A root is not asked about: no certificate stands above it.
-    pub fn check(mut self, chain: &[&Certificate]) -> Result<(), Failure> {
+    pub fn check(mut self, chain: &[&Certificate]) -> Result<(), StepFailure> {
         let mut unknown = None;
         for (depth, pair) in chain.windows(2).enumerate() {
             let (certificate, issuer) = (pair[0], pair[1]);
@@ -161,31 +161,32 @@ impl Revocation<'_, '_> {
             return Err(CrlFlaw::KeyNotHeld);
         }
         match self.lists.crl_signature(index, signer) {
-            Verdict::Right if signer.key_usages().is_some_and(|usages| !usages.contains(&KeyUsage::CrlSign)) => {
-                Err(CrlFlaw::MayNotSign)
-            }
-            Verdict::Right if accepts_hash(crl.algorithm().hash(), self.presented, self.policy) => Ok(()),
-            Verdict::Right => Err(CrlFlaw::WeakHash { algorithm: quoted(crl.signature_algorithm()) }),
-            Verdict::Wrong => Err(CrlFlaw::NotSigned),
-            Verdict::CannotSay(why) => Err(CrlFlaw::SignatureUnverifiable { why: quoted(&why) }),
+            SignatureCheck::Valid if !rules::may_sign_lists(signer) => Err(CrlFlaw::MayNotSign),
+            SignatureCheck::Valid => self.hash_is_strong(crl),
+            SignatureCheck::Invalid => Err(CrlFlaw::NotSigned),
+            SignatureCheck::CannotVerify(why) => Err(CrlFlaw::SignatureUnverifiable { why: quoted(&why) }),
+        }
+    }
+
+    fn hash_is_strong(&self, crl: &Crl) -> Result<(), CrlFlaw> {
+        let security_policy = self.presented.security_policy;
+        match rules::signature_hash_flaw(crl.algorithm(), security_policy, self.policy.allow_sha1) {
+            None => Ok(()),
+            Some(CertificateFlaw::SignatureUnverifiable { why }) => Err(CrlFlaw::SignatureUnverifiable { why }),
+            Some(_) => Err(CrlFlaw::WeakHash { algorithm: quoted(crl.signature_algorithm()) }),
         }
     }
 
     /// The reasons for which the list would name the certificate.
     fn covers(&self, crl: &Crl, certificate: &Certificate) -> Result<Reasons, CrlFlaw> {
-        let now = self.presented.now;
         if let Some(because) = crl.not_understood() {
             return Err(CrlFlaw::Unusable { because });
         }
         let reasons = crl.covers(certificate).map_err(|because| CrlFlaw::OutOfScope { because })?;
-        if now < crl.this_update() {
-            return Err(CrlFlaw::NotYetValid { from: crl.this_update(), now });
-        }
-        match crl.next_update() {
-            _ if self.policy.allow_expired_crls => Ok(reasons),
-            None => Err(CrlFlaw::NoEnd),
-            Some(until) if now.timestamp() > until.timestamp() => Err(CrlFlaw::Expired { until, now }),
-            Some(_) => Ok(reasons),
+        match rules::crl_date_flaw(crl, self.presented.now) {
+            Some(CrlFlaw::NoEnd | CrlFlaw::Expired { .. }) if self.policy.allow_expired_crls => Ok(reasons),
+            Some(flaw) => Err(flaw),
+            None => Ok(reasons),
         }
     }
 }

@@ -100,5 +100,5 @@ fn finding(ui: &mut Ui, finding: &Finding, model: &Model) {
     let said = texts::finding(model.language, severity, &finding.explain(model.language));
     ui.add(Label::new(RichText::new(said).color(color)).wrap().selectable(true));
     // The words an OPC UA client would log.
-    fine_print(ui, finding.status());
+    fine_print(ui, finding.status().as_str());
 }

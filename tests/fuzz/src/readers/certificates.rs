@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use chrono::DateTime;
 use opcua_configurator::model::{Language, SecurityPolicy};
-use opcua_configurator::pki::{Certificate, Csr, Expected, MAX_CERTIFICATE_BYTES, preflight};
+use opcua_configurator::pki::{Certificate, Csr, Expected, MAX_CERTIFICATE_BYTES, check_import};
 
 use super::assert_printable;
 
@@ -28,7 +28,7 @@ pub(super) fn assert_certificate(certificate: &Certificate) {
         policies: &policies,
         now: DateTime::from_timestamp(1_900_000_000, 0).expect("a time"),
     };
-    for finding in preflight(certificate, &expected) {
+    for finding in check_import(certificate, &expected) {
         assert_printable(&finding.explain(Language::En));
         assert_printable(&finding.explain(Language::Zh));
     }

@@ -46,6 +46,7 @@ pub fn trust(bytes: &[u8]) {
         allow_sha1: allows(3),
         allow_incomplete_chain: allows(4),
         allow_any_usage: allows(5),
+        allow_partial_key_usage: allows(6),
     };
     let presented = Presented {
         certificate,
@@ -72,6 +73,7 @@ pub fn trust(bytes: &[u8]) {
                 allow_sha1: true,
                 allow_incomplete_chain: true,
                 allow_any_usage: true,
+                allow_partial_key_usage: true,
             };
             assert!(lists.validate(&presented, &lax).is_ok());
         }

@@ -4,6 +4,7 @@
 //! opposite, and from which version on. Without OpenSSL that half is skipped and says so; with
 //! `OPCUA_INTEROP_REQUIRED=1` that is a failure.
 
+mod agreement;
 mod der;
 mod forge;
 mod openssl;
