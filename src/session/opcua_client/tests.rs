@@ -47,7 +47,7 @@ async fn ask(target: &Target) -> Failure {
     let client = OpcUaClient::new(&identity, PATIENCE).unwrap();
     let asked = Instant::now();
     let failure = client.endpoints(target).await.expect_err("not an OPC UA server");
-    assert!(asked.elapsed() < Duration::from_secs(4), "took {:?}", asked.elapsed());
+    assert!(asked.elapsed() < Duration::from_secs(20), "took {:?}", asked.elapsed());
     failure
 }
 

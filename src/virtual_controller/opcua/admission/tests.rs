@@ -27,7 +27,7 @@ use crate::model::SecurityPolicy;
 use crate::pki::{TrustLists, TrustPolicy};
 
 static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("server"));
-const PATIENCE: Duration = Duration::from_secs(20);
+const PATIENCE: Duration = Duration::from_secs(90);
 
 struct Stand {
     address: SocketAddr,

@@ -230,7 +230,7 @@ async fn half_closed_connections_do_not_stay() {
         peer.shutdown().await.unwrap();
         let start = Instant::now();
         error_of(peer).await;
-        assert!(start.elapsed() < Duration::from_secs(5), "{} bytes: {:?}", bytes.len(), start.elapsed());
+        assert!(start.elapsed() < Duration::from_secs(20), "{} bytes: {:?}", bytes.len(), start.elapsed());
     }
     serves_proper_clients(&server).await;
     server.stop().await;

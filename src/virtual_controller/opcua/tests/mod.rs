@@ -26,7 +26,7 @@ use client::{Client, Dial};
 use identity::{Identity, trusting};
 
 const URI: &str = "urn:EpsonRC.SN0000123.127.000.000.001";
-const PATIENCE: Duration = Duration::from_secs(30);
+const PATIENCE: Duration = Duration::from_secs(90);
 
 static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("EpsonRC.SN0000123.127.000.000.001"));
 static CLIENT: LazyLock<Identity> = LazyLock::new(|| Identity::new("client"));
