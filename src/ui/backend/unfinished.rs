@@ -70,7 +70,9 @@ mod tests {
         let woken = Arc::new(AtomicUsize::new(0));
         let work = UnfinishedWork::new({
             let woken = woken.clone();
-            move || drop(woken.fetch_add(1, Ordering::SeqCst))
+            move || {
+                woken.fetch_add(1, Ordering::SeqCst);
+            }
         });
         let (one, other) = (work.begin(), work.begin());
         drop(one);
