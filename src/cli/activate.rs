@@ -7,7 +7,7 @@ use super::batch::{Presentation, Shown};
 use super::output::say;
 use super::select::Select;
 use super::{Ending, Settled};
-use crate::jobs::{Activate, KeySource};
+use crate::jobs::{Activate, Done, KeySource};
 use crate::model::activation::{self, ActivationFile, ActivationKeys, KeyError, MAX_ACTIVATION_FILE_BYTES};
 use crate::model::{ErrorCode, Problem};
 use crate::texts::TextKey;
@@ -27,7 +27,7 @@ pub struct ActivateArgs {
     select: Select,
 }
 
-const ACTIVATED: Presentation = Presentation {
+const ACTIVATED: Presentation<Done> = Presentation {
     header: &[TextKey::HeadingSerial, TextKey::HeadingActivated, TextKey::HeadingStatus],
     show: |_, info| Shown {
         json: serde_json::json!({

@@ -1,4 +1,4 @@
-//! Runs one operation on the chosen controllers and prints what came of it.
+//! Runs one operation on the chosen controllers and prints its results.
 
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::Arc;
@@ -13,7 +13,10 @@ use super::cell::Cell;
 use super::output::say;
 use super::table::table;
 use super::{Ending, Settled, runtime};
-use crate::jobs::{self, Confirmation, JobContext, JobController, JobEvent, Operation, Outcome, Report};
+use crate::jobs::{
+    self, CertificateChecked, Confirmation, Done, JobContext, JobController, JobEvent, Operation, OperationOutput,
+    Report,
+};
 use crate::model::{ControllerInfo, ErrorCode, Problem, clock};
 use crate::pki::Severity;
 use crate::platform::stop_signal::StopSignals;
@@ -32,15 +35,16 @@ pub struct Shown {
 /// The exit code of a command that was asked to end twice: what a shell reports of a program that Ctrl-C ended.
 const INTERRUPTED: i32 = 130;
 
-/// How an operation's outcomes are shown.
-pub struct Presentation {
+/// How the results of an operation are printed. `O`: the operation's [`Operation::Output`].
+pub struct Presentation<O> {
     /// Column headings after `NAME`.
     pub header: &'static [TextKey],
-    pub show: fn(&Outcome, &ControllerInfo) -> Shown,
+    /// One result, with the information that was read from the controller afterwards.
+    pub show: fn(&O, &ControllerInfo) -> Shown,
 }
 
 /// The usual: the server's state after the change.
-pub const STATE: Presentation = Presentation {
+pub const STATE: Presentation<Done> = Presentation {
     header: &[TextKey::HeadingStatus, TextKey::HeadingRevision],
     show: |_, info| Shown {
         json: json!({ "status": info.status, "revision": info.revision }),
@@ -49,8 +53,8 @@ pub const STATE: Presentation = Presentation {
 };
 
 impl Ending {
-    pub fn of(reports: &[Report]) -> Self {
-        let good = |report: &Report| report.result.as_ref().is_ok_and(|outcome| outcome.shortcoming().is_none());
+    pub fn of<O: OperationOutput>(reports: &[Report<O>]) -> Self {
+        let good = |report: &Report<O>| report.result.as_ref().is_ok_and(|output| output.facts().shortcoming.is_none());
         if reports.iter().all(good) { Self::AllDone } else { Self::SomeFailed }
     }
 }
@@ -69,12 +73,12 @@ impl Settled {
     }
 
     /// Runs an operation on the chosen controllers, after asking where it must be asked.
-    pub fn batch(
+    pub fn batch<O: OperationOutput>(
         &self,
         configuration: &Configuration,
         chosen: &[ControllerEntry],
-        operation: impl Operation + 'static,
-        presentation: &Presentation,
+        operation: impl Operation<Output = O> + 'static,
+        presentation: &Presentation<O>,
     ) -> Result<Ending, Problem> {
         let reports = self.reports(configuration, chosen, operation, presentation)?;
         if !self.output.is_json() {
@@ -84,30 +88,31 @@ impl Settled {
     }
 
     /// As [`Settled::batch`], but without `--json` the printing is left to the caller.
-    pub fn reports(
+    pub fn reports<O: OperationOutput>(
         &self,
         configuration: &Configuration,
         chosen: &[ControllerEntry],
-        operation: impl Operation + 'static,
-        presentation: &Presentation,
-    ) -> Result<Vec<Report>, Problem> {
+        operation: impl Operation<Output = O> + 'static,
+        presentation: &Presentation<O>,
+    ) -> Result<Vec<Report<O>>, Problem> {
         if let Some(confirmation) = operation.confirmation() {
             self.confirm(confirmation, chosen, &[])?;
         }
-        self.confirmed(configuration, chosen, operation, presentation)
+        let on_report = self.json_lines(presentation);
+        self.confirmed(configuration, chosen, operation, on_report)
     }
 
     /// As [`Settled::reports`], once everything was agreed to.
-    fn confirmed(
+    fn confirmed<O: OperationOutput>(
         &self,
         configuration: &Configuration,
         chosen: &[ControllerEntry],
-        operation: impl Operation + 'static,
-        presentation: &Presentation,
-    ) -> Result<Vec<Report>, Problem> {
+        operation: impl Operation<Output = O> + 'static,
+        on_report: impl Fn(&str, &Report<O>) + Send + Sync + 'static,
+    ) -> Result<Vec<Report<O>>, Problem> {
         let context = self.context(configuration.options.parallelism)?;
         let controllers: Vec<JobController> = chosen.iter().map(JobController::from).collect();
-        let reports = self.run_job(controllers, Arc::new(operation), context, presentation)?;
+        let reports = self.run_job(controllers, Arc::new(operation), context, on_report)?;
         self.remember(chosen, &reports);
         Ok(reports)
     }
@@ -120,23 +125,24 @@ impl Settled {
     /// An import of server certificates. On a terminal, what clients will say of them is shown and asked about together
     /// with the rest. Elsewhere, and with `--yes`, which agrees to the stop of the server only, `accept_warnings` says
     /// whether certificates that clients may complain about are imported.
-    pub fn import<I: Operation + 'static>(
+    pub fn import<I: Operation<Output = O> + 'static, O: OperationOutput>(
         &self,
         configuration: &Configuration,
         chosen: &[ControllerEntry],
-        check: impl Operation + 'static,
+        check: impl Operation<Output = CertificateChecked> + 'static,
         import: impl FnOnce(bool) -> I,
         accept_warnings: bool,
-        presentation: &Presentation,
+        presentation: &Presentation<O>,
     ) -> Result<Ending, Problem> {
         if accept_warnings || self.output.is_json() || !self.asks() {
             return self.batch(configuration, chosen, import(accept_warnings), presentation);
         }
-        let checked = self.confirmed(configuration, chosen, check, presentation)?;
+        // Not with `--json`, so what was found is printed below only.
+        let checked = self.confirmed(configuration, chosen, check, |_, _| {})?;
         let mut good = 0;
         let mut remarks = Vec::new();
         for (entry, report) in chosen.iter().zip(&checked) {
-            let Ok(Outcome::Checked { findings, .. }) = &report.result else { continue };
+            let Ok(CertificateChecked { findings, .. }) = &report.result else { continue };
             self.output.findings(entry.name.as_str(), findings);
             if findings.iter().all(|finding| finding.severity == Severity::Warning) {
                 good += 1;
@@ -147,7 +153,7 @@ impl Settled {
         }
         if good == 0 {
             // The import says for each why it is refused, and sends nothing.
-            let reports = self.confirmed(configuration, chosen, import(false), presentation)?;
+            let reports = self.confirmed(configuration, chosen, import(false), |_, _| {})?;
             self.print(chosen, &reports, presentation);
             return Ok(Ending::of(&reports));
         }
@@ -156,42 +162,50 @@ impl Settled {
         if let Some(confirmation) = import.confirmation() {
             self.confirm(confirmation, chosen, &remarks)?;
         }
-        let reports = self.confirmed(configuration, chosen, import, presentation)?;
+        let reports = self.confirmed(configuration, chosen, import, |_, _| {})?;
         self.print(chosen, &reports, presentation);
         Ok(Ending::of(&reports))
     }
 
-    fn run_job(
+    /// What prints the JSON line of a controller as soon as it is finished; nothing without `--json`.
+    fn json_lines<O: OperationOutput>(&self, presentation: &Presentation<O>) -> impl Fn(&str, &Report<O>) + use<O> {
+        let (output, show) = (self.output, presentation.show);
+        move |name, report| {
+            if !output.is_json() {
+                return;
+            }
+            let result = match &report.result {
+                Ok(result) => result,
+                Err(problem) => return output.failed(name, problem),
+            };
+            // Without information: done, but what the controller is like now could not be read.
+            let shown = report.info.as_ref().map(|info| show(result, info).json);
+            match (result.facts().shortcoming, shown) {
+                (None, shown) => output.done(name, &shown.unwrap_or(Value::Null)),
+                (Some(problem), Some(shown)) => output.fell_short(name, &problem, &shown),
+                (Some(problem), None) => output.failed(name, &problem),
+            }
+        }
+    }
+
+    fn run_job<O: OperationOutput>(
         &self,
         controllers: Vec<JobController>,
-        operation: Arc<dyn Operation>,
+        operation: Arc<dyn Operation<Output = O>>,
         context: JobContext,
-        presentation: &Presentation,
-    ) -> Result<Vec<Report>, Problem> {
+        on_report: impl Fn(&str, &Report<O>) + Send + Sync + 'static,
+    ) -> Result<Vec<Report<O>>, Problem> {
         let count = controllers.len();
         let names: Vec<String> = controllers.iter().map(|c| c.name.to_string()).collect();
         let progress = if self.output.shows_progress() { bar(count) } else { ProgressBar::hidden() };
-        let slots: Arc<Mutex<Vec<Option<Report>>>> = Arc::new(Mutex::new(vec![None; count]));
+        let slots: Arc<Mutex<Vec<Option<Report<O>>>>> = Arc::new(Mutex::new((0..count).map(|_| None).collect()));
         let finished = Arc::new(AtomicUsize::new(0));
         let on_event = {
-            let (slots, output, show, progress) = (slots.clone(), self.output, presentation.show, progress.clone());
+            let (slots, progress) = (slots.clone(), progress.clone());
             move |event| {
                 let JobEvent::Finished { index, report } = event else { return };
                 progress.set_position(finished.fetch_add(1, Ordering::Relaxed) as u64 + 1);
-                if output.is_json() {
-                    match (&report.result, &report.info) {
-                        (Ok(outcome), Some(info)) => match outcome.shortcoming() {
-                            Some(problem) => output.fell_short(&names[index], &problem, &show(outcome, info).json),
-                            None => output.done(&names[index], &show(outcome, info).json),
-                        },
-                        // Done, but what the controller is like now could not be read.
-                        (Ok(outcome), None) => match outcome.shortcoming() {
-                            Some(problem) => output.failed(&names[index], &problem),
-                            None => output.done(&names[index], &Value::Null),
-                        },
-                        (Err(problem), _) => output.failed(&names[index], problem),
-                    }
-                }
+                on_report(&names[index], &report);
                 slots.lock()[index] = Some(*report);
             }
         };
@@ -227,7 +241,7 @@ impl Settled {
     }
 
     /// Keeps what was read for the window. A window that is open keeps its own.
-    fn remember(&self, chosen: &[ControllerEntry], reports: &[Report]) {
+    fn remember<O>(&self, chosen: &[ControllerEntry], reports: &[Report<O>]) {
         let now = clock::now();
         let keep = || -> Result<(), Problem> {
             let lock = self.lock()?;
@@ -245,12 +259,17 @@ impl Settled {
         }
     }
 
-    fn print(&self, chosen: &[ControllerEntry], reports: &[Report], presentation: &Presentation) {
+    fn print<O: OperationOutput>(
+        &self,
+        chosen: &[ControllerEntry],
+        reports: &[Report<O>],
+        presentation: &Presentation<O>,
+    ) {
         let language = self.output.language();
         let mut rows: Vec<Vec<String>> = Vec::new();
         for (entry, report) in chosen.iter().zip(reports) {
-            if let (Ok(outcome), Some(info)) = (&report.result, &report.info) {
-                let cells = (presentation.show)(outcome, info).cells;
+            if let (Ok(output), Some(info)) = (&report.result, &report.info) {
+                let cells = (presentation.show)(output, info).cells;
                 let cells = cells.iter().map(|cell| cell.text(language));
                 rows.push(std::iter::once(entry.name.to_string()).chain(cells).collect());
             } else if report.result.is_ok() {
@@ -266,8 +285,8 @@ impl Settled {
         }
         for (entry, report) in chosen.iter().zip(reports) {
             match &report.result {
-                Ok(outcome) => {
-                    for file in outcome.moved_aside() {
+                Ok(output) => {
+                    for file in output.facts().moved_aside {
                         self.output.text(&crate::texts::moved_aside(self.output.language(), entry.name.as_str(), file));
                     }
                 }

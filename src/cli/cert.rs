@@ -10,9 +10,10 @@ use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
 use crate::jobs::{
-    CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, CreateCsr, CsrFields,
-    ExportSelfSigned, ImportCaCertificate, ImportUserCertificate, Outcome, RestoreCertificate, SelectCertificateType,
-    SelfSigned, SelfSignedFields, UserCertificateFiles,
+    CaCertificateSource, CertificateExported, CertificateImported, CertificateMade, CertificateRestored,
+    CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, CreateCsr, CsrFields, CsrSaved, ExportSelfSigned,
+    ImportCaCertificate, ImportUserCertificate, RestoreCertificate, SelectCertificateType, SelfSigned,
+    SelfSignedFields, UserCertificateFiles,
 };
 use crate::model::{
     CertificateSummary, CertificateType, ErrorCode, FileFormat, KeyLength, Language, Problem, Validity,
@@ -182,12 +183,10 @@ pub struct SelfSignedArgs {
     select: Select,
 }
 
-const CERTIFICATE: Presentation = Presentation {
+const CERTIFICATE: Presentation<CertificateMade> = Presentation {
     header: &[TextKey::HeadingStatus, TextKey::HeadingCommonName, TextKey::HeadingExpiry, TextKey::HeadingThumbprint],
-    show: |outcome, info| {
-        let Outcome::Certificate { summary, saved } = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
+    show: |CertificateMade { summary, saved }, info| {
+        let moved_aside = saved.as_ref().map_or(&[][..], |saved| &saved.moved_aside);
         Shown {
             json: json!({
                 "status": info.status,
@@ -196,7 +195,7 @@ const CERTIFICATE: Presentation = Presentation {
                     "certificate": json_path(&s.certificate),
                     "key": s.key.as_deref().map(json_path),
                 })),
-                "moved_aside": json_paths(outcome.moved_aside()),
+                "moved_aside": json_paths(moved_aside),
             }),
             cells: vec![
                 info.status.into(),
@@ -208,25 +207,20 @@ const CERTIFICATE: Presentation = Presentation {
     },
 };
 
-const CSR: Presentation = Presentation {
+const CSR: Presentation<CsrSaved> = Presentation {
     header: &[TextKey::HeadingStatus, TextKey::HeadingCommonName, TextKey::HeadingFile],
-    show: |outcome, info| {
-        let Outcome::Csr { common_name, saved } = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
-        Shown {
-            json: json!({
-                "status": info.status,
-                "common_name": common_name,
-                "saved": { "csr": json_path(&saved.csr), "key": saved.key.as_deref().map(json_path) },
-                "moved_aside": json_paths(outcome.moved_aside()),
-            }),
-            cells: vec![info.status.into(), common_name.clone().into(), saved.csr.display().to_string().into()],
-        }
+    show: |CsrSaved { common_name, saved }, info| Shown {
+        json: json!({
+            "status": info.status,
+            "common_name": common_name,
+            "saved": { "csr": json_path(&saved.csr), "key": saved.key.as_deref().map(json_path) },
+            "moved_aside": json_paths(&saved.moved_aside),
+        }),
+        cells: vec![info.status.into(), common_name.clone().into(), saved.csr.display().to_string().into()],
     },
 };
 
-pub const IMPORTED: Presentation = Presentation {
+pub const IMPORTED: Presentation<CertificateImported> = Presentation {
     header: &[
         TextKey::HeadingStatus,
         TextKey::HeadingIssuedTo,
@@ -235,51 +229,41 @@ pub const IMPORTED: Presentation = Presentation {
         TextKey::HeadingThumbprint,
         TextKey::HeadingWarnings,
     ],
-    show: |outcome, info| {
-        let Outcome::Imported { summary, findings, moved_aside } = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
-        Shown {
-            json: json!({
-                "status": info.status,
-                "certificate": summary,
-                "findings": findings.iter().map(finding).collect::<Vec<_>>(),
-                "moved_aside": json_paths(moved_aside),
-            }),
-            cells: vec![
-                info.status.into(),
-                summary.issued_to.clone().into(),
-                summary.issued_by.clone().into(),
-                summary.not_after.format("%Y-%m-%d").to_string().into(),
-                summary.thumbprint.clone().into(),
-                findings.iter().map(|finding| finding.status().as_str()).collect::<Vec<_>>().join(" ").into(),
-            ],
-        }
+    show: |CertificateImported { summary, findings, moved_aside }, info| Shown {
+        json: json!({
+            "status": info.status,
+            "certificate": summary,
+            "findings": findings.iter().map(finding).collect::<Vec<_>>(),
+            "moved_aside": json_paths(moved_aside),
+        }),
+        cells: vec![
+            info.status.into(),
+            summary.issued_to.clone().into(),
+            summary.issued_by.clone().into(),
+            summary.not_after.format("%Y-%m-%d").to_string().into(),
+            summary.thumbprint.clone().into(),
+            findings.iter().map(|finding| finding.status().as_str()).collect::<Vec<_>>().join(" ").into(),
+        ],
     },
 };
 
-const EXPORTED: Presentation = Presentation {
+const EXPORTED: Presentation<CertificateExported> = Presentation {
     header: &[TextKey::HeadingExpiry, TextKey::HeadingThumbprint, TextKey::HeadingFile],
-    show: |outcome, _| {
-        let Outcome::Exported { summary, saved } = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
-        Shown {
-            json: json!({
-                "certificate": summary,
-                "file": json_path(&saved.file),
-                "moved_aside": json_paths(&saved.moved_aside),
-            }),
-            cells: vec![
-                summary.not_after.format("%Y-%m-%d").to_string().into(),
-                summary.thumbprint.clone().into(),
-                saved.file.display().to_string().into(),
-            ],
-        }
+    show: |CertificateExported { summary, saved }, _| Shown {
+        json: json!({
+            "certificate": summary,
+            "file": json_path(&saved.file),
+            "moved_aside": json_paths(&saved.moved_aside),
+        }),
+        cells: vec![
+            summary.not_after.format("%Y-%m-%d").to_string().into(),
+            summary.thumbprint.clone().into(),
+            saved.file.display().to_string().into(),
+        ],
     },
 };
 
-const RESTORED: Presentation = Presentation {
+const RESTORED: Presentation<CertificateRestored> = Presentation {
     header: &[
         TextKey::HeadingStatus,
         TextKey::HeadingIssuedTo,
@@ -287,10 +271,7 @@ const RESTORED: Presentation = Presentation {
         TextKey::HeadingThumbprint,
         TextKey::HeadingWarnings,
     ],
-    show: |outcome, info| {
-        let Outcome::Restored { summary, findings } = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
+    show: |CertificateRestored { summary, findings }, info| {
         let cell = |of: fn(&CertificateSummary) -> String| Cell::from(summary.as_ref().map_or("-".to_owned(), of));
         Shown {
             json: json!({

@@ -8,7 +8,7 @@ use super::cell::Cell;
 use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_move, show_plan};
 use super::{Ending, Settled};
-use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, Outcome, RemoveClients, TrustChange, TrustSnapshot};
+use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, RemoveClients, TrustChange, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, Language, Problem};
 use crate::protocol::{ListedCertificate, RejectedClient};
 use crate::texts::TextKey;
@@ -55,26 +55,23 @@ pub enum AddTo {
     Issuers,
 }
 
-const ALL_LISTS: Presentation = Presentation {
+const ALL_LISTS: Presentation<TrustSnapshot> = Presentation {
     header: &[TextKey::HeadingCertificates],
-    show: |outcome, _| shown(outcome, &[ClientList::Trusted, ClientList::Issuers, ClientList::Rejected]),
+    show: |held, _| shown(held, &[ClientList::Trusted, ClientList::Issuers, ClientList::Rejected]),
 };
-const TRUSTED: Presentation =
-    Presentation { header: &[TextKey::HeadingTrusted], show: |outcome, _| shown(outcome, &[ClientList::Trusted]) };
-const ISSUERS: Presentation =
-    Presentation { header: &[TextKey::HeadingIssuers], show: |outcome, _| shown(outcome, &[ClientList::Issuers]) };
-const REJECTED: Presentation =
-    Presentation { header: &[TextKey::HeadingRejected], show: |outcome, _| shown(outcome, &[ClientList::Rejected]) };
+const TRUSTED: Presentation<TrustSnapshot> =
+    Presentation { header: &[TextKey::HeadingTrusted], show: |held, _| shown(held, &[ClientList::Trusted]) };
+const ISSUERS: Presentation<TrustSnapshot> =
+    Presentation { header: &[TextKey::HeadingIssuers], show: |held, _| shown(held, &[ClientList::Issuers]) };
+const REJECTED: Presentation<TrustSnapshot> =
+    Presentation { header: &[TextKey::HeadingRejected], show: |held, _| shown(held, &[ClientList::Rejected]) };
 
 /// What a list holds in one cell.
 pub fn listing(lines: &[String]) -> String {
     if lines.is_empty() { "-".to_owned() } else { lines.join("; ") }
 }
 
-fn shown(outcome: &Outcome, lists: &[ClientList]) -> Shown {
-    let Outcome::TrustLists(held) = outcome else {
-        return Shown { json: json!(null), cells: Vec::new() };
-    };
+fn shown(held: &TrustSnapshot, lists: &[ClientList]) -> Shown {
     let mut words = Vec::new();
     let mut json = json!({ "revision": held.revision });
     for list in lists {
@@ -134,7 +131,7 @@ fn refused_line(rejected: &RejectedClient) -> String {
 }
 
 /// A change of lists or CRLs: how many there are now, and who was disconnected.
-pub const CHANGE: Presentation = Presentation {
+pub const CHANGE: Presentation<TrustChange> = Presentation {
     header: &[
         TextKey::HeadingStatus,
         TextKey::HeadingRevision,
@@ -144,11 +141,7 @@ pub const CHANGE: Presentation = Presentation {
         TextKey::HeadingCrls,
         TextKey::HeadingDisconnected,
     ],
-    show: |outcome, info| {
-        let Outcome::TrustChanged(change) = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
-        let TrustChange { lists, cut, .. } = change.as_ref();
+    show: |TrustChange { lists, cut, undo: _ }, info| {
         let counts = [lists.trusted.len(), lists.issuers.len(), lists.rejected.len(), lists.crls.len()];
         let json = json!({
             "status": info.status,
@@ -203,10 +196,8 @@ pub fn run(settled: &Settled, command: ClientsCommand) -> Result<Ending, Problem
             let mut accept_notes = settled.yes;
             if !settled.output.is_json() {
                 let reports = settled.reports(&configuration, &chosen, ListTrust, &REJECTED)?;
-                let held = chosen.iter().zip(&reports).filter_map(|(entry, report)| match &report.result {
-                    Ok(Outcome::TrustLists(held)) => Some((entry, held.as_ref())),
-                    _ => None,
-                });
+                let held = chosen.iter().zip(&reports);
+                let held = held.filter_map(|(entry, report)| Some((entry, report.result.as_ref().ok()?)));
                 show_move(settled, to, &thumbprints, &held.collect::<Vec<_>>())?;
                 accept_notes = true;
             }

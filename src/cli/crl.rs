@@ -8,7 +8,7 @@ use super::clients::{CHANGE, hexadecimal, listing};
 use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
-use crate::jobs::{AddTrust, Destination, ListTrust, Outcome, RemoveCrls};
+use crate::jobs::{AddTrust, Destination, ListTrust, RemoveCrls, TrustSnapshot};
 use crate::model::Problem;
 use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
 use crate::protocol::ListedCrl;
@@ -24,12 +24,9 @@ pub enum CrlCommand {
     Remove(ThingsThenSelect),
 }
 
-const CRLS: Presentation = Presentation {
+const CRLS: Presentation<TrustSnapshot> = Presentation {
     header: &[TextKey::HeadingCrls],
-    show: |outcome, _| {
-        let Outcome::TrustLists(held) = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
+    show: |held, _| {
         let with_health = || held.crls.iter().zip(&held.health.crls);
         let json: Vec<_> = with_health()
             .map(|(crl, health)| {

@@ -4,8 +4,9 @@ use serde_json::json;
 use super::batch::{Presentation, STATE, Shown};
 use super::select::Select;
 use super::{Ending, Settled};
-use crate::jobs::{LogPart, Outcome, ReadLog, SetSettings, SettingsChange};
+use crate::jobs::{LogPart, ReadLog, SetSettings, SettingsChange};
 use crate::model::{Problem, foreign_text};
+use crate::protocol::LogChunk;
 use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
@@ -22,16 +23,11 @@ pub enum LogCommand {
     Delete(Select),
 }
 
-const LOG: Presentation = Presentation {
+const LOG: Presentation<LogChunk> = Presentation {
     header: &[TextKey::HeadingLog],
-    show: |outcome, _| {
-        let Outcome::Log(log) = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
-        Shown {
-            json: json!({ "size": log.size, "from": log.from, "next": log.next, "text": log.text }),
-            cells: vec![log.size.to_string().into()],
-        }
+    show: |log, _| Shown {
+        json: json!({ "size": log.size, "from": log.from, "next": log.next, "text": log.text }),
+        cells: vec![log.size.to_string().into()],
     },
 };
 
@@ -45,16 +41,15 @@ pub fn run(settled: &Settled, command: LogCommand) -> Result<Ending, Problem> {
             if !settled.output.is_json() {
                 for (entry, report) in chosen.iter().zip(&reports) {
                     match &report.result {
-                        Ok(Outcome::Log(log)) if chosen.len() > 1 => {
+                        Ok(log) if chosen.len() > 1 => {
                             let text = foreign_text::lines(&log.text);
                             settled.output.text(&format!("==> {} <==\n{text}", entry.name));
                         }
-                        Ok(Outcome::Log(log)) if log.text.is_empty() => {}
-                        Ok(Outcome::Log(log)) => settled.output.text(&foreign_text::lines(&log.text)),
-                        Ok(_) => {}
+                        Ok(log) if log.text.is_empty() => {}
+                        Ok(log) => settled.output.text(&foreign_text::lines(&log.text)),
                         Err(problem) => settled.output.explain(Some(entry.name.as_str()), problem),
                     }
-                    if let Ok(Outcome::Log(log)) = &report.result
+                    if let Ok(log) = &report.result
                         && log.next < log.size
                     {
                         let read = log.next - log.from;

@@ -4,11 +4,11 @@ use super::batch::{Presentation, STATE, Shown};
 use super::cell::Cell;
 use super::select::Select;
 use super::{Ending, Settled};
-use crate::jobs::{GetInfo, StartServer, StopServer};
+use crate::jobs::{Done, GetInfo, StartServer, StopServer};
 use crate::model::{Problem, ServerCertificate};
 use crate::texts::TextKey;
 
-const INFO: Presentation = Presentation {
+const INFO: Presentation<Done> = Presentation {
     header: &[
         TextKey::HeadingType,
         TextKey::HeadingSerial,

@@ -10,10 +10,11 @@ use super::passwords::ask_secret;
 use super::secret_file::read_secret;
 use super::select::Select;
 use super::{Ending, Settled};
-use crate::jobs::{Outcome, ReadSettings, SetSettings, SettingsChange};
+use crate::jobs::{ReadSettings, SetSettings, SettingsChange};
 use crate::model::{
     ErrorCode, PortError, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
 };
+use crate::protocol::Revisioned;
 use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
@@ -74,7 +75,7 @@ fn log_password(file: Option<&Path>) -> Result<String, Problem> {
     Ok(given.to_owned())
 }
 
-const SETTINGS: Presentation = Presentation {
+const SETTINGS: Presentation<Revisioned<ServerSettings>> = Presentation {
     header: &[
         TextKey::HeadingPort,
         TextKey::HeadingStartup,
@@ -82,10 +83,7 @@ const SETTINGS: Presentation = Presentation {
         TextKey::HeadingTokens,
         TextKey::HeadingLog,
     ],
-    show: |outcome, _| {
-        let Outcome::Settings(settings) = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
+    show: |settings, _| {
         let ServerSettings { port, startup, security_policies, user_tokens, server_log } = &settings.value;
         let join = |words: Vec<&str>| words.join(",");
         Shown {

@@ -8,7 +8,7 @@ use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
 use super::{Ending, Settled};
-use crate::jobs::{ExportSettings, ImportSettings, Outcome};
+use crate::jobs::{ExportSettings, ImportSettings, SettingsExported, SettingsImported};
 use crate::model::Problem;
 use crate::texts::TextKey;
 use crate::workspace::check_passphrase;
@@ -23,29 +23,19 @@ pub struct TransferArgs {
     select: Select,
 }
 
-const EXPORTED: Presentation = Presentation {
+const EXPORTED: Presentation<SettingsExported> = Presentation {
     header: &[TextKey::HeadingSerial, TextKey::HeadingFile],
-    show: |outcome, info| {
-        let Outcome::SettingsExported { path } = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
-        Shown {
-            json: json!({ "serial": info.serial, "file": json_path(path) }),
-            cells: vec![info.serial.to_string().into(), path.display().to_string().into()],
-        }
+    show: |SettingsExported { path }, info| Shown {
+        json: json!({ "serial": info.serial, "file": json_path(path) }),
+        cells: vec![info.serial.to_string().into(), path.display().to_string().into()],
     },
 };
 
-const IMPORTED: Presentation = Presentation {
+const IMPORTED: Presentation<SettingsImported> = Presentation {
     header: &[TextKey::HeadingStatus, TextKey::HeadingRevision, TextKey::HeadingFile],
-    show: |outcome, info| {
-        let Outcome::SettingsImported { path } = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
-        Shown {
-            json: json!({ "status": info.status, "revision": info.revision, "file": json_path(path) }),
-            cells: vec![info.status.into(), info.revision.to_string().into(), path.display().to_string().into()],
-        }
+    show: |SettingsImported { path }, info| Shown {
+        json: json!({ "status": info.status, "revision": info.revision, "file": json_path(path) }),
+        cells: vec![info.status.into(), info.revision.to_string().into(), path.display().to_string().into()],
     },
 };
 

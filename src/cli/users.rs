@@ -8,8 +8,9 @@ use super::batch::{Presentation, STATE, Shown};
 use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
-use crate::jobs::{AddUser, ListUsers, Outcome, RemoveUsers};
+use crate::jobs::{AddUser, ListUsers, RemoveUsers};
 use crate::model::{Credential, CredentialError, ErrorCode, Problem, UserName, UserPassword};
+use crate::protocol::Revisioned;
 use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
@@ -29,12 +30,9 @@ pub enum UsersCommand {
     Remove(ThingsThenSelect),
 }
 
-const USERS: Presentation = Presentation {
+const USERS: Presentation<Revisioned<Vec<UserName>>> = Presentation {
     header: &[TextKey::HeadingUsers],
-    show: |outcome, _| {
-        let Outcome::Users(users) = outcome else {
-            return Shown { json: json!(null), cells: Vec::new() };
-        };
+    show: |users, _| {
         let names: Vec<&str> = users.value.iter().map(UserName::as_str).collect();
         Shown { json: json!({ "users": names }), cells: vec![names.join(",").into()] }
     },

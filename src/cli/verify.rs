@@ -10,7 +10,7 @@ use super::secret_file::read_secret;
 use super::select::Select;
 use super::table::table;
 use super::{Ending, Settled};
-use crate::jobs::{Outcome, Refusal, Verdict, Verify, VerifyReport};
+use crate::jobs::{Refusal, Verdict, Verify, VerifyReport};
 use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword, foreign_text};
 use crate::pki::{Rejection, Severity};
 use crate::session::opcua_client::{MessageSecurity, Patience};
@@ -53,14 +53,11 @@ pub fn run(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
         patience: Patience::default(),
     };
     let language = settled.output.language();
-    let reports = settled.reports(&configuration, &chosen, verify, &PRESENTATION)?;
+    let reports = settled.reports(&configuration, &chosen, verify, &REPORT)?;
     if !settled.output.is_json() {
         for (entry, report) in chosen.iter().zip(&reports) {
             match &report.result {
-                Ok(Outcome::Verified(report)) => {
-                    settled.output.text(&format!("{}: {}", entry.name, words(report, language)));
-                }
-                Ok(_) => {}
+                Ok(report) => settled.output.text(&format!("{}: {}", entry.name, words(report, language))),
                 Err(problem) => settled.output.explain(Some(entry.name.as_str()), problem),
             }
         }
@@ -68,15 +65,9 @@ pub fn run(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
     Ok(Ending::of(&reports))
 }
 
-const PRESENTATION: Presentation = Presentation { header: &[], show: |outcome, _| shown(outcome) };
-
-/// JSON is for programs: its messages are English.
-fn shown(outcome: &Outcome) -> Shown {
-    let Outcome::Verified(report) = outcome else {
-        return Shown { json: json!(null), cells: Vec::new() };
-    };
-    Shown { json: as_json(report, Language::En), cells: Vec::new() }
-}
+/// With `--json` only: [`words`] is what a person reads. JSON is for programs: its messages are English.
+const REPORT: Presentation<VerifyReport> =
+    Presentation { header: &[], show: |report, _| Shown { json: as_json(report, Language::En), cells: Vec::new() } };
 
 fn as_json(report: &VerifyReport, language: Language) -> Value {
     let severity = |severity| match severity {

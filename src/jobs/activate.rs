@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use async_trait::async_trait;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
+use super::{Confirmation, Done, JobController, Operation, Run, ServerEffect, Step};
 use crate::model::activation::{ActivationFile, ActivationKeys, Entry};
 use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem, SerialNumber};
 use crate::protocol;
@@ -47,6 +47,8 @@ fn legacy(firmware: FirmwareVersion) -> Result<(), Problem> {
 
 #[async_trait]
 impl Operation for Activate {
+    type Output = Done;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, ..Confirmation::default() })
     }
@@ -57,13 +59,13 @@ impl Operation for Activate {
         self.keys.keys(&known.serial).map(|_| ())
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         legacy(info.firmware)?;
         let ActivationKeys { licence, activation } = self.keys.keys(&info.serial)?.clone();
         run.begin(Step::Apply)?;
         run.session.activate(protocol::Activate { revision: info.revision, licence, activation }).await?;
-        Ok(Outcome::Done)
+        Ok(Done)
     }
 }

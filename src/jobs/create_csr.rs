@@ -2,7 +2,7 @@ use async_trait::async_trait;
 use secrecy::ExposeSecret as _;
 
 use super::self_signed::{bad_request, server_names, transfer_password};
-use super::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, Step};
 use crate::model::{ControllerInfo, CsrRequest, FileFormat, FirmwareGeneration, KeyLength, Problem, Subject};
 use crate::pki::{self, Csr, PkiError, PrivateKey};
 use crate::protocol::{Base64Bytes, CsrMade, ImportCsr, MakeCsr, WireSecret};
@@ -49,8 +49,29 @@ pub struct CreateCsr {
     pub backup: bool,
 }
 
+/// A signing request was made and saved.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CsrSaved {
+    /// The CommonName of its subject.
+    pub common_name: String,
+    pub saved: SavedCsr,
+}
+
+impl OperationOutput for CsrSaved {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts {
+            written: Some(&self.saved.csr),
+            used: None,
+            moved_aside: &self.saved.moved_aside,
+            shortcoming: None,
+        }
+    }
+}
+
 #[async_trait]
 impl Operation for CreateCsr {
+    type Output = CsrSaved;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { invalidates_ca_signed: true, moves_files_aside: true, ..Confirmation::default() })
     }
@@ -60,11 +81,11 @@ impl Operation for CreateCsr {
         self.fields.request(application_name).subject.check().map_err(bad_request)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CsrSaved, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         let (csr, saved) = self.make(run, &info).await?;
-        Ok(Outcome::Csr { common_name: csr.common_name().unwrap_or_default().to_owned(), saved })
+        Ok(CsrSaved { common_name: csr.common_name().unwrap_or_default().to_owned(), saved })
     }
 }
 

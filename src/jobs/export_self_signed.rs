@@ -1,9 +1,9 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, Outcome, Run, Step};
-use crate::model::{CertificateType, ErrorCode, FileFormat, Problem};
+use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
+use crate::model::{CertificateSummary, CertificateType, ErrorCode, FileFormat, Problem};
 use crate::pki::Certificate;
-use crate::workspace::CertificateFiles;
+use crate::workspace::{CertificateFiles, SavedFile};
 
 /// Saves a controller's self-signed certificate, in use or not, into its folder on the PC (manual 2.7.1.3).
 #[derive(Debug, Clone)]
@@ -12,13 +12,33 @@ pub struct ExportSelfSigned {
     pub files: CertificateFiles,
 }
 
+/// A server certificate was saved on the PC.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertificateExported {
+    pub summary: CertificateSummary,
+    pub saved: SavedFile,
+}
+
+impl OperationOutput for CertificateExported {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts {
+            written: Some(&self.saved.file),
+            used: None,
+            moved_aside: &self.saved.moved_aside,
+            shortcoming: None,
+        }
+    }
+}
+
 #[async_trait]
 impl Operation for ExportSelfSigned {
+    type Output = CertificateExported;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { moves_files_aside: true, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateExported, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         let held = run.session.certificates().await?;
@@ -29,6 +49,6 @@ impl Operation for ExportSelfSigned {
         let exporting = certificate.clone();
         let export = move || files.export_self_signed(&info.serial, &exporting, format, &password);
         let saved = run.off_thread(export).await?;
-        Ok(Outcome::Exported { summary: certificate.summary(), saved })
+        Ok(CertificateExported { summary: certificate.summary(), saved })
     }
 }

@@ -2,7 +2,9 @@ use std::path::{Path, PathBuf};
 
 use async_trait::async_trait;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
+use super::{
+    CertificateChecked, CertificateImported, Confirmation, JobController, Operation, Run, ServerEffect, Step, preflight,
+};
 use crate::model::{ControllerInfo, ErrorCode, Problem, SerialNumber};
 use crate::pki::{Certificate, Csr, Issuers, MAX_CERTIFICATE_FILE_BYTES, issuers_of, read_bundle};
 use crate::protocol::{Base64Bytes, ImportCaSigned};
@@ -87,6 +89,8 @@ pub struct ImportCaCertificate {
 
 #[async_trait]
 impl Operation for ImportCaCertificate {
+    type Output = CertificateImported;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, replaces_certificate: true, ..Confirmation::default() })
     }
@@ -98,7 +102,7 @@ impl Operation for ImportCaCertificate {
         }
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateImported, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         let (certificate, _) = read_for_csr(&self.source, run, &info).await?;
@@ -106,7 +110,7 @@ impl Operation for ImportCaCertificate {
         run.begin(Step::Apply)?;
         let change = ImportCaSigned { revision: info.revision, certificate: Base64Bytes(certificate.der().to_vec()) };
         run.session.import_ca_signed(change).await?;
-        Ok(Outcome::Imported { summary: certificate.summary(), findings, moved_aside: Vec::new() })
+        Ok(CertificateImported { summary: certificate.summary(), findings, moved_aside: Vec::new() })
     }
 }
 
@@ -116,15 +120,17 @@ pub struct CheckCaCertificate(pub CaCertificateSource);
 
 #[async_trait]
 impl Operation for CheckCaCertificate {
+    type Output = CertificateChecked;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateChecked, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         let (certificate, issuers) = read_for_csr(&self.0, run, &info).await?;
         let findings = preflight::examine(run, &info, &certificate).await?;
-        Ok(Outcome::Checked { summary: Some(certificate.summary()), findings, issuers: Some(issuers) })
+        Ok(CertificateChecked { summary: Some(certificate.summary()), findings, issuers: Some(issuers) })
     }
 }

@@ -4,7 +4,9 @@ use async_trait::async_trait;
 use secrecy::{ExposeSecret as _, SecretString};
 
 use super::self_signed::transfer_password;
-use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
+use super::{
+    CertificateChecked, CertificateImported, Confirmation, JobController, Operation, Run, ServerEffect, Step, preflight,
+};
 use crate::model::{CertificateType, ErrorCode, FirmwareGeneration, Problem, SerialNumber};
 use crate::pki::{
     Certificate, MAX_CERTIFICATE_FILE_BYTES, MAX_KEY_FILE_BYTES, MAX_PKCS12_BYTES, PkiError, PrivateKey, pkcs12_read,
@@ -90,6 +92,8 @@ pub struct ImportUserCertificate {
 
 #[async_trait]
 impl Operation for ImportUserCertificate {
+    type Output = CertificateImported;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, replaces_certificate: true, ..Confirmation::default() })
     }
@@ -101,7 +105,7 @@ impl Operation for ImportUserCertificate {
         }
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateImported, Problem> {
         run.begin(Step::Read)?;
         let (files, password) = (self.files.clone(), self.password.clone());
         let (key, certificate) = run.on_a_core(move || files.read(password.as_ref())).await??;
@@ -124,7 +128,7 @@ impl Operation for ImportUserCertificate {
             password: WireSecret(password),
         };
         run.session.import_certificate(change).await?;
-        Ok(Outcome::Imported { summary, findings, moved_aside: Vec::new() })
+        Ok(CertificateImported { summary, findings, moved_aside: Vec::new() })
     }
 }
 
@@ -137,16 +141,18 @@ pub struct CheckUserCertificate {
 
 #[async_trait]
 impl Operation for CheckUserCertificate {
+    type Output = CertificateChecked;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateChecked, Problem> {
         run.begin(Step::Read)?;
         let (files, password) = (self.files.clone(), self.password.clone());
         let (_, certificate) = run.on_a_core(move || files.read(password.as_ref())).await??;
         let info = run.session.info().await?;
         let findings = preflight::examine(run, &info, &certificate).await?;
-        Ok(Outcome::Checked { summary: Some(certificate.summary()), findings, issuers: None })
+        Ok(CertificateChecked { summary: Some(certificate.summary()), findings, issuers: None })
     }
 }

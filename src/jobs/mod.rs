@@ -50,22 +50,23 @@ mod users;
 mod verify;
 
 pub use activate::{Activate, KeySource};
-pub use create_csr::{CreateCsr, CsrFields};
+pub use create_csr::{CreateCsr, CsrFields, CsrSaved};
 pub use enroll::{Enrolled, enroll, probe};
-pub use export_self_signed::ExportSelfSigned;
+pub use export_self_signed::{CertificateExported, ExportSelfSigned};
 pub use get_info::GetInfo;
 pub use import_ca::{CaCertificateSource, CheckCaCertificate, ImportCaCertificate};
 pub use import_user::{CheckUserCertificate, ImportUserCertificate, UserCertificateFiles};
-pub use operation::{Confirmation, Operation, Outcome, Run, ServerEffect, Step};
+pub use operation::{Confirmation, Done, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
+pub use preflight::{CertificateChecked, CertificateImported};
 pub use push_authority::PushAuthority;
-pub use restore_certificate::{CheckCertificateBackup, RestoreCertificate};
+pub use restore_certificate::{CertificateRestored, CheckCertificateBackup, RestoreCertificate};
 pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
 pub use select_certificate::{ListCertificates, SelectCertificateType};
-pub use self_signed::{SelfSigned, SelfSignedFields};
+pub use self_signed::{CertificateMade, SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};
-pub use server_log::{LogPart, ReadLog, SaveLog};
+pub use server_log::{LogPart, LogSaved, ReadLog, SaveLog};
 pub use settings::{ReadSettings, SetSettings, SettingsChange};
-pub use settings_transfer::{ExportSettings, ImportSettings};
+pub use settings_transfer::{ExportSettings, ImportSettings, SettingsExported, SettingsImported};
 pub use sign_csrs::{SharedAuthority, SignCsrs};
 pub use trust::{
     AddTrust, Destination, Fate, ListTrust, MoveClients, Note, Planned, RemoveClients, RemoveCrls, SkipReason, Target,

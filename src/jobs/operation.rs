@@ -4,16 +4,17 @@ use async_trait::async_trait;
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
-use super::{JobController, TrustChange, TrustSnapshot, VerifyReport};
-use crate::model::{CertificateSummary, ErrorCode, Problem, ServerSettings, ServerStatus, UserName};
-use crate::pki::{Finding, Issuers};
-use crate::protocol::{HeldCertificates, LogChunk, Revisioned};
+use super::JobController;
+use crate::model::{ErrorCode, Problem, ServerStatus};
+use crate::protocol::Revisioned;
 use crate::session::ControllerSession;
-use crate::workspace::{SavedCertificate, SavedCsr, SavedFile};
 
 /// What is done to one controller.
 #[async_trait]
-pub trait Operation: Send + Sync {
+pub trait Operation: std::fmt::Debug + Send + Sync {
+    /// What [`Operation::run`] returns when it succeeds.
+    type Output: OperationOutput;
+
     /// What must be said and agreed to first; `None` when nothing is changed.
     fn confirmation(&self) -> Option<Confirmation>;
 
@@ -22,10 +23,12 @@ pub trait Operation: Send + Sync {
         Ok(())
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem>;
+    /// Does it, once everything was agreed to.
+    async fn run(&self, run: &mut Run<'_>) -> Result<Self::Output, Problem>;
 
-    /// The status in which it leaves the server, for an operation that changes nothing else. Default: none.
-    fn wanted_status(&self) -> Option<ServerStatus> {
+    /// The status in which it leaves the server, and its result then, for an operation that changes nothing else. When
+    /// the answer was lost and the server has this status, the operation succeeded. Default: none.
+    fn wanted_status(&self) -> Option<(ServerStatus, Self::Output)> {
         None
     }
 
@@ -97,101 +100,47 @@ pub enum Step {
     SaveBackup,
 }
 
-/// What came of an operation.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Outcome {
-    /// Done; the row's information says the rest.
-    Done,
-    Settings(Revisioned<ServerSettings>),
-    Users(Revisioned<Vec<UserName>>),
-    /// Client lists and CRLs of a controller.
-    TrustLists(Box<TrustSnapshot>),
-    /// Client lists or CRLs were changed.
-    TrustChanged(Box<TrustChange>),
-    /// [`LogChunk::text`] is what was asked for, however many requests that took.
-    Log(LogChunk),
-    /// The server log is in this file.
-    LogSaved {
-        path: PathBuf,
-    },
-    /// The settings of the controller are in this file.
-    SettingsExported {
-        path: PathBuf,
-    },
-    /// The settings of this file are in the controller.
-    SettingsImported {
-        path: PathBuf,
-    },
-    Certificate {
-        summary: CertificateSummary,
-        saved: Option<SavedCertificate>,
-    },
-    /// A signing request was made and saved.
-    Csr {
-        common_name: String,
-        saved: SavedCsr,
-    },
-    /// A server certificate from elsewhere was installed and selected; what clients may complain about was accepted.
-    Imported {
-        summary: CertificateSummary,
-        findings: Vec<Finding>,
-        /// Where the files of the former request are now, if one was made for it.
-        moved_aside: Vec<PathBuf>,
-    },
-    /// A backup of a key was put back.
-    Restored {
-        /// The certificate that the server uses now; `None` if the backup is of a signing request for which no CA has
-        /// issued a certificate.
-        summary: Option<CertificateSummary>,
-        findings: Vec<Finding>,
-    },
-    /// A server certificate from elsewhere was looked at.
-    Checked {
-        /// `None`: a signing request and its key, without a certificate.
-        summary: Option<CertificateSummary>,
-        findings: Vec<Finding>,
-        /// Of a certificate from a CA.
-        issuers: Option<Issuers>,
-    },
-    Certificates(Revisioned<HeldCertificates>),
-    /// The OPC UA server was connected to as a client does.
-    Verified(Box<VerifyReport>),
-    /// A server certificate was saved on the PC.
-    Exported {
-        summary: CertificateSummary,
-        saved: SavedFile,
-    },
+/// What an operation returns when it succeeds.
+///
+/// Window and command line treat some facts about a result in the same way, whatever the operation was; each result
+/// states them.
+pub trait OperationOutput: std::fmt::Debug + Send + 'static {
+    /// The facts that this result has in common with others.
+    fn facts(&self) -> OutputFacts<'_>;
 }
 
-impl Outcome {
-    /// What was found wrong by an operation that did its work.
-    pub fn shortcoming(&self) -> Option<Problem> {
-        match self {
-            Self::Verified(report) if !report.all_works() => Some(ErrorCode::VerifyFailed.into()),
-            _ => None,
-        }
-    }
+/// Facts about the result of an operation that do not depend on its type.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OutputFacts<'a> {
+    /// The file on the PC that was written.
+    pub written: Option<&'a Path>,
+    /// The file on the PC whose content is in the controller now.
+    pub used: Option<&'a Path>,
+    /// Files on the PC that were moved to make room: where they are now.
+    pub moved_aside: &'a [PathBuf],
+    /// The operation did its work, and what it found is not good. The command line ends with exit code 1 then.
+    pub shortcoming: Option<Problem>,
+}
 
-    /// The file on the PC that was asked for, or that was used.
-    pub fn file(&self) -> Option<&Path> {
-        match self {
-            Self::Exported { saved, .. } => Some(&saved.file),
-            Self::Csr { saved, .. } => Some(&saved.csr),
-            Self::Certificate { saved: Some(saved), .. } => Some(&saved.certificate),
-            Self::SettingsExported { path } | Self::SettingsImported { path } | Self::LogSaved { path } => Some(path),
-            _ => None,
-        }
-    }
+impl OutputFacts<'_> {
+    /// No file, nothing moved, nothing found.
+    pub const NONE: Self = Self { written: None, used: None, moved_aside: &[], shortcoming: None };
+}
 
-    /// Where files on the PC are now that had to make room.
-    pub fn moved_aside(&self) -> &[PathBuf] {
-        match self {
-            Self::Exported { saved, .. } => &saved.moved_aside,
-            Self::Csr { saved, .. } => &saved.moved_aside,
-            Self::Imported { moved_aside, .. } => moved_aside,
-            Self::Certificate { saved: Some(saved), .. } => &saved.moved_aside,
-            _ => &[],
-        }
+/// The result of an operation that returns nothing: the information the runner reads afterwards says the rest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Done;
+
+impl OperationOutput for Done {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts::NONE
+    }
+}
+
+/// What was read from a controller.
+impl<T: std::fmt::Debug + Send + 'static> OperationOutput for Revisioned<T> {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts::NONE
     }
 }
 

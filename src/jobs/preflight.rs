@@ -1,9 +1,51 @@
 //! What operations look at before they install a server certificate that was made elsewhere.
 
-use super::Run;
+use std::path::PathBuf;
+
 use super::self_signed::server_names;
-use crate::model::{ControllerInfo, ErrorCode, Language, Problem};
-use crate::pki::{Certificate, CertificateFlaw, Expected, Finding, PkiError, Severity, check_import};
+use super::{OperationOutput, OutputFacts, Run};
+use crate::model::{CertificateSummary, ControllerInfo, ErrorCode, Language, Problem};
+use crate::pki::{Certificate, CertificateFlaw, Expected, Finding, Issuers, PkiError, Severity, check_import};
+
+/// A server certificate from elsewhere was installed and selected.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertificateImported {
+    pub summary: CertificateSummary,
+    /// What clients may complain about, and was accepted.
+    pub findings: Vec<Finding>,
+    /// Where the files of the former request are now, if one was made for it.
+    pub moved_aside: Vec<PathBuf>,
+}
+
+impl OperationOutput for CertificateImported {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts { written: None, used: None, moved_aside: &self.moved_aside, shortcoming: None }
+    }
+}
+
+/// A server certificate from elsewhere was looked at, and nothing was changed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertificateChecked {
+    /// `None`: a signing request and its key, without a certificate.
+    pub summary: Option<CertificateSummary>,
+    /// What clients would say of it.
+    pub findings: Vec<Finding>,
+    /// Of a certificate from a CA.
+    pub issuers: Option<Issuers>,
+}
+
+impl CertificateChecked {
+    /// Whether clients would refuse it.
+    pub fn is_refused(&self) -> bool {
+        self.findings.iter().any(|finding| finding.severity == Severity::Error)
+    }
+}
+
+impl OperationOutput for CertificateChecked {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts::NONE
+    }
+}
 
 /// Compares a certificate with the controller it is for. Reads the controller's settings.
 pub(super) async fn examine(

@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use super::{AddTrust, Confirmation, Destination, JobController, Operation, Outcome, Run, Step, TrustFile};
+use super::{AddTrust, Confirmation, Destination, JobController, Operation, Run, Step, TrustChange, TrustFile};
 use crate::model::{FirmwareGeneration, Problem};
 use crate::pki::Bundle;
 use crate::workspace::authority::AuthorityOverview;
@@ -48,6 +48,8 @@ impl PushAuthority {
 
 #[async_trait]
 impl Operation for PushAuthority {
+    type Output = TrustChange;
+
     fn confirmation(&self) -> Option<Confirmation> {
         self.operation(FirmwareGeneration::Current).confirmation()
     }
@@ -59,7 +61,7 @@ impl Operation for PushAuthority {
         }
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
         run.begin(Step::Read)?;
         let generation = run.session.info().await?.generation();
         self.operation(generation).run(run).await

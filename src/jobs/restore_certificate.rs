@@ -2,9 +2,12 @@ use async_trait::async_trait;
 use secrecy::{ExposeSecret as _, SecretString};
 
 use super::self_signed::transfer_password;
-use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
-use crate::model::{CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, Problem};
-use crate::pki::{PkiError, pkcs12_write, pkcs12_write_key};
+use super::{
+    CertificateChecked, Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step,
+    preflight,
+};
+use crate::model::{CertificateSummary, CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, Problem};
+use crate::pki::{Finding, PkiError, pkcs12_write, pkcs12_write_key};
 use crate::protocol::{Base64Bytes, ImportCertificate, ImportCsr, WireSecret};
 use crate::workspace::{BackupKind, KeyBackup, KeyBackupSource};
 
@@ -23,8 +26,26 @@ pub struct RestoreCertificate {
     pub accept_warnings: bool,
 }
 
+/// A backup of a key was put back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertificateRestored {
+    /// The certificate that the server uses now; `None` if the backup is of a signing request for which no CA has
+    /// issued a certificate.
+    pub summary: Option<CertificateSummary>,
+    /// What clients may complain about, and was accepted.
+    pub findings: Vec<Finding>,
+}
+
+impl OperationOutput for CertificateRestored {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts::NONE
+    }
+}
+
 #[async_trait]
 impl Operation for RestoreCertificate {
+    type Output = CertificateRestored;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation {
             server: ServerEffect::Restarts,
@@ -38,7 +59,7 @@ impl Operation for RestoreCertificate {
         controller.known.as_ref().map_or(Ok(()), legacy)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateRestored, Problem> {
         let (info, backup) = read(&self.source, self.password.as_ref(), run).await?;
         let findings = match backup.certificate() {
             Some(certificate) => preflight::admit(run, &info, certificate, self.accept_warnings).await?,
@@ -69,7 +90,7 @@ impl Operation for RestoreCertificate {
                 run.session.import_csr(ImportCsr { revision, csr, pkcs12, password, certificate }).await?;
             }
         }
-        Ok(Outcome::Restored { summary: backup.certificate().map(|certificate| certificate.summary()), findings })
+        Ok(CertificateRestored { summary: backup.certificate().map(|certificate| certificate.summary()), findings })
     }
 }
 
@@ -83,6 +104,8 @@ pub struct CheckCertificateBackup {
 
 #[async_trait]
 impl Operation for CheckCertificateBackup {
+    type Output = CertificateChecked;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
@@ -91,13 +114,13 @@ impl Operation for CheckCertificateBackup {
         controller.known.as_ref().map_or(Ok(()), legacy)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateChecked, Problem> {
         let (info, backup) = read(&self.source, self.password.as_ref(), run).await?;
         let Some(certificate) = backup.certificate() else {
-            return Ok(Outcome::Checked { summary: None, findings: Vec::new(), issuers: None });
+            return Ok(CertificateChecked { summary: None, findings: Vec::new(), issuers: None });
         };
         let findings = preflight::examine(run, &info, certificate).await?;
-        Ok(Outcome::Checked { summary: Some(certificate.summary()), findings, issuers: None })
+        Ok(CertificateChecked { summary: Some(certificate.summary()), findings, issuers: None })
     }
 }
 

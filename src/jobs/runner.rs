@@ -7,7 +7,7 @@ use tokio::sync::Semaphore;
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
-use super::{Operation, Outcome, Run, Step};
+use super::{Operation, OperationOutput, Run, Step};
 use crate::model::{Address, ControllerInfo, ControllerName, ErrorCode, Problem};
 use crate::pki::Fingerprint;
 use crate::session::{Connector, ControllerSession};
@@ -66,19 +66,19 @@ impl JobContext {
     }
 }
 
-/// What came of one controller's turn.
+/// The result of an operation for one controller. `O`: the operation's [`Operation::Output`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report {
-    pub result: Result<Outcome, Problem>,
+pub struct Report<O> {
+    pub result: Result<O, Problem>,
     /// The controller's information after the operation, whether that succeeded or not; `None` if it was not reached.
     pub info: Option<ControllerInfo>,
 }
 
 /// What happens while a job runs. `index` counts the job's controllers.
 #[derive(Debug, Clone, PartialEq)]
-pub enum JobEvent {
+pub enum JobEvent<O> {
     Step { index: usize, step: Step },
-    Finished { index: usize, report: Box<Report> },
+    Finished { index: usize, report: Box<Report<O>> },
 }
 
 /// How a job ended.
@@ -91,7 +91,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    pub fn add(&mut self, result: &Result<Outcome, Problem>) {
+    pub fn add<O>(&mut self, result: &Result<O, Problem>) {
         match result {
             Ok(_) => self.done += 1,
             Err(problem) if problem.code == ErrorCode::Cancelled => self.not_started += 1,
@@ -107,12 +107,12 @@ impl Summary {
 ///
 /// A turn ends with that event; its session is closed while the next one has its turn. At most as many sessions are
 /// being closed as have their turn, and when this returns, all are.
-pub async fn run(
+pub async fn run<O: OperationOutput>(
     controllers: Vec<JobController>,
-    operation: Arc<dyn Operation>,
+    operation: Arc<dyn Operation<Output = O>>,
     context: JobContext,
     cancel: CancellationToken,
-    on_event: impl Fn(JobEvent) + Send + Sync + 'static,
+    on_event: impl Fn(JobEvent<O>) + Send + Sync + 'static,
 ) -> Summary {
     let on_event = Arc::new(on_event);
     let at_once = context.parallelism.max(1);
@@ -155,25 +155,25 @@ pub async fn run(
 }
 
 /// A controller's turn is over.
-struct Turn {
-    report: Report,
+struct Turn<O> {
+    report: Report<O>,
     /// Still to be closed.
     session: Option<Box<dyn ControllerSession>>,
 }
 
-impl Turn {
+impl<O> Turn<O> {
     fn failed(problem: Problem) -> Self {
         Self { report: Report { result: Err(problem), info: None }, session: None }
     }
 }
 
-async fn one(
+async fn one<O: OperationOutput>(
     controller: &JobController,
-    operation: &dyn Operation,
+    operation: &dyn Operation<Output = O>,
     context: &JobContext,
     cancel: &CancellationToken,
     on_step: &(dyn Fn(Step) + Send + Sync),
-) -> Turn {
+) -> Turn<O> {
     if cancel.is_cancelled() {
         return Turn::failed(ErrorCode::Cancelled.into());
     }
@@ -223,7 +223,7 @@ async fn one(
         result => match (result, session.info().await) {
             (Ok(_), Err(problem)) if operation.is_information() => Report { result: Err(problem), info: None },
             // What was done is done, whatever became of the connection since.
-            (Ok(outcome), Err(_)) => Report { result: Ok(outcome), info: again.read().await.ok() },
+            (Ok(output), Err(_)) => Report { result: Ok(output), info: again.read().await.ok() },
             (result, info) => Report { result, info: info.ok() },
         },
     };
@@ -262,13 +262,13 @@ impl Again<'_> {
     ///   cases it was somebody else's change; the row shows how it is.
     /// - It is where a start or a stop should bring it: done, whoever did it.
     /// - Neither: what went wrong, saying that the change was not seen. The controller may still be at work on it.
-    async fn find_out(
+    async fn find_out<O: OperationOutput>(
         &self,
         problem: Problem,
         based_on: Option<u64>,
-        operation: &dyn Operation,
+        operation: &dyn Operation<Output = O>,
         cancel: &CancellationToken,
-    ) -> Report {
+    ) -> Report<O> {
         let mut last = None;
         for pause in READ_AGAIN {
             if cancel.is_cancelled() && last.is_some() {
@@ -276,8 +276,10 @@ impl Again<'_> {
             }
             tokio::time::sleep(pause).await;
             let Ok(info) = self.read().await else { continue };
-            if operation.wanted_status() == Some(info.status) {
-                return Report { result: Ok(Outcome::Done), info: Some(info) };
+            if let Some((wanted, output)) = operation.wanted_status()
+                && info.status == wanted
+            {
+                return Report { result: Ok(output), info: Some(info) };
             }
             if let Some(before) = based_on.filter(|before| info.revision > *before) {
                 let detail = format!("{}; revision {before} is now {}", problem.code.as_str(), info.revision);

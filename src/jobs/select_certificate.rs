@@ -1,8 +1,8 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
+use super::{Confirmation, Done, JobController, Operation, Run, ServerEffect, Step};
 use crate::model::{CertificateType, ErrorCode, FirmwareGeneration, Problem};
-use crate::protocol;
+use crate::protocol::{self, HeldCertificates, Revisioned};
 
 /// Reads which server certificates a controller holds, and whether a CSR is waiting for its certificate.
 #[derive(Debug, Clone, Copy)]
@@ -10,13 +10,15 @@ pub struct ListCertificates;
 
 #[async_trait]
 impl Operation for ListCertificates {
+    type Output = Revisioned<HeldCertificates>;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Revisioned<HeldCertificates>, Problem> {
         run.begin(Step::Read)?;
-        Ok(Outcome::Certificates(run.session.certificates().await?))
+        run.session.certificates().await
     }
 }
 
@@ -27,6 +29,8 @@ pub struct SelectCertificateType(pub CertificateType);
 
 #[async_trait]
 impl Operation for SelectCertificateType {
+    type Output = Done;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, changes_certificate: true, ..Confirmation::default() })
     }
@@ -39,7 +43,7 @@ impl Operation for SelectCertificateType {
         Ok(())
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Read)?;
         let held = run.session.certificates().await?;
         if self.0 != CertificateType::UserSpecified && held.value.of(self.0).is_none() {
@@ -47,6 +51,6 @@ impl Operation for SelectCertificateType {
         }
         run.begin(Step::Apply)?;
         run.session.select_certificate(protocol::SelectCertificate { revision: held.revision, kind: self.0 }).await?;
-        Ok(Outcome::Done)
+        Ok(Done)
     }
 }

@@ -3,14 +3,14 @@ use std::net::IpAddr;
 use async_trait::async_trait;
 use secrecy::SecretString;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
+use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
 use crate::model::{
-    CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, Subject,
-    Validity, clock,
+    CertificateSummary, CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, KeyLength, Problem,
+    SelfSignedRequest, Subject, Validity, clock,
 };
 use crate::pki::{self, Certificate, PrivateKey, ServerNames};
 use crate::protocol::{Base64Bytes, ImportCertificate, Installed, MakeSelfSigned, WireSecret};
-use crate::workspace::CertificateFiles;
+use crate::workspace::{CertificateFiles, SavedCertificate};
 
 /// The fields of the self-signed dialog (manual 2.7.1.2).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -55,8 +55,30 @@ pub(super) fn bad_request(error: impl std::fmt::Display) -> Problem {
     Problem::with_detail(ErrorCode::BadCertificateRequest, error)
 }
 
+/// A self-signed certificate was made and is in use.
+#[derive(Debug, Clone, PartialEq)]
+pub struct CertificateMade {
+    pub summary: CertificateSummary,
+    /// Its backup; `None` when backup is off.
+    pub saved: Option<SavedCertificate>,
+}
+
+impl OperationOutput for CertificateMade {
+    fn facts(&self) -> OutputFacts<'_> {
+        let saved = self.saved.as_ref();
+        OutputFacts {
+            written: saved.map(|saved| saved.certificate.as_path()),
+            used: None,
+            moved_aside: saved.map_or(&[], |saved| &saved.moved_aside),
+            shortcoming: None,
+        }
+    }
+}
+
 #[async_trait]
 impl Operation for SelfSigned {
+    type Output = CertificateMade;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation {
             server: ServerEffect::Restarts,
@@ -71,7 +93,7 @@ impl Operation for SelfSigned {
         self.fields.request(application_name).subject.check().map_err(bad_request)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateMade, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         let settings = run.session.settings().await?;
@@ -105,7 +127,7 @@ impl Operation for SelfSigned {
                 Some(run.off_thread(save).await?)
             }
         };
-        Ok(Outcome::Certificate { summary: certificate.summary(), saved })
+        Ok(CertificateMade { summary: certificate.summary(), saved })
     }
 }
 

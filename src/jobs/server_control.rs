@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, Outcome, Run, ServerEffect, Step};
+use super::{Confirmation, Done, Operation, Run, ServerEffect, Step};
 use crate::model::{Problem, ServerStatus};
 
 /// Starts the OPC UA server (manual 2.4.3).
@@ -9,18 +9,20 @@ pub struct StartServer;
 
 #[async_trait]
 impl Operation for StartServer {
+    type Output = Done;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Apply)?;
         run.session.start_server().await?;
-        Ok(Outcome::Done)
+        Ok(Done)
     }
 
-    fn wanted_status(&self) -> Option<ServerStatus> {
-        Some(ServerStatus::Run)
+    fn wanted_status(&self) -> Option<(ServerStatus, Done)> {
+        Some((ServerStatus::Run, Done))
     }
 }
 
@@ -30,17 +32,19 @@ pub struct StopServer;
 
 #[async_trait]
 impl Operation for StopServer {
+    type Output = Done;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Stops, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Apply)?;
         run.session.stop_server().await?;
-        Ok(Outcome::Done)
+        Ok(Done)
     }
 
-    fn wanted_status(&self) -> Option<ServerStatus> {
-        Some(ServerStatus::Stop)
+    fn wanted_status(&self) -> Option<(ServerStatus, Done)> {
+        Some((ServerStatus::Stop, Done))
     }
 }

@@ -3,7 +3,7 @@ use std::time::{Duration, Instant};
 
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, Outcome, Run, Step};
+use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
 use crate::model::{ErrorCode, Problem, foreign_text};
 use crate::protocol::LogChunk;
 use crate::workspace::write_atomic;
@@ -37,31 +37,53 @@ pub enum LogPart {
     From(u64),
 }
 
-/// Reads the whole server log and saves it on the PC as text ([`foreign_text::lines`]), readable by its owner only:
-/// [`Outcome::LogSaved`]. A file of the same name is replaced. Limits and errors are those of [`ReadLog`].
+/// Reads the whole server log and saves it on the PC as text ([`foreign_text::lines`]), readable by its owner only. A file of the same name is replaced. Limits and errors are those of [`ReadLog`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SaveLog {
     pub path: PathBuf,
 }
 
+/// The server log is in this file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct LogSaved {
+    pub path: PathBuf,
+}
+
+impl OperationOutput for LogSaved {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts { written: Some(&self.path), used: None, moved_aside: &[], shortcoming: None }
+    }
+}
+
+/// [`LogChunk::text`] is what was asked for, however many requests that took.
+impl OperationOutput for LogChunk {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts::NONE
+    }
+}
+
 #[async_trait]
 impl Operation for ReadLog {
+    type Output = LogChunk;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<LogChunk, Problem> {
         run.begin(Step::Read)?;
         let log = match self.part {
             LogPart::End => run.session.log(None).await?,
             LogPart::From(from) => read_from(from, run).await?,
         };
-        Ok(Outcome::Log(log))
+        Ok(log)
     }
 }
 
 #[async_trait]
 impl Operation for SaveLog {
+    type Output = LogSaved;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
@@ -70,13 +92,13 @@ impl Operation for SaveLog {
         true
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<LogSaved, Problem> {
         run.begin(Step::Read)?;
         let text = read_from(0, run).await?.text;
         run.begin(Step::SaveBackup)?;
         let path = self.path.clone();
         run.off_thread(move || Ok(write_atomic(&path, foreign_text::lines(&text).as_bytes())?)).await?;
-        Ok(Outcome::LogSaved { path: self.path.clone() })
+        Ok(LogSaved { path: self.path.clone() })
     }
 }
 

@@ -2,9 +2,9 @@ use std::collections::BTreeSet;
 
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, Outcome, Run, ServerEffect, Step};
+use super::{Confirmation, Done, Operation, Run, ServerEffect, Step};
 use crate::model::{ErrorCode, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy};
-use crate::protocol;
+use crate::protocol::{self, Revisioned};
 
 /// Reads the basic settings.
 #[derive(Debug, Clone, Copy)]
@@ -12,13 +12,15 @@ pub struct ReadSettings;
 
 #[async_trait]
 impl Operation for ReadSettings {
+    type Output = Revisioned<ServerSettings>;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Revisioned<ServerSettings>, Problem> {
         run.begin(Step::Read)?;
-        Ok(Outcome::Settings(run.session.settings().await?))
+        run.session.settings().await
     }
 }
 
@@ -77,6 +79,8 @@ pub struct SetSettings {
 
 #[async_trait]
 impl Operation for SetSettings {
+    type Output = Done;
+
     fn confirmation(&self) -> Option<Confirmation> {
         let SettingsChange { port, security_policies, user_tokens, server_log, delete_log, startup: _ } = &self.change;
         Some(Confirmation {
@@ -108,7 +112,7 @@ impl Operation for SetSettings {
         }
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Read)?;
         let current = run.session.settings().await?;
         let mut settings = current.value;
@@ -123,6 +127,6 @@ impl Operation for SetSettings {
                 log_password: self.log_password.clone(),
             })
             .await?;
-        Ok(Outcome::Done)
+        Ok(Done)
     }
 }

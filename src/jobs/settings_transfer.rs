@@ -1,7 +1,9 @@
+use std::path::PathBuf;
+
 use async_trait::async_trait;
 use secrecy::SecretString;
 
-use super::{Confirmation, JobController, Operation, Outcome, Run, ServerEffect, Step};
+use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
 use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem};
 use crate::protocol::{self, WireSecret};
 use crate::workspace::{SettingsFiles, check_passphrase, check_protects_files};
@@ -31,8 +33,34 @@ fn legacy(firmware: FirmwareVersion) -> Result<(), Problem> {
     }
 }
 
+/// The settings of the controller are in this file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SettingsExported {
+    pub path: PathBuf,
+}
+
+impl OperationOutput for SettingsExported {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts { written: Some(&self.path), used: None, moved_aside: &[], shortcoming: None }
+    }
+}
+
+/// The settings of this file are in the controller.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SettingsImported {
+    pub path: PathBuf,
+}
+
+impl OperationOutput for SettingsImported {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts { written: None, used: Some(&self.path), moved_aside: &[], shortcoming: None }
+    }
+}
+
 #[async_trait]
 impl Operation for ExportSettings {
+    type Output = SettingsExported;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { overwrites_export: true, ..Confirmation::default() })
     }
@@ -42,7 +70,7 @@ impl Operation for ExportSettings {
         controller.known.as_ref().map_or(Ok(()), |known| legacy(known.firmware))
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<SettingsExported, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         legacy(info.firmware)?;
@@ -56,12 +84,14 @@ impl Operation for ExportSettings {
         run.begin(Step::SaveBackup)?;
         let files = self.files.clone();
         let path = run.on_a_core(move || files.save(&info.serial, &export)).await??;
-        Ok(Outcome::SettingsExported { path })
+        Ok(SettingsExported { path })
     }
 }
 
 #[async_trait]
 impl Operation for ImportSettings {
+    type Output = SettingsImported;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, replaces_settings: true, ..Confirmation::default() })
     }
@@ -70,7 +100,7 @@ impl Operation for ImportSettings {
         controller.known.as_ref().map_or(Ok(()), |known| legacy(known.firmware))
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<SettingsImported, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         legacy(info.firmware)?;
@@ -89,6 +119,6 @@ impl Operation for ImportSettings {
         run.begin(Step::Apply)?;
         let change = protocol::ImportSettings { revision, export, passphrase: WireSecret(passphrase) };
         run.session.import_settings(change).await?;
-        Ok(Outcome::SettingsImported { path })
+        Ok(SettingsImported { path })
     }
 }

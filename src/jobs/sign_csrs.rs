@@ -4,7 +4,9 @@ use async_trait::async_trait;
 use parking_lot::Mutex;
 use secrecy::SecretString;
 
-use super::{Confirmation, CreateCsr, JobController, Operation, Outcome, Run, ServerEffect, Step, preflight};
+use super::{
+    CertificateImported, Confirmation, CreateCsr, JobController, Operation, Run, ServerEffect, Step, preflight,
+};
 use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, ServerStatus, Validity, clock};
 use crate::pki::{Certificate, Csr, IssueRequest};
 use crate::protocol::{Base64Bytes, ImportCaSigned};
@@ -74,6 +76,8 @@ impl Signed {
 
 #[async_trait]
 impl Operation for SignCsrs {
+    type Output = CertificateImported;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation {
             server: ServerEffect::Restarts,
@@ -89,7 +93,7 @@ impl Operation for SignCsrs {
         self.request.check(controller)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateImported, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
         let held = run.session.certificates().await?.value;
@@ -118,7 +122,7 @@ impl Operation for SignCsrs {
                 run.session.start_server().await?;
             }
         }
-        Ok(Outcome::Imported { summary: certificate.summary(), findings, moved_aside })
+        Ok(CertificateImported { summary: certificate.summary(), findings, moved_aside })
     }
 }
 

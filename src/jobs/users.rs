@@ -1,8 +1,8 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, Outcome, Run, ServerEffect, Step};
+use super::{Confirmation, Done, Operation, Run, ServerEffect, Step};
 use crate::model::{Credential, ErrorCode, MAX_USERS, Problem, UserName};
-use crate::protocol::{self, WireSecret};
+use crate::protocol::{self, Revisioned, WireSecret};
 
 /// Lists the users of an OPC UA server; never their passwords (manual 2.6.2.1).
 #[derive(Debug, Clone, Copy)]
@@ -10,13 +10,15 @@ pub struct ListUsers;
 
 #[async_trait]
 impl Operation for ListUsers {
+    type Output = Revisioned<Vec<UserName>>;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Revisioned<Vec<UserName>>, Problem> {
         run.begin(Step::Read)?;
-        Ok(Outcome::Users(run.session.users().await?))
+        run.session.users().await
     }
 }
 
@@ -30,11 +32,13 @@ pub struct AddUser {
 
 #[async_trait]
 impl Operation for AddUser {
+    type Output = Done;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Read)?;
         let current = run.session.users().await?;
         if current.value.contains(&self.credential.name) {
@@ -51,7 +55,7 @@ impl Operation for AddUser {
                 password: WireSecret(self.credential.password.secret().clone()),
             })
             .await?;
-        Ok(Outcome::Done)
+        Ok(Done)
     }
 }
 
@@ -65,11 +69,13 @@ pub struct RemoveUsers {
 
 #[async_trait]
 impl Operation for RemoveUsers {
+    type Output = Done;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Read)?;
         let current = run.session.users().await?;
         if let Some(missing) = self.names.iter().find(|name| !current.value.contains(name)) {
@@ -82,6 +88,6 @@ impl Operation for RemoveUsers {
                 names: self.names.clone(),
             })
             .await?;
-        Ok(Outcome::Done)
+        Ok(Done)
     }
 }

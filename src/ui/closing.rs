@@ -112,7 +112,7 @@ fn progress(ui: &mut Ui, model: &Model) {
     match model.job.as_ref().filter(|job| job.summary.is_none()) {
         Some(job) => {
             let all = job.rows.len();
-            ui.label(texts::job_running(model.language, job.task.title(), job.finished, all));
+            ui.label(texts::job_running(model.language, job.task.title, job.finished, all));
             ui.add_space(theme::SPACE);
             ui.visuals_mut().extreme_bg_color = palette.line;
             let done = job.finished as f32 / all.max(1) as f32;

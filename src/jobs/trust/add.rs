@@ -2,12 +2,12 @@ use std::sync::Arc;
 
 use async_trait::async_trait;
 
-use super::change::apply;
+use super::change::{TrustChange, apply};
 use super::{Destination, TrustFile, TrustPlan, TrustSnapshot};
-use crate::jobs::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use crate::jobs::{Confirmation, JobController, Operation, Run, Step};
 use crate::model::Problem;
 
-/// Adds certificates to client lists and CRLs (manual 2.7.3.3, 2.7.3.6): [`Outcome::TrustChanged`].
+/// Adds certificates to client lists and CRLs (manual 2.7.3.3, 2.7.3.6).
 ///
 /// What goes where is said by a [`TrustPlan`], made anew from what each controller holds. If anything is refused, or
 /// nothing is new, nothing is sent.
@@ -21,6 +21,8 @@ pub struct AddTrust {
 
 #[async_trait]
 impl Operation for AddTrust {
+    type Output = TrustChange;
+
     fn confirmation(&self) -> Option<Confirmation> {
         // A new CRL may revoke somebody who is connected.
         let disconnects_clients = self.files.iter().any(|file| !file.bundle.crls.is_empty());
@@ -37,7 +39,7 @@ impl Operation for AddTrust {
         }
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
         run.begin(Step::Read)?;
         let before = TrustSnapshot::read(run.session).await?;
         let (files, destination) = (Arc::clone(&self.files), self.destination);

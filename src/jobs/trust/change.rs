@@ -1,6 +1,6 @@
 use super::TrustSnapshot;
 use super::undo::{TrustUndo, undo};
-use crate::jobs::{Outcome, Run, Step};
+use crate::jobs::{OperationOutput, OutputFacts, Run, Step};
 use crate::model::Problem;
 use crate::protocol::{CutClient, EditTrust, TrustStep};
 
@@ -16,17 +16,23 @@ pub struct TrustChange {
     pub undo: Option<TrustUndo>,
 }
 
+impl OperationOutput for TrustChange {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts::NONE
+    }
+}
+
 /// Sends one change that was made up from `before`, and reads what the controller has then.
 pub(super) async fn apply(
     run: &mut Run<'_>,
     before: TrustSnapshot,
     steps: Vec<TrustStep>,
     based_on: Option<u64>,
-) -> Result<Outcome, Problem> {
+) -> Result<TrustChange, Problem> {
     run.begin(Step::Apply)?;
     let change = EditTrust { revision: based_on.unwrap_or(before.revision), steps };
     let done = run.session.edit_trust(change).await?;
     let lists = TrustSnapshot::read(run.session).await?;
     let undo = (lists.revision == done.changed.revision).then(|| undo(&before, &lists)).flatten();
-    Ok(Outcome::TrustChanged(Box::new(TrustChange { lists, cut: done.cut, undo })))
+    Ok(TrustChange { lists, cut: done.cut, undo })
 }

@@ -1,13 +1,12 @@
 use async_trait::async_trait;
 
 use super::TrustSnapshot;
-use super::change::apply;
-use crate::jobs::{Confirmation, Operation, Outcome, Run, Step};
+use super::change::{TrustChange, apply};
+use crate::jobs::{Confirmation, Operation, Run, Step};
 use crate::model::{ClientList, ErrorCode, Language, Problem};
 use crate::protocol::TrustStep;
 
-/// Moves certificates from one client list into another, such as a refused client into the trusted list:
-/// [`Outcome::TrustChanged`].
+/// Moves certificates from one client list into another, such as a refused client into the trusted list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MoveClients {
     pub from: ClientList,
@@ -23,12 +22,14 @@ pub struct MoveClients {
 
 #[async_trait]
 impl Operation for MoveClients {
+    type Output = TrustChange;
+
     fn confirmation(&self) -> Option<Confirmation> {
         let disconnects_clients = self.from != ClientList::Rejected;
         Some(Confirmation { disconnects_clients, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
         run.begin(Step::Read)?;
         let before = TrustSnapshot::read(run.session).await?;
         if let Some(missing) = self.thumbprints.iter().find(|t| !before.holds(self.from, t)) {

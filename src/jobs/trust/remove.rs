@@ -1,12 +1,12 @@
 use async_trait::async_trait;
 
 use super::TrustSnapshot;
-use super::change::apply;
-use crate::jobs::{Confirmation, Operation, Outcome, Run, Step};
+use super::change::{TrustChange, apply};
+use crate::jobs::{Confirmation, Operation, Run, Step};
 use crate::model::{ClientList, ErrorCode, Problem};
 use crate::protocol::TrustStep;
 
-/// Removes certificates from client lists (manual 2.7.3.2): [`Outcome::TrustChanged`].
+/// Removes certificates from client lists (manual 2.7.3.2).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RemoveClients {
     /// `None`: from every list they are in.
@@ -19,12 +19,14 @@ pub struct RemoveClients {
 
 #[async_trait]
 impl Operation for RemoveClients {
+    type Output = TrustChange;
+
     fn confirmation(&self) -> Option<Confirmation> {
         let disconnects_clients = self.list != Some(ClientList::Rejected);
         Some(Confirmation { disconnects_clients, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
         run.begin(Step::Read)?;
         let before = TrustSnapshot::read(run.session).await?;
         let lists = match self.list {
@@ -46,7 +48,7 @@ impl Operation for RemoveClients {
     }
 }
 
-/// Removes CRLs (manual 2.7.3.5): [`Outcome::TrustChanged`].
+/// Removes CRLs (manual 2.7.3.5).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct RemoveCrls {
     /// [`CrlSummary::id`](crate::model::CrlSummary::id) of each.
@@ -57,11 +59,13 @@ pub struct RemoveCrls {
 
 #[async_trait]
 impl Operation for RemoveCrls {
+    type Output = TrustChange;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { disconnects_clients: true, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
         run.begin(Step::Read)?;
         let before = TrustSnapshot::read(run.session).await?;
         if let Some(missing) = self.ids.iter().find(|id| !before.holds_crl(id)) {

@@ -3,13 +3,13 @@ use std::time::Duration;
 use async_trait::async_trait;
 use chrono::{DateTime, Utc};
 
-use crate::jobs::{Confirmation, Operation, Outcome, Run, Step};
+use crate::jobs::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
 use crate::model::{ClientList, ErrorCode, FirmwareGeneration, ListLimits, Problem};
 use crate::pki::{Certificate, Crl, PkiError, TrustHealth, TrustLists};
 use crate::protocol::{ListedCertificate, ListedCrl, RejectedClient};
 use crate::session::ControllerSession;
 
-/// Reads all client lists and CRLs of a controller (manual 2.7.3.1, 2.7.3.4): [`Outcome::TrustLists`].
+/// Reads all client lists and CRLs of a controller (manual 2.7.3.1, 2.7.3.4).
 #[derive(Debug, Clone, Copy)]
 pub struct ListTrust;
 
@@ -31,15 +31,23 @@ pub struct TrustSnapshot {
     pub health: TrustHealth,
 }
 
+impl OperationOutput for TrustSnapshot {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts::NONE
+    }
+}
+
 #[async_trait]
 impl Operation for ListTrust {
+    type Output = TrustSnapshot;
+
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<TrustSnapshot, Problem> {
         run.begin(Step::Read)?;
-        Ok(Outcome::TrustLists(Box::new(TrustSnapshot::read(run.session).await?)))
+        TrustSnapshot::read(run.session).await
     }
 }
 

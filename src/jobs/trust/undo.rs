@@ -3,8 +3,8 @@ use std::collections::BTreeMap;
 use async_trait::async_trait;
 
 use super::TrustSnapshot;
-use super::change::apply;
-use crate::jobs::{Confirmation, JobController, Operation, Outcome, Run, Step};
+use super::change::{TrustChange, apply};
+use crate::jobs::{Confirmation, JobController, Operation, Run, Step};
 use crate::model::{ClientList, ControllerName, ErrorCode, Problem};
 use crate::protocol::{Base64Bytes, TrustStep};
 
@@ -21,6 +21,8 @@ pub struct UndoTrust(pub BTreeMap<ControllerName, TrustUndo>);
 
 #[async_trait]
 impl Operation for UndoTrust {
+    type Output = TrustChange;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { disconnects_clients: true, ..Confirmation::default() })
     }
@@ -32,7 +34,7 @@ impl Operation for UndoTrust {
         Err(Problem::with_detail(ErrorCode::Refused, "nothing was changed here that could be taken back"))
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
         run.begin(Step::Read)?;
         let before = TrustSnapshot::read(run.session).await?;
         let steps = self.0.get(&run.controller.name).map(|undo| undo.0.clone()).unwrap_or_default();

@@ -22,14 +22,16 @@ pub use report::{
 
 pub use trust::TrustConfigurator;
 
-use super::{Confirmation, Operation, Outcome, Run, Step};
-use crate::model::{ControllerInfo, Credential, Problem, ServerSettings, ServerStatus, UserTokenPolicy, clock};
+use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
+use crate::model::{
+    ControllerInfo, Credential, ErrorCode, Problem, ServerSettings, ServerStatus, UserTokenPolicy, clock,
+};
 use crate::pki::{Certificate, Expected, check_server};
 use crate::session::opcua_client::{Endpoint, OpcUaClient, Patience, Target, is_reachable};
 use crate::workspace::OwnIdentityFiles;
 use probe::{Probe, clock, compare, offered_policies, refusal_of};
 
-/// Connects as an OPC UA client through every endpoint a controller offers, with every token: [`Outcome::Verified`].
+/// Connects as an OPC UA client through every endpoint a controller offers, with every token.
 ///
 /// The server's certificate is judged as a careful client does, with the certificate that the session with the
 /// controller names as the one to trust. A server that shows another is not logged in to. Nothing is tried twice, and a
@@ -47,13 +49,22 @@ pub struct Verify {
     pub patience: Patience,
 }
 
+impl OperationOutput for VerifyReport {
+    fn facts(&self) -> OutputFacts<'_> {
+        let shortcoming = (!self.all_works()).then(|| ErrorCode::VerifyFailed.into());
+        OutputFacts { written: None, used: None, moved_aside: &[], shortcoming }
+    }
+}
+
 #[async_trait]
 impl Operation for Verify {
+    type Output = VerifyReport;
+
     fn confirmation(&self) -> Option<Confirmation> {
         self.trust_first.then(Confirmation::default)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<VerifyReport, Problem> {
         run.begin(Step::Read)?;
         let own = trust::own(&self.identity, run).await?;
         if self.trust_first {
@@ -70,7 +81,7 @@ impl Operation for Verify {
             VerifyReport { url: target.url(), own, findings: Vec::new(), certificate: None, endpoints: Vec::new() };
         self.fill(&mut report, run, &known, &target).await?;
         report.findings.sort_by_key(VerifyFinding::severity);
-        Ok(Outcome::Verified(Box::new(report)))
+        Ok(report)
     }
 }
 

@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use crate::jobs::{Confirmation, Operation, Outcome, Run, Step, TrustSnapshot};
+use crate::jobs::{Confirmation, Done, Operation, Run, Step, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, Problem, clock};
 use crate::protocol::{Base64Bytes, EditTrust, TrustStep};
 use crate::workspace::{OwnIdentity, OwnIdentityFiles};
@@ -14,15 +14,17 @@ pub struct TrustConfigurator {
 
 #[async_trait]
 impl Operation for TrustConfigurator {
+    type Output = Done;
+
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation::default())
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Outcome, Problem> {
+    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Read)?;
         let own = own(&self.identity, run).await?;
         trust(run, &own).await?;
-        Ok(Outcome::Done)
+        Ok(Done)
     }
 }
 

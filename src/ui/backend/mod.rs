@@ -17,9 +17,9 @@ pub use tokio_backend::{BackendOptions, TokioBackend};
 pub use vault::VaultWork;
 
 use super::model::trust::ReadTrustFile;
-use super::model::{DroppedFile, ExportFound, JobId, Task};
+use super::model::{DroppedFile, ExportFound, JobId, Task, TaskEvent};
 use super::picker::FileKind;
-use crate::jobs::{Enrolled, JobController, JobEvent, Summary, WatchEvent};
+use crate::jobs::{Enrolled, JobController, Summary, WatchEvent};
 use crate::model::{Address, ControllerInfo, Problem};
 use crate::pki::Fingerprint;
 use crate::workspace::{Configuration, ControllerEntry, StoreStatus};
@@ -115,11 +115,11 @@ pub enum Command {
 }
 
 /// What came of it.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub enum Event {
     Job {
         job: JobId,
-        event: JobEvent,
+        event: TaskEvent,
     },
     JobEnded {
         job: JobId,

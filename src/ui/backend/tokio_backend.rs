@@ -160,8 +160,8 @@ impl TokioBackend {
         password: Option<SecretString>,
     ) {
         let cancel = self.token(job);
-        let operation = task.operation(&self.workspace);
-        let unfinished = operation.must_be_finished().then(|| self.unfinished.begin());
+        let task = task.clone();
+        let unfinished = task.must_be_finished().then(|| self.unfinished.begin());
         let mut context = self.context.clone();
         context.parallelism = parallelism.max(1);
         let (emit, store) = (self.emit.clone(), self.store.clone());
@@ -176,7 +176,7 @@ impl TokioBackend {
                 let emit = emit.clone();
                 move |event| emit(Event::Job { job, event })
             };
-            let summary = jobs::run(controllers, operation, context, cancel, on_event).await;
+            let summary = task.run(controllers, context, cancel, Arc::new(on_event)).await;
             report(store).await;
             emit(Event::JobEnded { job, summary });
             drop(unfinished);

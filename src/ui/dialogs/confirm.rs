@@ -10,12 +10,12 @@ use crate::workspace::VaultState;
 /// Says what an operation will do, and to which controllers.
 pub fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, model: &Model) -> Answer {
     let text = |key: T| key.text(model.language);
-    let buttons = Buttons { submit: Some((text(task.act()), None)), close: Some(text(T::Cancel)) };
-    let title = texts::title_for(model.language, task.title(), names);
+    let buttons = Buttons { submit: Some((text(task.act), None)), close: Some(text(T::Cancel)) };
+    let title = texts::title_for(model.language, task.title, names);
     dialog(ui, "confirm", &title, theme::DIALOG, buttons, |ui| {
         let mut remarks = texts::confirmation(confirmation);
-        if matches!(task, Task::TrustConfigurator) {
-            remarks.insert(0, T::ConfirmTrustConfigurator);
+        if let Some(remark) = task.remark {
+            remarks.insert(0, remark);
         }
         let color = if remarks.is_empty() { palette(ui).accent } else { palette(ui).warning };
         if remarks.is_empty() {

@@ -1,9 +1,10 @@
 use egui::{Frame, Label, RichText, Stroke, Ui};
 
+use crate::jobs::CertificateChecked;
 use crate::model::Problem;
 use crate::pki::{Finding, Issuers, Severity};
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Checked, ImportReview, Model};
+use crate::ui::model::{ImportReview, Model};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, dialog, fine_print, note, word};
 
@@ -33,9 +34,9 @@ pub fn show(ui: &Ui, review: &ImportReview, model: &Model) -> Answer {
     })
 }
 
-fn one(ui: &mut Ui, name: &str, found: &Result<Checked, Problem>, model: &Model) {
+fn one(ui: &mut Ui, name: &str, found: &Result<CertificateChecked, Problem>, model: &Model) {
     let (language, palette) = (model.language, palette(ui));
-    let refused = found.as_ref().map_or(true, Checked::is_refused);
+    let refused = found.as_ref().map_or(true, CertificateChecked::is_refused);
     let line = if refused { palette.error } else { palette.line };
     Frame::new().stroke(Stroke::new(1.0, line)).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
         ui.set_width(ui.available_width());

@@ -6,7 +6,7 @@ use super::{error, trust};
 use crate::protocol::CutClient;
 use crate::texts::{self, TextKey as T};
 use crate::ui::model::trust::TrustAction;
-use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState, Task};
+use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Answer, Buttons, chip, dialog, note, path_line};
 
@@ -20,7 +20,7 @@ pub fn show(ui: &Ui, view: &mut ProcessingView, model: &Model, messages: &mut Ve
         Some(summary) if summary.not_started > 0 => T::Stopped,
         Some(_) => T::Completed,
     };
-    let title = format!("{} – {}", text(job.task.title()), text(state));
+    let title = format!("{} – {}", text(job.task.title), text(state));
     let buttons = if ended {
         Buttons { submit: Some((text(T::Close), None)), close: None }
     } else {
@@ -76,9 +76,10 @@ fn bar(ui: &mut Ui, job: &Job, model: &Model) {
 
 /// The folders of what was saved, and of what had to make room for it.
 fn saved(ui: &mut Ui, job: &Job, model: &Model, messages: &mut Vec<Message>) {
-    let files: Vec<&Path> = job.rows.iter().filter_map(|row| row.saved.as_deref()).collect();
-    let said = if matches!(job.task, Task::ImportSettings { .. }) { T::ImportedFrom } else { T::SavedIn };
-    folder_of(ui, said, &files, model, messages);
+    let written: Vec<&Path> = job.rows.iter().filter_map(|row| row.written.as_deref()).collect();
+    folder_of(ui, T::SavedIn, &written, model, messages);
+    let used: Vec<&Path> = job.rows.iter().filter_map(|row| row.used.as_deref()).collect();
+    folder_of(ui, T::ImportedFrom, &used, model, messages);
     let moved: Vec<&Path> = job.rows.iter().flat_map(|row| &row.moved_aside).map(PathBuf::as_path).collect();
     folder_of(ui, T::MovedAside, &moved, model, messages);
 }
@@ -188,7 +189,7 @@ fn row(ui: &mut Ui, view: &mut ProcessingView, index: usize, row: &JobRow, model
     cell(&mut ui, 120.0, &mut |ui| drop(chip(ui, key.text(language), color)));
     if let Some(problem) = row.state.problem() {
         ui.add(Label::new(RichText::new(problem.code.explain(language).message).color(palette.error)).truncate());
-    } else if let Some(file) = &row.saved {
+    } else if let Some(file) = row.written.as_ref().or(row.used.as_ref()) {
         let shown = file.strip_prefix(model.workspace.root()).unwrap_or(file).display().to_string();
         ui.add(Label::new(RichText::new(shown).size(theme::SMALL_TEXT).color(palette.weak)).truncate());
     }

@@ -10,7 +10,7 @@ use crate::ui::widgets::{Answer, Buttons, choices, dialog, fine_print, form, lab
 /// signs (2.7.1.5).
 pub fn show(ui: &Ui, certificate: &mut SelfSignedForm, model: &Model) -> Answer {
     let text = |key: T| key.text(model.language);
-    let why = match certificate.task(false) {
+    let why = match certificate.task(model) {
         Some(_) => None,
         None if certificate.reading => Some(T::Reading),
         None => ["common name", "state", "locality", "organisation"].iter().find_map(|field| certificate.error(field)),

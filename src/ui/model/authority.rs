@@ -2,13 +2,16 @@
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use secrecy::SecretString;
 
-use super::{AuthorityCommand, Dialog, FileForm, JobId, Model, Purpose, RowId, SigningWish, Task, Typed};
-use crate::jobs::{CsrFields, PushAuthority};
+use super::trust::keep_change;
+use super::{AuthorityCommand, Dialog, FileForm, JobId, Model, RowId, Task, Typed};
+use crate::jobs::{CreateCsr, CsrFields, PushAuthority, SharedAuthority, SignCsrs};
 use crate::model::{
-    AuthorityRequest, AuthorityValidity, CertificateProfile, KeyLength, Problem, Subject, SubjectError, Validity,
+    AuthorityRequest, AuthorityValidity, CertificateProfile, FileFormat, KeyLength, Problem, Subject, SubjectError,
+    Validity,
 };
 use crate::pki::{Csr, IssueRequest, MAX_CERTIFICATE_FILE_BYTES, RevocationReason};
 use crate::texts::TextKey;
@@ -181,7 +184,7 @@ impl SignControllersForm {
         organisation_error(&self.organisation)
     }
 
-    fn wish(&self, backup: bool, passphrase: SecretString) -> Option<SigningWish> {
+    fn task(&self, passphrase: SecretString, model: &Model) -> Option<Task> {
         let fields = CsrFields {
             common_name: None,
             country: String::new(),
@@ -190,9 +193,22 @@ impl SignControllersForm {
             organisation: self.organisation.trim().to_owned(),
             key_length: KeyLength::Rsa2048,
         };
-        let validity = Validity::try_from(self.years).ok()?;
-        let Self { new_key, renew, accept_warnings, .. } = *self;
-        Some(SigningWish { fields, new_key, renew, accept_warnings, validity, backup, passphrase })
+        let operation = SignCsrs {
+            authority: Arc::new(SharedAuthority::new(model.workspace.authority(), passphrase)),
+            request: CreateCsr {
+                fields,
+                format: FileFormat::Der,
+                files: model.workspace.certificate_files(),
+                backup: model.options.backup,
+            },
+            new_key: self.new_key,
+            renew: self.renew,
+            validity: Validity::try_from(self.years).ok()?,
+            allow_short_keys: false,
+            accept_warnings: self.accept_warnings,
+        };
+        let task = Task::new(TextKey::CaSignTitle, operation).act(TextKey::ActSignAndImport);
+        Some(task.on_closed(Model::look_at_authority))
     }
 }
 
@@ -383,13 +399,15 @@ impl Model {
         match (form.action, done.overview) {
             (AuthorityAction::SignControllers(signing), _) => {
                 let passphrase = SecretString::from(form.passphrase.0.clone());
-                match signing.wish(self.options.backup, passphrase) {
-                    Some(wish) => self.start(Task::SignCsrs(wish), signing.rows, Purpose::Show, None),
+                match signing.task(passphrase, self) {
+                    Some(task) => self.start(task, signing.rows, None),
                     None => vec![],
                 }
             }
             (AuthorityAction::PublishCrl { rows, push: true, trust, .. }, Some(overview)) => {
-                self.start(Task::PushAuthority(PushAuthority::new(&overview, trust)), rows, Purpose::Show, None)
+                let push = PushAuthority::new(&overview, trust);
+                let task = Task::with_results(TextKey::CaCrlTitle, push, keep_change).act(TextKey::ActSendCrl);
+                self.start(task.on_closed(Model::look_at_authority), rows, None)
             }
             _ => self.sign_dropped(),
         }

@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
-use super::{Dialog, Model, Purpose, RowId, Task};
-use crate::jobs::Outcome;
+use super::{Dialog, Model, RowId, Task};
+use crate::jobs::{ExportSelfSigned, ListCertificates, SelectCertificateType};
 use crate::model::{CertificateSummary, CertificateType, FileFormat, FirmwareGeneration, Problem, SerialNumber};
 use crate::pki::Certificate;
-use crate::protocol::HeldCertificates;
+use crate::protocol::{HeldCertificates, Revisioned};
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::workspace::CertificateFiles;
+use crate::workspace::{CertificateFiles, Workspace};
 
 /// Where the self-signed certificates are saved, and how (manual 2.7.1.3).
 #[derive(Debug)]
@@ -18,6 +18,13 @@ pub struct ExportForm {
     pub rows: Vec<RowId>,
     pub names: Vec<String>,
     pub format: FileFormat,
+}
+
+impl ExportForm {
+    pub fn task(&self, workspace: &Workspace) -> Task {
+        let operation = ExportSelfSigned { format: self.format, files: workspace.certificate_files() };
+        Task::new(TextKey::ExportSelfSignedTitle, operation).act(TextKey::Export)
+    }
 }
 
 /// Which certificate the server uses (manual 2.7.2).
@@ -73,7 +80,8 @@ impl TypeSelectForm {
     /// What Apply does; `None` while nothing is chosen, or what no controller stores.
     pub fn task(&self) -> Option<Task> {
         let kind = self.selected?;
-        (!self.reading && self.storing(kind) > 0).then_some(Task::SelectType(kind))
+        let task = || Task::new(TextKey::TypeSelectTitle, SelectCertificateType(kind)).act(TextKey::ActSelectType);
+        (!self.reading && self.storing(kind) > 0).then(|| task().restarts_server())
     }
 }
 
@@ -121,25 +129,26 @@ impl Model {
             held: BTreeMap::new(),
             selected: None,
         }));
-        self.start(Task::ListCertificates, rows, Purpose::LoadCertificates, None)
+        let task = Task::with_results(TextKey::TypeSelectTitle, ListCertificates, Model::certificates_loaded);
+        self.start(task.for_dialog().on_end(Model::certificates_ended), rows, None)
     }
 
     /// One controller has answered, or failed to.
-    pub(super) fn certificates_loaded(&mut self, row: RowId, result: Result<Outcome, Problem>) {
+    fn certificates_loaded(
+        &mut self,
+        row: RowId,
+        result: Result<Revisioned<HeldCertificates>, Problem>,
+    ) -> Vec<Command> {
         if let Some(Dialog::TypeSelect(form)) = self.form() {
-            let held = match result {
-                Ok(Outcome::Certificates(held)) => Ok(Held::from(held.value)),
-                Ok(_) => return,
-                Err(problem) => Err(problem),
-            };
-            form.held.insert(row, held);
+            form.held.insert(row, result.map(|held| Held::from(held.value)));
         }
+        vec![]
     }
 
     /// All have.
-    pub(super) fn certificates_ended(&mut self) {
+    fn certificates_ended(&mut self) -> Vec<Command> {
         self.job = None;
-        let Some(Dialog::TypeSelect(form)) = self.form() else { return };
+        let Some(Dialog::TypeSelect(form)) = self.form() else { return vec![] };
         form.reading = false;
         form.selected = CertificateType::ALL.into_iter().find(|kind| form.in_use(*kind));
         if form.known().next().is_none() {
@@ -149,5 +158,6 @@ impl Model {
                 self.show_problem(problem);
             }
         }
+        vec![]
     }
 }

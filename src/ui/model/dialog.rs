@@ -3,8 +3,8 @@ use std::collections::BTreeSet;
 use super::trust::{AddTrustForm, DeleteTrust, DetailsView, MoveTrust, TrustForm};
 use super::{
     ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, DropForm,
-    ExportForm, FileForm, ImportReview, KeysForm, LicencesView, LogView, Purpose, RestoreForm, RowId, SaveLogForm,
-    Task, TransferForm, TypeSelectForm, UserSpecifiedForm, VaultForm, VerifyView,
+    ExportForm, FileForm, ImportReview, KeysForm, LicencesView, LogView, RestoreForm, RowId, SaveLogForm, Task,
+    TransferForm, TypeSelectForm, UserSpecifiedForm, VaultForm, VerifyView,
 };
 use crate::jobs::Confirmation;
 use crate::model::{
@@ -150,7 +150,6 @@ pub struct PasswordForm {
     pub wrong: bool,
     /// What to do once it is there.
     pub task: Task,
-    pub purpose: Purpose,
 }
 
 /// What of the running job is looked at.

@@ -267,12 +267,18 @@ impl SelfSignedForm {
     }
 
     /// What Apply does; `None` while something is wrong.
-    pub fn task(&self, backup: bool) -> Option<Task> {
+    pub fn task(&self, model: &Model) -> Option<Task> {
         let fields = self.fields()?;
-        let Some(format) = self.request else { return Some(Task::SelfSigned { fields, backup }) };
+        let (files, backup) = (model.workspace.certificate_files(), model.options.backup);
+        let Some(format) = self.request else {
+            let operation = jobs::SelfSigned { fields, backup: backup.then_some(files) };
+            let task = Task::new(TextKey::SelfSignedTitle, operation);
+            return Some(task.act(TextKey::ActSelfSigned).restarts_server());
+        };
         let SelfSignedFields { common_name, country, state, locality, organisation, key_length, validity: _ } = fields;
         let fields = CsrFields { common_name, country, state, locality, organisation, key_length };
-        Some(Task::CreateCsr { fields, format, backup })
+        let operation = jobs::CreateCsr { fields, format, files, backup };
+        Some(Task::new(TextKey::CsrTitle, operation).act(TextKey::ActCreateCsr))
     }
 
     fn fields(&self) -> Option<SelfSignedFields> {

@@ -1,6 +1,7 @@
 //! Controllers of the list that nobody has confirmed yet, as after an import.
 
-use super::{AddController, AddStage, Dialog, Identity, Model, RowId, Task};
+use super::reduce::get_info;
+use super::{AddController, AddStage, Dialog, Identity, Model, RowId};
 use crate::ui::backend::Command;
 
 impl Model {
@@ -15,7 +16,7 @@ impl Model {
         let confirmed = |id: &RowId| self.rows.get(*id).is_some_and(|row| row.entry.fingerprint.is_some());
         let (then_read, unconfirmed): (Vec<_>, Vec<_>) = rows.into_iter().partition(confirmed);
         if unconfirmed.is_empty() {
-            return self.plan(Task::GetInfo, then_read);
+            return self.plan(get_info(), then_read);
         }
         self.confirm_identities(unconfirmed, then_read)
     }
@@ -56,7 +57,7 @@ impl Model {
         let Some(identity) = &mut form.identity else { return vec![] };
         if identity.next.is_empty() {
             let rows = std::mem::take(&mut identity.then_read);
-            return if rows.is_empty() { vec![] } else { self.plan(Task::GetInfo, rows) };
+            return if rows.is_empty() { vec![] } else { self.plan(get_info(), rows) };
         }
         identity.row = identity.next.remove(0);
         identity.nth += 1;

@@ -2,19 +2,16 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use secrecy::SecretString;
 
 use super::files::first_path;
-use super::{Dialog, Model, Purpose, RowId, Task, Typed};
+use super::{Dialog, Model, RowId, Task, Typed};
 use crate::jobs::{
-    CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, Confirmation,
-    ImportCaCertificate, ImportUserCertificate, Operation, Outcome, RestoreCertificate, ServerEffect,
-    UserCertificateFiles,
+    CaCertificateSource, CertificateChecked, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate,
+    Confirmation, ImportCaCertificate, ImportUserCertificate, RestoreCertificate, ServerEffect, UserCertificateFiles,
 };
-use crate::model::{CertificateSummary, Problem};
-use crate::pki::{Finding, Issuers, Severity};
+use crate::model::Problem;
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
 use crate::workspace::{BackupKind, KeyBackupSource, Workspace};
@@ -48,32 +45,37 @@ impl ImportSource {
     }
 
     /// Looks at the certificates and changes nothing.
-    pub fn check(&self, workspace: &Workspace) -> Arc<dyn Operation> {
-        match self {
-            Self::Ca(file) => Arc::new(CheckCaCertificate(ca_source(file.as_ref(), workspace))),
+    fn check(&self, workspace: &Workspace) -> Task {
+        let (title, checked) = (self.title(), Model::checked);
+        let task = match self.clone() {
+            Self::Ca(file) => Task::with_results(title, CheckCaCertificate(ca_source(file, workspace)), checked),
             Self::User { files, password } => {
-                Arc::new(CheckUserCertificate { files: files.clone(), password: password.clone() })
+                Task::with_results(title, CheckUserCertificate { files, password }, checked)
             }
             Self::Backup { kind, file, password } => {
-                let source = backup_source(*kind, file.as_ref(), workspace);
-                Arc::new(CheckCertificateBackup { source, password: password.clone() })
+                let source = backup_source(kind, file, workspace);
+                Task::with_results(title, CheckCertificateBackup { source, password }, checked)
             }
-        }
+        };
+        let source = self.clone();
+        task.for_dialog().on_end(move |model| model.checks_ended(&source))
     }
 
-    pub fn import(&self, accept_warnings: bool, workspace: &Workspace) -> Arc<dyn Operation> {
-        match self {
+    pub fn import(&self, accept_warnings: bool, workspace: &Workspace) -> Task {
+        let title = self.title();
+        let task = match self.clone() {
             Self::Ca(file) => {
-                Arc::new(ImportCaCertificate { source: ca_source(file.as_ref(), workspace), accept_warnings })
+                Task::new(title, ImportCaCertificate { source: ca_source(file, workspace), accept_warnings })
             }
             Self::User { files, password } => {
-                Arc::new(ImportUserCertificate { files: files.clone(), password: password.clone(), accept_warnings })
+                Task::new(title, ImportUserCertificate { files, password, accept_warnings })
             }
             Self::Backup { kind, file, password } => {
-                let source = backup_source(*kind, file.as_ref(), workspace);
-                Arc::new(RestoreCertificate { source, password: password.clone(), accept_warnings })
+                let source = backup_source(kind, file, workspace);
+                Task::new(title, RestoreCertificate { source, password, accept_warnings })
             }
-        }
+        };
+        task.act(self.act()).restarts_server()
     }
 
     pub const fn title(&self) -> TextKey {
@@ -85,38 +87,22 @@ impl ImportSource {
     }
 }
 
-fn ca_source(file: Option<&PathBuf>, workspace: &Workspace) -> CaCertificateSource {
+fn ca_source(file: Option<PathBuf>, workspace: &Workspace) -> CaCertificateSource {
     match file {
-        Some(file) => CaCertificateSource::File(file.clone()),
+        Some(file) => CaCertificateSource::File(file),
         None => CaCertificateSource::Folder(workspace.certificate_files()),
     }
 }
 
-fn backup_source(kind: BackupKind, file: Option<&PathBuf>, workspace: &Workspace) -> KeyBackupSource {
-    KeyBackupSource { files: workspace.certificate_files(), kind, chosen: file.cloned() }
-}
-
-/// What was found of one certificate.
-#[derive(Debug, Clone)]
-pub struct Checked {
-    /// `None`: a signing request and its key, without a certificate.
-    pub summary: Option<CertificateSummary>,
-    pub findings: Vec<Finding>,
-    /// Of a certificate from a CA.
-    pub issuers: Option<Issuers>,
-}
-
-impl Checked {
-    pub fn is_refused(&self) -> bool {
-        self.findings.iter().any(|finding| finding.severity == Severity::Error)
-    }
+fn backup_source(kind: BackupKind, file: Option<PathBuf>, workspace: &Workspace) -> KeyBackupSource {
+    KeyBackupSource { files: workspace.certificate_files(), kind, chosen: file }
 }
 
 /// The looking before an import.
 #[derive(Debug, Default)]
 pub struct Checks {
     pub running: bool,
-    of: BTreeMap<RowId, Result<Checked, Problem>>,
+    of: BTreeMap<RowId, Result<CertificateChecked, Problem>>,
 }
 
 /// Request and import of a certificate that a CA signs (manual 2.7.1.5).
@@ -210,13 +196,14 @@ fn typed_path(text: &str) -> Option<PathBuf> {
 pub struct ImportReview {
     pub source: ImportSource,
     pub names: Vec<String>,
-    pub found: Vec<(RowId, String, Result<Checked, Problem>)>,
+    pub found: Vec<(RowId, String, Result<CertificateChecked, Problem>)>,
 }
 
 impl ImportReview {
     /// The controllers whose certificate clients would not refuse.
     pub fn importable(&self) -> Vec<RowId> {
-        let good = |found: &Result<Checked, Problem>| found.as_ref().is_ok_and(|checked| !checked.is_refused());
+        let good =
+            |found: &Result<CertificateChecked, Problem>| found.as_ref().is_ok_and(|checked| !checked.is_refused());
         self.found.iter().filter(|(_, _, found)| good(found)).map(|(row, ..)| *row).collect()
     }
 
@@ -332,7 +319,10 @@ impl Model {
 
     fn check(&mut self, wanted: Option<(ImportSource, Vec<RowId>)>) -> Vec<Command> {
         match wanted {
-            Some((source, rows)) => self.start(Task::Check(source), rows, Purpose::Check, None),
+            Some((source, rows)) => {
+                let task = source.check(&self.workspace);
+                self.start(task, rows, None)
+            }
             None => vec![],
         }
     }
@@ -348,20 +338,17 @@ impl Model {
     }
 
     /// One controller's certificate was looked at, or could not be.
-    pub(super) fn checked(&mut self, row: RowId, result: Result<Outcome, Problem>) {
-        let Some((checks, _)) = self.checking() else { return };
-        let found = match result {
-            Ok(Outcome::Checked { summary, findings, issuers }) => Ok(Checked { summary, findings, issuers }),
-            Ok(_) => return,
-            Err(problem) => Err(problem),
-        };
-        checks.of.insert(row, found);
+    fn checked(&mut self, row: RowId, result: Result<CertificateChecked, Problem>) -> Vec<Command> {
+        if let Some((checks, _)) = self.checking() {
+            checks.of.insert(row, result);
+        }
+        vec![]
     }
 
     /// All were.
-    pub(super) fn checks_ended(&mut self) {
-        let Some(Task::Check(source)) = self.job.take().map(|job| job.task) else { return };
-        let Some((checks, rows)) = self.checking() else { return };
+    fn checks_ended(&mut self, source: &ImportSource) -> Vec<Command> {
+        self.job = None;
+        let Some((checks, rows)) = self.checking() else { return vec![] };
         checks.running = false;
         let mut of = std::mem::take(&mut checks.of);
         let found: Vec<_> = rows
@@ -379,9 +366,10 @@ impl Model {
             }
             _ => {
                 let names = self.rows.names(&rows);
-                self.dialogs.push(Dialog::ImportReview(ImportReview { source, names, found }));
+                self.dialogs.push(Dialog::ImportReview(ImportReview { source: source.clone(), names, found }));
             }
         }
+        vec![]
     }
 
     /// The import was agreed to; the form that asked for it has done its work.
@@ -394,6 +382,7 @@ impl Model {
         let asked =
             |dialog: &Dialog| matches!(dialog, Dialog::CaSigned(_) | Dialog::UserSpecified(_) | Dialog::Restore(_));
         self.dialogs.retain(|dialog| !asked(dialog));
-        self.start(Task::Import { source: review.source, accept_warnings }, rows, Purpose::Show, None)
+        let task = review.source.import(accept_warnings, &self.workspace);
+        self.start(task, rows, None)
     }
 }

@@ -16,6 +16,7 @@ mod reduce;
 mod reduce_dialogs;
 mod rows;
 mod server_log;
+mod task;
 mod transfer;
 pub mod trust;
 mod vault;
@@ -41,14 +42,13 @@ pub use dialog::{
 };
 pub use dropped::{Choice, DropForm, DroppedFile, Hover, MAX_DROPPED};
 pub use files::{FileForm, PathField};
-pub use import::{
-    CaSignedForm, Checked, Checks, ImportReview, ImportSource, RestoreForm, UserFiles, UserSpecifiedForm,
-};
-pub use job::{CancelState, Job, JobId, JobRow, Purpose, RowState, SigningWish, Task};
+pub use import::{CaSignedForm, Checks, ImportReview, ImportSource, RestoreForm, UserFiles, UserSpecifiedForm};
+pub use job::{CancelState, Job, JobId, JobRow, RowState};
 pub use licences::LicencesView;
 pub use reduce::reduce;
 pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
 pub use server_log::{LogView, SaveLogForm};
+pub use task::{Task, TaskEvent, TaskFacts, TaskReport};
 pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
 pub use vault::{VaultAction, VaultForm, VaultRequest};
 pub use verify::VerifyView;

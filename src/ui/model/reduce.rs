@@ -1,15 +1,13 @@
 //! The one place where the model changes.
 
-use std::path::Path;
-
 use super::trust::Shows;
 use super::{
     ActivationForm, AddController, CancelState, Column, Dialog, ExportForm, Job, JobId, JobRow, LicencesView, Message,
-    Model, PasswordForm, ProcessingView, Purpose, RowId, RowState, Task, Transfer, Typed,
+    Model, PasswordForm, ProcessingView, RowId, RowState, Task, TaskEvent, Transfer, Typed,
 };
-use crate::jobs::{JobController, JobEvent, Outcome, Report, Summary};
+use crate::jobs::{self, JobController, Summary};
 use crate::model::{ErrorCode, FileFormat};
-use crate::texts;
+use crate::texts::{self, TextKey as T};
 use crate::ui::backend::{Command, Event};
 use crate::ui::command::UiCommand;
 
@@ -88,6 +86,15 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
     commands
 }
 
+/// Reads all information of controllers.
+pub(super) fn get_info() -> Task {
+    Task::new(T::GetInfo, jobs::GetInfo).act(T::GetInfo).quiet()
+}
+
+fn start_server() -> Task {
+    Task::new(T::Start, jobs::StartServer).act(T::Start).quiet().restarts_server()
+}
+
 impl Model {
     pub(super) fn save(&mut self) -> Vec<Command> {
         self.unsaved = false;
@@ -103,8 +110,8 @@ impl Model {
     fn invoke(&mut self, command: UiCommand) -> Vec<Command> {
         let ticked = self.rows.ticked();
         let dialog = match command {
-            UiCommand::Start => return self.plan(Task::Start, ticked),
-            UiCommand::Stop => return self.plan(Task::Stop, ticked),
+            UiCommand::Start => return self.plan(start_server(), ticked),
+            UiCommand::Stop => return self.plan(Task::new(T::Stop, jobs::StopServer).act(T::Stop), ticked),
             UiCommand::GetInfo => return self.get_info(ticked),
             UiCommand::BasicSettings => return self.open_settings(ticked),
             UiCommand::Users => return self.open_users(ticked),
@@ -161,13 +168,13 @@ impl Model {
 
     /// Asks first when the task changes something, else starts it.
     pub(super) fn plan(&mut self, task: Task, rows: Vec<RowId>) -> Vec<Command> {
-        match task.operation(&self.workspace).confirmation() {
+        match task.confirmation() {
             Some(confirmation) => {
                 let names = self.rows.names(&rows);
                 self.dialogs.push(Dialog::Confirm { task, rows, names, confirmation });
                 vec![]
             }
-            None => self.start(task, rows, Purpose::Show, None),
+            None => self.start(task, rows, None),
         }
     }
 
@@ -175,7 +182,6 @@ impl Model {
         &mut self,
         task: Task,
         rows: Vec<RowId>,
-        purpose: Purpose,
         password: Option<secrecy::SecretString>,
     ) -> Vec<Command> {
         let id = self.next_job();
@@ -183,23 +189,15 @@ impl Model {
         let controllers: Vec<JobController> = entries.iter().map(|row| JobController::from(&row.entry)).collect();
         let rows = entries.iter().map(|row| JobRow::new(row.id, row.entry.name.to_string())).collect::<Vec<_>>();
         self.status = None;
-        if purpose.is_shown() {
+        if task.is_shown {
             for row in &rows {
                 self.rows.set_live(row.row, Some(RowState::Waiting));
             }
             let over_form = !self.dialogs.is_empty();
             self.dialogs.push(Dialog::Processing(ProcessingView { over_form, ..ProcessingView::default() }));
         }
-        self.job = Some(Job {
-            id,
-            task: task.clone(),
-            purpose,
-            rows,
-            finished: 0,
-            failed: 0,
-            cancel: CancelState::No,
-            summary: None,
-        });
+        self.job =
+            Some(Job { id, task: task.clone(), rows, finished: 0, failed: 0, cancel: CancelState::No, summary: None });
         vec![Command::Run { job: id, controllers, task, parallelism: self.options.parallelism, password }]
     }
 
@@ -263,55 +261,40 @@ impl Model {
         }
     }
 
-    fn job_event(&mut self, id: JobId, event: JobEvent) -> Vec<Command> {
+    fn job_event(&mut self, id: JobId, event: TaskEvent) -> Vec<Command> {
         let Some(job) = self.job.as_mut().filter(|job| job.id == id) else { return vec![] };
         match event {
-            JobEvent::Step { index, step } => {
+            TaskEvent::Step { index, step } => {
                 if let Some(row) = job.rows.get_mut(index) {
                     row.state = RowState::Step(step);
-                    if job.purpose.is_shown() {
+                    if job.task.is_shown {
                         self.rows.set_live(row.row, Some(RowState::Step(step)));
                     }
                 }
                 vec![]
             }
-            JobEvent::Finished { index, report } => {
-                let purpose = job.purpose;
+            TaskEvent::Finished { index, report } => {
+                let is_shown = job.task.is_shown;
                 let Some(row) = job.rows.get_mut(index) else { return vec![] };
-                let Report { result, info } = *report;
-                let each = matches!(purpose, Purpose::LoadCertificates | Purpose::Check | Purpose::Verify)
-                    .then(|| result.clone());
-                let (state, outcome) = match result {
-                    Ok(outcome) => (RowState::Done, Some(outcome)),
-                    Err(problem) if problem.code == ErrorCode::Cancelled => (RowState::NotStarted, None),
-                    Err(problem) => (RowState::Failed(problem), None),
+                row.state = match &report.result {
+                    Ok(facts) => {
+                        (row.written, row.used) = (facts.written.clone(), facts.used.clone());
+                        row.moved_aside.clone_from(&facts.moved_aside);
+                        RowState::Done
+                    }
+                    Err(problem) if problem.code == ErrorCode::Cancelled => RowState::NotStarted,
+                    Err(problem) => RowState::Failed(problem.clone()),
                 };
-                row.saved = outcome.as_ref().and_then(Outcome::file).map(Path::to_owned);
-                row.moved_aside = outcome.as_ref().map(|outcome| outcome.moved_aside().to_vec()).unwrap_or_default();
-                if let (Some(Outcome::TrustChanged(change)), Purpose::Show) = (&outcome, purpose) {
-                    row.cut.clone_from(&change.cut);
-                    row.undo.clone_from(&change.undo);
-                }
-                let id = row.row;
-                row.state = state.clone();
+                let (row, state) = (row.row, row.state.clone());
                 job.finished += 1;
                 job.failed += usize::from(state.problem().is_some());
-                if purpose.is_shown() {
-                    self.rows.set_live(id, Some(state));
+                if is_shown {
+                    self.rows.set_live(row, Some(state));
                 }
-                if let Some(info) = info {
-                    self.rows.set_info(id, info, self.now);
+                if let Some(info) = report.info.clone() {
+                    self.rows.set_info(row, info, self.now);
                 }
-                match each {
-                    Some(result) if purpose == Purpose::Check => self.checked(id, result),
-                    Some(result) if purpose == Purpose::Verify => self.verified(id, result),
-                    Some(result) => self.certificates_loaded(id, result),
-                    None => {}
-                }
-                match outcome {
-                    Some(outcome) => self.loaded(purpose, outcome),
-                    None => vec![],
-                }
+                report.deliver(self, row)
             }
         }
     }
@@ -319,46 +302,51 @@ impl Model {
     fn job_ended(&mut self, id: JobId, summary: Summary) -> Vec<Command> {
         let Some(job) = self.job.as_mut().filter(|job| job.id == id) else { return vec![] };
         job.summary = Some(summary);
+        let (task, failure) = (job.task.clone(), job.first_failed());
+        let asks_passwords = task.asks_passwords && !job.without_password().is_empty();
         self.keep_open_after(summary);
-        let Some(job) = self.job.as_ref() else { return vec![] };
-        let purpose = job.purpose;
-        let all_done = summary.failed == 0 && summary.not_started == 0;
-        let lacks_password = !job.without_password().is_empty();
-        let failure = job.rows.iter().position(|row| row.state.problem().is_some());
         self.rows.rebuild();
         let mut commands = self.save();
-        if lacks_password && purpose != Purpose::CountUsers {
+        if asks_passwords {
             self.ask_passwords();
-            return commands;
-        }
-        let alone = matches!(self.dialogs[..], [Dialog::Processing(_)]);
-        let verify = all_done && alone && self.options.verify_after_changes && !self.changed_servers().is_empty();
-        match purpose {
-            Purpose::Show if verify => commands.extend(self.verify_changed()),
-            Purpose::Show => {
-                let Some(job) = &self.job else { return commands };
-                if all_done && job.task.is_quiet() {
-                    self.status = Some(texts::job_done(self.language, job.task.title(), summary.done));
-                    self.end_processing();
-                } else if let Some(Dialog::Processing(view)) = self.processing_dialog() {
-                    view.selected = view.selected.or(failure);
-                }
-            }
-            Purpose::CountUsers => self.job = None,
-            Purpose::LoadCertificates => self.certificates_ended(),
-            Purpose::Check => self.checks_ended(),
-            Purpose::Verify => self.verify_ended(),
-            Purpose::LoadTrust | Purpose::ChangeTrust => self.trust_job_ended(),
-            Purpose::LoadSettings | Purpose::LoadUsers | Purpose::LoadPolicies | Purpose::LoadLog => {
-                let problem =
-                    self.job.take().and_then(|job| job.rows.into_iter().find_map(|r| r.state.problem().cloned()));
-                if let Some(problem) = problem {
-                    self.drop_form();
-                    self.show_problem(problem);
-                }
-            }
+        } else if let Some(hook) = task.end_hook() {
+            commands.extend(hook(self));
+        } else if task.is_shown {
+            commands.extend(self.processing_ended(&task, summary, failure));
+        } else if let Some(problem) = self.job.take().and_then(|job| job.first_problem().cloned()) {
+            self.drop_form();
+            self.show_problem(problem);
         }
         commands
+    }
+
+    fn processing_ended(&mut self, task: &Task, summary: Summary, failure: Option<usize>) -> Vec<Command> {
+        let all_done = summary.failed == 0 && summary.not_started == 0;
+        let alone = matches!(self.dialogs[..], [Dialog::Processing(_)]);
+        if all_done && alone && self.options.verify_after_changes && !self.changed_servers().is_empty() {
+            return self.verify_changed();
+        }
+        if all_done && task.is_quiet {
+            self.status = Some(texts::job_done(self.language, task.title, summary.done));
+            self.end_processing();
+        } else if let Some(Dialog::Processing(view)) = self.processing_dialog() {
+            view.selected = view.selected.or(failure);
+        }
+        vec![]
+    }
+
+    /// Passwords were asked for, and none was given.
+    pub(super) fn without_password(&mut self, task: &Task) -> Vec<Command> {
+        if let Some(hook) = task.password_hook() {
+            return hook(self);
+        }
+        if !task.is_shown {
+            self.drop_form();
+            self.job = None;
+        } else if let Some(Dialog::Processing(view)) = self.dialogs.last_mut() {
+            view.selected = view.selected.or(self.job.as_ref().and_then(Job::first_failed));
+        }
+        vec![]
     }
 
     fn processing_dialog(&mut self) -> Option<&mut Dialog> {
@@ -384,8 +372,8 @@ impl Model {
         let Some(job) = self.job.as_ref().filter(|job| job.summary.is_some()) else { return };
         let failed = |code: ErrorCode| job.rows.iter().any(|row| row.state.problem().is_some_and(|p| p.code == code));
         if failed(ErrorCode::VaultLocked) {
-            let (rows, task, purpose) = (job.without_password(), job.task.clone(), job.purpose);
-            return self.ask_vault_for(rows, task, purpose);
+            let (rows, task) = (job.without_password(), job.task.clone());
+            return self.ask_vault_for(rows, task);
         }
         self.ask_connection_passwords();
     }
@@ -407,7 +395,6 @@ impl Model {
             show_password: false,
             wrong,
             task: job.task.clone(),
-            purpose: job.purpose,
         }));
     }
 }

@@ -4,15 +4,16 @@ use std::collections::BTreeSet;
 
 use secrecy::SecretString;
 
+use super::reduce::get_info;
 use super::trust::TrustAction;
 use super::{
-    AddStage, AddUserForm, CancelState, Dialog, JobId, Model, Purpose, RowId, SelfSignedForm, SettingsForm, Task,
-    Typed, UsersForm,
+    AddStage, AddUserForm, CancelState, Dialog, JobId, Model, RowId, SelfSignedForm, SettingsForm, Task, Typed,
+    UsersForm,
 };
-use crate::jobs::{Enrolled, Outcome, RemoveUsers};
+use crate::jobs::{self, Enrolled, RemoveUsers};
 use crate::model::{FileFormat, Problem};
 use crate::pki::Fingerprint;
-use crate::texts;
+use crate::texts::{self, TextKey};
 use crate::ui::backend::Command;
 use crate::workspace::{ControllerEntry, Retrieved};
 
@@ -21,7 +22,7 @@ impl Model {
         let form = SettingsForm::new(rows.clone(), self);
         let reading = form.reading;
         self.dialogs.push(Dialog::Settings(form));
-        if reading { self.start(Task::ReadSettings, rows, Purpose::LoadSettings, None) } else { vec![] }
+        if reading { self.start(read_settings(), rows, None) } else { vec![] }
     }
 
     pub(super) fn open_users(&mut self, rows: Vec<RowId>) -> Vec<Command> {
@@ -36,7 +37,7 @@ impl Model {
                     users: Vec::new(),
                     ticked: BTreeSet::new(),
                 }));
-                self.start(Task::ListUsers, rows, Purpose::LoadUsers, None)
+                self.start(list_users(), rows, None)
             }
             _ => {
                 self.push_add_user(rows, None, Vec::new());
@@ -50,7 +51,7 @@ impl Model {
         let form = SelfSignedForm::new(rows.clone(), request, self);
         let reading = form.reading;
         self.dialogs.push(Dialog::SelfSigned(form));
-        if reading { self.start(Task::ReadSettings, rows, Purpose::LoadPolicies, None) } else { vec![] }
+        if reading { self.start(read_policies(), rows, None) } else { vec![] }
     }
 
     fn push_add_user(&mut self, rows: Vec<RowId>, revision: Option<u64>, existing: Vec<crate::model::UserName>) {
@@ -85,7 +86,9 @@ impl Model {
             return vec![];
         }
         let names = form.ticked.iter().cloned().collect();
-        let task = Task::RemoveUsers(RemoveUsers { names, based_on: form.revision });
+        let remove = RemoveUsers { names, based_on: form.revision };
+        let task = Task::new(TextKey::DeleteUsers, remove).act(TextKey::DeleteUsers).restarts_server();
+        let task = task.on_closed(Model::reload_users);
         let row = form.row;
         self.plan(task, vec![row])
     }
@@ -98,7 +101,7 @@ impl Model {
             Dialog::Delete { rows, .. } => self.delete(&rows),
             Dialog::Password(form) => {
                 let password = SecretString::from(form.password.0.clone());
-                self.go_on(form.task, form.rows, form.purpose, Some(password))
+                self.go_on(form.task, form.rows, Some(password))
             }
             Dialog::Vault(form) => self.submit_vault(form),
             Dialog::Confirm { task, rows, .. } => {
@@ -106,19 +109,18 @@ impl Model {
                 if self.dialogs.last().is_some_and(Dialog::is_done_by_confirming) {
                     self.dialogs.pop();
                 }
-                self.start(task, rows, Purpose::Show, None)
+                self.start(task, rows, None)
             }
             Dialog::Settings(form) => {
-                let planned = form.operation().map(|operation| (Task::SetSettings(operation), form.rows.clone()));
+                let planned = form.operation().map(|operation| (set_settings(operation), form.rows.clone()));
                 self.ask(Dialog::Settings(form), planned)
             }
             Dialog::AddUser(form) => {
-                let planned = form.operation().map(|operation| (Task::AddUser(operation), form.rows.clone()));
+                let planned = form.operation().map(|operation| (add_user(operation), form.rows.clone()));
                 self.ask(Dialog::AddUser(form), planned)
             }
             Dialog::SelfSigned(form) => {
-                let backup = self.options.backup;
-                let planned = form.task(backup).map(|task| (task, form.rows.clone()));
+                let planned = form.task(self).map(|task| (task, form.rows.clone()));
                 self.ask(Dialog::SelfSigned(form), planned)
             }
             Dialog::Activation(form) if form.reads_file() => {
@@ -126,7 +128,8 @@ impl Model {
                 self.read_typed()
             }
             Dialog::Activation(form) => {
-                let planned = form.operation().map(|operation| (Task::Activate(operation), form.rows.clone()));
+                let task = |operation| Task::new(TextKey::ActivationTitle, operation).act(TextKey::ActActivate);
+                let planned = form.operation().map(|operation| (task(operation), form.rows.clone()));
                 self.ask(Dialog::Activation(form), planned)
             }
             Dialog::ConnectionList(form) if form.reads_file() => {
@@ -143,7 +146,7 @@ impl Model {
                 self.ask(Dialog::TypeSelect(form), planned)
             }
             Dialog::ExportSelfSigned(form) => {
-                let planned = (Task::ExportSelfSigned(form.format), form.rows.clone());
+                let planned = (form.task(&self.workspace), form.rows.clone());
                 self.ask(Dialog::ExportSelfSigned(form), Some(planned))
             }
             Dialog::CaSigned(form) => self.check_ca_signed(form),
@@ -152,7 +155,7 @@ impl Model {
             Dialog::ImportReview(review) => self.import(review),
             Dialog::Verify(view) => self.verify_again(view),
             Dialog::Transfer(form) => {
-                let planned = form.task().map(|task| (task, form.rows.clone()));
+                let planned = form.task(&self.workspace).map(|task| (task, form.rows.clone()));
                 self.ask(Dialog::Transfer(form), planned)
             }
             Dialog::SaveLog(form) => self.save_log(form),
@@ -179,17 +182,11 @@ impl Model {
     }
 
     /// Tries a job again with controllers whose password is known by now.
-    pub(super) fn go_on(
-        &mut self,
-        task: Task,
-        rows: Vec<RowId>,
-        purpose: Purpose,
-        password: Option<SecretString>,
-    ) -> Vec<Command> {
-        if purpose.is_shown() {
+    pub(super) fn go_on(&mut self, task: Task, rows: Vec<RowId>, password: Option<SecretString>) -> Vec<Command> {
+        if task.is_shown {
             self.end_processing();
         }
-        self.start(task, rows, purpose, password)
+        self.start(task, rows, password)
     }
 
     /// Keeps the form under the confirmation, so that Cancel leads back to it.
@@ -217,44 +214,15 @@ impl Model {
                 form.stage = AddStage::Form;
                 if waiting { self.cancel_last() } else { vec![] }
             }
-            Some(Dialog::Password(form)) if form.purpose == Purpose::LoadCertificates => {
-                // The others have answered.
+            Some(Dialog::Password(form)) => {
+                let task = form.task.clone();
                 self.dialogs.pop();
-                self.certificates_ended();
-                vec![]
-            }
-            Some(Dialog::Password(form)) if matches!(form.purpose, Purpose::LoadTrust | Purpose::ChangeTrust) => {
-                self.dialogs.pop();
-                self.trust_without_password();
-                vec![]
+                self.without_password(&task)
             }
             Some(Dialog::Trust(_)) => match self.dialogs.pop() {
                 Some(Dialog::Trust(form)) => self.close_trust(&form),
                 _ => vec![],
             },
-            Some(Dialog::Password(form)) if form.purpose == Purpose::Check => {
-                self.dialogs.pop();
-                self.checks_ended();
-                vec![]
-            }
-            Some(Dialog::Password(form)) if form.purpose == Purpose::Verify => {
-                self.dialogs.pop();
-                self.verify_ended();
-                vec![]
-            }
-            Some(Dialog::Password(form)) => {
-                let loading = form.purpose != Purpose::Show;
-                self.dialogs.pop();
-                if loading {
-                    self.drop_form();
-                    self.job = None;
-                } else if let Some(Dialog::Processing(view)) = self.dialogs.last_mut() {
-                    let failed =
-                        self.job.as_ref().and_then(|job| job.rows.iter().position(|r| r.state.problem().is_some()));
-                    view.selected = view.selected.or(failed);
-                }
-                vec![]
-            }
             Some(dialog) if dialog.has_a_job() => {
                 self.dialogs.pop();
                 self.drop_job()
@@ -273,19 +241,9 @@ impl Model {
             return vec![];
         };
         if job.summary.is_some() {
-            let changed_users = matches!(job.task, Task::AddUser(_) | Task::RemoveUsers(_));
-            let deleted_log = matches!(job.task, Task::DeleteLog);
-            let used_authority = matches!(job.task, Task::SignCsrs(_) | Task::PushAuthority(_));
+            let on_closed = job.task.closed_hook();
             self.end_processing();
-            return if changed_users {
-                self.reload_users()
-            } else if deleted_log {
-                self.refresh_log()
-            } else if used_authority {
-                self.look_at_authority()
-            } else {
-                vec![]
-            };
+            return on_closed.map(|hook| hook(self)).unwrap_or_default();
         }
         match job.cancel {
             CancelState::No => job.cancel = CancelState::Asking,
@@ -303,7 +261,7 @@ impl Model {
         form.reading = true;
         form.ticked.clear();
         let row = form.row;
-        self.start(Task::ListUsers, vec![row], Purpose::LoadUsers, None)
+        self.start(list_users(), vec![row], None)
     }
 
     fn delete(&mut self, rows: &[RowId]) -> Vec<Command> {
@@ -441,7 +399,7 @@ impl Model {
         }
         let mut commands = self.save();
         if !added.is_empty() {
-            commands.extend(self.plan(Task::GetInfo, added));
+            commands.extend(self.plan(get_info(), added));
         }
         commands
     }
@@ -462,54 +420,63 @@ impl Model {
             dialog => !dialog.is_form(),
         });
     }
+}
 
-    /// What a form waited for.
-    pub(super) fn loaded(&mut self, purpose: Purpose, outcome: Outcome) -> Vec<Command> {
-        match (purpose, outcome) {
-            (Purpose::LoadSettings, Outcome::Settings(settings)) => {
-                let Some(Dialog::Settings(form)) = self.form() else { return vec![] };
-                form.reading = false;
-                form.revision = Some(settings.revision);
-                form.fill(settings.value);
-                let rows = form.rows.clone();
-                self.start(Task::ListUsers, rows, Purpose::CountUsers, None)
-            }
-            (Purpose::LoadPolicies, Outcome::Settings(settings)) => {
-                if let Some(Dialog::SelfSigned(form)) = self.form() {
-                    form.reading = false;
-                    form.offer(&settings.value.security_policies);
-                    let row = form.rows.first().copied();
-                    let name = row.and_then(|row| self.rows.get(row)?.info()).map(|i| i.application_name.clone());
-                    if let (Some(Dialog::SelfSigned(form)), Some(name)) = (self.form(), name)
-                        && form.common_name.is_empty()
-                    {
-                        form.common_name = name;
-                    }
-                }
-                vec![]
-            }
-            (Purpose::LoadUsers, Outcome::Users(users)) => {
-                if let Some(Dialog::Users(form)) = self.form() {
-                    form.reading = false;
-                    form.revision = Some(users.revision);
-                    form.users = users.value;
-                }
-                vec![]
-            }
-            (Purpose::LoadLog, Outcome::Log(chunk)) => {
-                if let Some(Dialog::ServerLog(log)) = self.form() {
-                    log.fill(chunk);
-                }
-                vec![]
-            }
-            (Purpose::LoadTrust | Purpose::ChangeTrust, outcome) => self.trust_loaded(outcome),
-            (Purpose::CountUsers, Outcome::Users(users)) => {
-                if let Some(Dialog::Settings(form)) = self.form() {
-                    form.users = Some(users.value.len());
-                }
-                vec![]
-            }
-            _ => vec![],
+fn read_settings() -> Task {
+    Task::with_results(TextKey::SettingsTitle, jobs::ReadSettings, |model, _, result| {
+        let (Ok(settings), Some(Dialog::Settings(form))) = (result, model.form()) else { return vec![] };
+        form.reading = false;
+        form.revision = Some(settings.revision);
+        form.fill(settings.value);
+        let rows = form.rows.clone();
+        model.start(count_users(), rows, None)
+    })
+    .for_dialog()
+}
+
+/// For a warning only.
+fn count_users() -> Task {
+    Task::with_results(TextKey::UsersTitle, jobs::ListUsers, |model, _, result| {
+        if let (Ok(users), Some(Dialog::Settings(form))) = (result, model.form()) {
+            form.users = Some(users.value.len());
         }
-    }
+        vec![]
+    })
+    .optional()
+}
+
+fn set_settings(operation: jobs::SetSettings) -> Task {
+    Task::new(TextKey::SettingsTitle, operation).act(TextKey::ActSettings).restarts_server()
+}
+
+fn read_policies() -> Task {
+    Task::with_results(TextKey::SettingsTitle, jobs::ReadSettings, |model, row, result| {
+        let name = model.rows.get(row).and_then(|row| row.info()).map(|info| info.application_name.clone());
+        if let (Ok(settings), Some(Dialog::SelfSigned(form))) = (result, model.form()) {
+            form.reading = false;
+            form.offer(&settings.value.security_policies);
+            if let Some(name) = name.filter(|_| form.common_name.is_empty()) {
+                form.common_name = name;
+            }
+        }
+        vec![]
+    })
+    .for_dialog()
+}
+
+fn list_users() -> Task {
+    Task::with_results(TextKey::UsersTitle, jobs::ListUsers, |model, _, result| {
+        if let (Ok(users), Some(Dialog::Users(form))) = (result, model.form()) {
+            form.reading = false;
+            form.revision = Some(users.revision);
+            form.users = users.value;
+        }
+        vec![]
+    })
+    .for_dialog()
+}
+
+fn add_user(operation: jobs::AddUser) -> Task {
+    let task = Task::new(TextKey::AddUserTitle, operation).act(TextKey::AddUserTitle).restarts_server();
+    task.on_closed(Model::reload_users)
 }

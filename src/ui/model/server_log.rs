@@ -3,7 +3,8 @@
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-use super::{Dialog, Model, Purpose, RowId, Task};
+use super::{Dialog, Model, RowId, Task};
+use crate::jobs::{LogPart, ReadLog, SaveLog, SetSettings, SettingsChange};
 use crate::model::foreign_text;
 use crate::protocol::LogChunk;
 use crate::texts::TextKey;
@@ -126,6 +127,16 @@ impl SaveLogForm {
     }
 }
 
+fn read_log() -> Task {
+    Task::with_results(TextKey::ServerLog, ReadLog { part: LogPart::End }, |model, _, result| {
+        if let (Ok(chunk), Some(Dialog::ServerLog(log))) = (result, model.form()) {
+            log.fill(chunk);
+        }
+        vec![]
+    })
+    .for_dialog()
+}
+
 impl Model {
     /// Proposes a file in the controller's folder of the workspace.
     pub(super) fn ask_where_to_save_log(&mut self) {
@@ -144,13 +155,13 @@ impl Model {
             return vec![];
         }
         let path = form.target(self.workspace.root());
-        self.start(Task::SaveLog { path }, vec![form.row], Purpose::Show, None)
+        self.start(Task::new(TextKey::SaveLogTitle, SaveLog { path }), vec![form.row], None)
     }
 
     pub(super) fn open_log(&mut self, row: RowId) -> Vec<Command> {
         let name = self.rows.names(&[row]).pop().unwrap_or_default();
         self.dialogs.push(Dialog::ServerLog(LogView::new(row, name)));
-        self.start(Task::ReadLog, vec![row], Purpose::LoadLog, None)
+        self.start(read_log(), vec![row], None)
     }
 
     /// Reads it again; what was read stays on the screen meanwhile.
@@ -158,14 +169,17 @@ impl Model {
         let Some(Dialog::ServerLog(log)) = self.form() else { return vec![] };
         log.reading = true;
         let row = log.row;
-        self.start(Task::ReadLog, vec![row], Purpose::LoadLog, None)
+        self.start(read_log(), vec![row], None)
     }
 
     pub(super) fn delete_log(&mut self) -> Vec<Command> {
         match self.dialogs.last() {
             Some(Dialog::ServerLog(log)) if !log.reading => {
                 let row = log.row;
-                self.plan(Task::DeleteLog, vec![row])
+                let change = SettingsChange { delete_log: true, ..SettingsChange::default() };
+                let operation = SetSettings { change, ..SetSettings::default() };
+                let task = Task::new(TextKey::DeleteLog, operation).act(TextKey::DeleteLog);
+                self.plan(task.on_closed(Model::refresh_log), vec![row])
             }
             _ => vec![],
         }

@@ -6,10 +6,11 @@ use chrono::{DateTime, Utc};
 use secrecy::SecretString;
 
 use super::{Dialog, JobId, Model, RowId, Task, Typed};
+use crate::jobs::{ExportSettings, ImportSettings};
 use crate::model::{ControllerInfo, FirmwareVersion, Problem};
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::workspace::MIN_PASSPHRASE_CHARS;
+use crate::workspace::{MIN_PASSPHRASE_CHARS, Workspace};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Transfer {
@@ -94,14 +95,23 @@ impl TransferForm {
         }
     }
 
-    pub fn task(&self) -> Option<Task> {
+    /// What Apply does; `None` while something is missing or wrong.
+    pub fn task(&self, workspace: &Workspace) -> Option<Task> {
         if self.incomplete().is_some() {
             return None;
         }
         let passphrase = (!self.passphrase.0.is_empty()).then(|| SecretString::from(self.passphrase.0.clone()));
         Some(match self.transfer {
-            Transfer::Export => Task::ExportSettings { passphrase },
-            Transfer::Import => Task::ImportSettings { passphrase, file: self.file.clone() },
+            Transfer::Export => {
+                let operation = ExportSettings { files: workspace.settings_files(), passphrase };
+                Task::new(TextKey::ExportTitle, operation).act(TextKey::ExportButton)
+            }
+            Transfer::Import => {
+                let files = workspace.settings_files();
+                let files = self.file.clone().map_or(files.clone(), |file| files.of_file(file));
+                let operation = ImportSettings { files, passphrase };
+                Task::new(TextKey::ImportTitle, operation).act(TextKey::ActImportSettings).restarts_server()
+            }
         })
     }
 }

@@ -2,7 +2,7 @@
 
 use secrecy::SecretString;
 
-use super::{Dialog, Model, Purpose, RowId, Task, Typed};
+use super::{Dialog, Model, RowId, Task, Typed};
 use crate::model::{ErrorCode, Problem};
 use crate::texts::TextKey;
 use crate::ui::backend::{Command, VaultWork};
@@ -50,7 +50,6 @@ pub enum VaultAction {
 struct Waiting {
     rows: Vec<RowId>,
     task: Task,
-    purpose: Purpose,
 }
 
 impl VaultForm {
@@ -141,8 +140,8 @@ impl Model {
     }
 
     /// The ended job found the vault closed: its passphrase is asked for, and then the job goes on.
-    pub(super) fn ask_vault_for(&mut self, rows: Vec<RowId>, task: Task, purpose: Purpose) {
-        self.ask_vault(VaultAction::Open, Some(Waiting { rows, task, purpose }));
+    pub(super) fn ask_vault_for(&mut self, rows: Vec<RowId>, task: Task) {
+        self.ask_vault(VaultAction::Open, Some(Waiting { rows, task }));
     }
 
     /// A password works, but is known only until the program ends. That is said in the status bar: a dialog would lie
@@ -210,8 +209,8 @@ impl Model {
             self.options.passwords = PasswordPlace::Vault;
             commands = self.save();
         }
-        if let Some(Waiting { rows, task, purpose }) = form.waiting {
-            commands.extend(self.go_on(task, rows, purpose, None));
+        if let Some(Waiting { rows, task }) = form.waiting {
+            commands.extend(self.go_on(task, rows, None));
         }
         commands
     }

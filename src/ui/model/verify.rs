@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{Dialog, Model, Purpose, RowId, RowState, Task, Typed};
-use crate::jobs::{Outcome, VerifyReport};
+use super::{Dialog, Model, RowId, RowState, Task, Typed};
+use crate::jobs::{TrustConfigurator, Verify, VerifyReport};
 use crate::model::{Credential, ErrorCode, Problem, ServerStatus, UserName, UserPassword};
+use crate::session::opcua_client::Patience;
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
 
@@ -72,7 +73,14 @@ impl Model {
             password: Typed::default(),
             show_password: false,
         }));
-        self.start(Task::Verify { login: None }, rows, Purpose::Verify, None)
+        let task = self.verification(None);
+        self.start(task, rows, None)
+    }
+
+    fn verification(&self, login: Option<Credential>) -> Task {
+        let identity = self.workspace.own_identity();
+        let operation = Verify { identity, login, trust_first: false, patience: Patience::default() };
+        Task::with_results(TextKey::VerifyTitle, operation, Self::verified).on_end(Self::verify_ended)
     }
 
     /// The main button of the dialog.
@@ -82,7 +90,10 @@ impl Model {
         let rows = view.rows.clone();
         self.dialogs.push(Dialog::Verify(view));
         match login {
-            Some(login) => self.start(Task::Verify { login }, rows, Purpose::Verify, None),
+            Some(login) => {
+                let task = self.verification(login);
+                self.start(task, rows, None)
+            }
             None => vec![],
         }
     }
@@ -100,7 +111,7 @@ impl Model {
 
     /// The controllers whose server runs anew after the job that has ended.
     pub fn changed_servers(&self) -> Vec<RowId> {
-        let Some(job) = self.job.as_ref().filter(|job| job.summary.is_some() && job.task.restarts_server()) else {
+        let Some(job) = self.job.as_ref().filter(|job| job.summary.is_some() && job.task.restarts_server) else {
             return vec![];
         };
         let runs = |row: RowId| {
@@ -115,7 +126,10 @@ impl Model {
         match self.dialogs.last() {
             Some(Dialog::Verify(view)) if !view.running => {
                 let rows = view.lacking_trust();
-                if rows.is_empty() { vec![] } else { self.plan(Task::TrustConfigurator, rows) }
+                let operation = TrustConfigurator { identity: self.workspace.own_identity() };
+                let task = Task::new(TextKey::TrustConfiguratorTitle, operation).act(TextKey::TrustTrust);
+                let task = task.remark(TextKey::ConfirmTrustConfigurator).quiet();
+                if rows.is_empty() { vec![] } else { self.plan(task, rows) }
             }
             _ => vec![],
         }
@@ -129,22 +143,19 @@ impl Model {
     }
 
     /// One controller was verified, or could not be asked.
-    pub(super) fn verified(&mut self, row: RowId, result: Result<Outcome, Problem>) {
-        let Some(view) = self.verifying() else { return };
-        let found = match result {
-            Ok(Outcome::Verified(report)) => Ok(report),
-            Ok(_) => return,
-            // Its turn never came.
-            Err(problem) if problem.code == ErrorCode::Cancelled => return,
-            Err(problem) => Err(problem),
-        };
-        view.of.insert(row, found);
+    fn verified(&mut self, row: RowId, result: Result<VerifyReport, Problem>) -> Vec<Command> {
+        // The verification of a controller that was not begun has no result.
+        let begun = !matches!(&result, Err(problem) if problem.code == ErrorCode::Cancelled);
+        if let Some(view) = self.verifying().filter(|_| begun) {
+            view.of.insert(row, result.map(Box::new));
+        }
+        vec![]
     }
 
     /// All were.
-    pub(super) fn verify_ended(&mut self) {
+    fn verify_ended(&mut self) -> Vec<Command> {
         self.end_processing();
-        let Some(view) = self.verifying() else { return };
+        let Some(view) = self.verifying() else { return vec![] };
         view.running = false;
         let worth_a_look = |row: &&RowId| match view.of.get(row) {
             Some(Ok(report)) => !report.all_works(),
@@ -163,6 +174,7 @@ impl Model {
             }
             Some(_) => {}
         }
+        vec![]
     }
 
     fn drop_verify(&mut self) {

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::{Done, PaneKind, Shows, TrustTask};
+use super::change::keep_change;
+use super::{Done, PaneKind, Shows};
 use crate::jobs::{AddTrust, Destination, Fate, TrustFile, TrustPlan, TrustSnapshot};
 use crate::model::{FirmwareGeneration, ListLimits, Problem};
 use crate::texts::TextKey;
@@ -105,6 +106,10 @@ impl AddTrustForm {
     /// File managers put quotes around a path they copy.
     fn typed(&self) -> &Path {
         Path::new(self.path.trim().trim_matches('"'))
+    }
+
+    fn title(&self) -> TextKey {
+        if self.destination == Destination::Crls { TextKey::CrlAddTitle } else { TextKey::TrustAddTitle }
     }
 
     /// How many certificates and CRLs are sent to a controller, at most.
@@ -340,12 +345,13 @@ impl Model {
             return vec![];
         }
         let Some(revision) = self.trust().map(|lists| lists.held.as_ref().map(|held| held.revision)) else {
-            let task = Task::Trust(TrustTask::Add(form.operation(None)));
+            let title = form.title();
+            let task = Task::with_results(title, form.operation(None), keep_change).act(title);
             let rows = form.rows.clone();
             self.dialogs.push(Dialog::AddTrust(form));
             return self.plan(task, rows);
         };
         let done = Done::Added(form.count());
-        self.change(TrustTask::Add(form.operation(revision)), done)
+        self.change(form.title(), form.operation(revision), done)
     }
 }

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::{Done, Link, PaneKind, TrustAction, TrustForm, TrustTask};
-use crate::jobs::{MoveClients, Note, Outcome, RemoveClients, RemoveCrls, TrustChange, UndoTrust};
+use super::{Done, Link, PaneKind, TrustAction, TrustForm};
+use crate::jobs::{MoveClients, Note, Operation, RemoveClients, RemoveCrls, TrustChange, UndoTrust};
 use crate::model::{ErrorCode, Problem};
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::ui::model::{Dialog, Model, Purpose, RowId, Task};
+use crate::ui::model::{Dialog, Model, RowId, Task};
 
 /// What is to be deleted, to be agreed to.
 #[derive(Debug)]
@@ -27,6 +28,19 @@ pub struct MoveTrust {
     pub notes: Vec<(String, Vec<Note>)>,
     from: PaneKind,
     thumbprints: Vec<String>,
+}
+
+/// Keeps what a job changed in the lists of one of its controllers, for the processing dialog to show.
+pub(in crate::ui::model) fn keep_change(
+    model: &mut Model,
+    row: RowId,
+    result: Result<TrustChange, Problem>,
+) -> Vec<Command> {
+    let rows = model.job.iter_mut().flat_map(|job| &mut job.rows);
+    if let (Ok(change), Some(row)) = (result, rows.into_iter().find(|of| of.row == row)) {
+        (row.cut, row.undo) = (change.cut, change.undo);
+    }
+    vec![]
 }
 
 impl Model {
@@ -70,13 +84,14 @@ impl Model {
     pub(in crate::ui::model) fn delete_trust(&mut self, asked: DeleteTrust) -> Vec<Command> {
         let count = asked.what.len();
         let ids = asked.what.into_iter().map(|(id, _)| id).collect();
-        let task = match asked.from.list() {
+        let (done, based_on) = (Done::Deleted { from: asked.from, count }, asked.revision);
+        match asked.from.list() {
             Some(list) => {
-                TrustTask::RemoveClients(RemoveClients { list: Some(list), thumbprints: ids, based_on: asked.revision })
+                let remove = RemoveClients { list: Some(list), thumbprints: ids, based_on };
+                self.change(TextKey::TrustTitle, remove, done)
             }
-            None => TrustTask::RemoveCrls(RemoveCrls { ids, based_on: asked.revision }),
-        };
-        self.change(task, Done::Deleted { from: asked.from, count })
+            None => self.change(TextKey::CrlTitle, RemoveCrls { ids, based_on }, done),
+        }
     }
 
     fn move_clients(&mut self, from: PaneKind, to: PaneKind) -> Vec<Command> {
@@ -116,8 +131,8 @@ impl Model {
         let (Some(list), Some(to_list)) = (from.list(), to.list()) else { return vec![] };
         let done = Done::Moved { from, to, count: thumbprints.len() };
         // Whatever else was changed meanwhile: the certificates are named, so nothing else can be meant.
-        let task = TrustTask::Move(MoveClients { from: list, to: to_list, thumbprints, accept_notes, based_on: None });
-        self.change(task, done)
+        let relist = MoveClients { from: list, to: to_list, thumbprints, accept_notes, based_on: None };
+        self.change(TextKey::TrustTitle, relist, done)
     }
 
     fn undo_trust(&mut self) -> Vec<Command> {
@@ -125,7 +140,7 @@ impl Model {
         let Some(undo) = form.undo.last().cloned() else { return vec![] };
         let row = form.row;
         let Some(name) = self.rows.get(row).map(|row| row.entry.name.clone()) else { return vec![] };
-        self.change(TrustTask::Undo(UndoTrust(BTreeMap::from([(name, undo)]))), Done::TakenBack)
+        self.change(TextKey::TrustUndoTitle, UndoTrust(BTreeMap::from([(name, undo)])), Done::TakenBack)
     }
 
     /// Takes back what the job that ended did, wherever it did it.
@@ -141,28 +156,29 @@ impl Model {
         }
         self.end_processing();
         let rows = rows.into_iter().map(|(row, _)| row).collect();
-        self.start(Task::Trust(TrustTask::Undo(UndoTrust(undo))), rows, Purpose::Show, None)
+        let task = Task::with_results(TextKey::TrustUndoTitle, UndoTrust(undo), keep_change).act(TextKey::TrustUndo);
+        self.start(task, rows, None)
     }
 
     /// Makes a change to the lists of the one controller, without a dialog of its own.
-    pub(super) fn change(&mut self, task: TrustTask, done: Done) -> Vec<Command> {
+    pub(super) fn change(
+        &mut self,
+        title: TextKey,
+        operation: impl Operation<Output = TrustChange> + 'static,
+        done: Done,
+    ) -> Vec<Command> {
         let Some(form) = self.trust().filter(|form| form.is_ready()) else { return vec![] };
         form.busy = true;
         form.doing = Some(done);
         let row = form.row;
-        self.start(Task::Trust(task), vec![row], Purpose::ChangeTrust, None)
-    }
-
-    /// What the one controller answered.
-    pub(in crate::ui::model) fn trust_loaded(&mut self, outcome: Outcome) -> Vec<Command> {
-        match outcome {
-            Outcome::TrustLists(held) => self.watch(held),
-            Outcome::TrustChanged(change) => {
-                self.changed(*change);
-                vec![]
+        let task = Task::with_results(title, operation, |model, _, result| {
+            if let Ok(change) = result {
+                model.changed(change);
             }
-            _ => vec![],
-        }
+            vec![]
+        });
+        let task = task.for_dialog().on_end(Self::trust_job_ended).without_password(Self::trust_without_password);
+        self.start(task, vec![row], None)
     }
 
     fn changed(&mut self, change: TrustChange) {
@@ -185,7 +201,7 @@ impl Model {
     }
 
     /// The job of the form ended; if it failed, the form stays with what it has, if it has anything.
-    pub(in crate::ui::model) fn trust_job_ended(&mut self) {
+    pub(super) fn trust_job_ended(&mut self) -> Vec<Command> {
         let job = self.job.take();
         let problem = job.and_then(|job| job.rows.into_iter().find_map(|row| row.state.problem().cloned()));
         if let Some(form) = self.trust() {
@@ -195,10 +211,11 @@ impl Model {
         if let Some(problem) = problem {
             self.trust_failed(problem);
         }
+        vec![]
     }
 
     /// Nobody gave the password.
-    pub(in crate::ui::model) fn trust_without_password(&mut self) {
+    pub(super) fn trust_without_password(&mut self) -> Vec<Command> {
         self.job = None;
         match self.trust() {
             Some(form) if form.held.is_some() => {
@@ -210,6 +227,7 @@ impl Model {
             }
             _ => self.drop_trust(),
         }
+        vec![]
     }
 
     fn trust_failed(&mut self, problem: Problem) {

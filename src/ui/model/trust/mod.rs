@@ -10,7 +10,6 @@
 //! | `watch` | the lists as the controller reports them |
 //! | `add` | [`AddTrustForm`]: files, and where what is in them goes |
 //! | `details` | [`CertificateView`]: one certificate or CRL in full |
-//! | `task` | [`TrustTask`]: the jobs behind it |
 
 mod add;
 mod change;
@@ -18,17 +17,16 @@ mod details;
 mod entry;
 mod form;
 mod pane;
-mod task;
 mod texts;
 mod watch;
 
 pub use add::{AddFile, AddTrustForm, MAX_TRUST_FILES, ReadTrustFile};
+pub(super) use change::keep_change;
 pub use change::{DeleteTrust, MoveTrust};
 pub use details::{CertificateView, ChainNode, ChainState, CrlLine, CrlView, DetailsView, Field};
 pub use entry::{Crl, Entry, Life, Moment, Refusal};
 pub use form::{Done, Link, Shows, TrustForm};
 pub use pane::{Pane, PaneKind, TrustColumn};
-pub use task::TrustTask;
 
 /// What can be asked for in these dialogs.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,9 +1,18 @@
 //! The lists as the controller reports them.
 
-use super::{Link, Shows, TrustForm, TrustTask};
-use crate::jobs::{JobController, TrustSnapshot, WatchEvent};
+use super::{Link, Shows, TrustForm};
+use crate::jobs::{JobController, ListTrust, TrustSnapshot, WatchEvent};
+use crate::texts::TextKey;
 use crate::ui::backend::Command;
-use crate::ui::model::{Dialog, JobId, Model, Purpose, RowId, Task};
+use crate::ui::model::{Dialog, JobId, Model, RowId, Task};
+
+fn list_trust() -> Task {
+    let task = Task::with_results(TextKey::TrustTitle, ListTrust, |model, _, result| match result {
+        Ok(held) => model.watch(Box::new(held)),
+        Err(_) => vec![],
+    });
+    task.for_dialog().on_end(Model::trust_job_ended).without_password(Model::trust_without_password)
+}
 
 impl Model {
     /// For one controller its lists, for several what adds to them (manual 2.7.3.3, 2.7.3.6).
@@ -14,7 +23,7 @@ impl Model {
         };
         let name = self.rows.names(&rows).pop().unwrap_or_default();
         self.dialogs.push(Dialog::Trust(Box::new(TrustForm::new(row, name, shows, self.zone, self.now))));
-        self.start(Task::Trust(TrustTask::List), rows, Purpose::LoadTrust, None)
+        self.start(list_trust(), rows, None)
     }
 
     /// The form about the lists of one controller that is open, whatever is on top of it.
@@ -65,7 +74,7 @@ impl Model {
         let Some(form) = self.trust().filter(|form| !form.busy) else { return vec![] };
         form.link = Link::Reading;
         let row = form.row;
-        self.start(Task::Trust(TrustTask::List), vec![row], Purpose::LoadTrust, None)
+        self.start(list_trust(), vec![row], None)
     }
 
     /// The dialog was closed: nobody needs to watch any more.
