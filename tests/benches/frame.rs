@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 
 use chrono::{DateTime, Utc};
 use egui::{Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
-use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary, TrustSnapshot};
+use opcua_configurator::jobs::{Report, Summary, TrustSnapshot};
 use opcua_configurator::model::{CertificateStatus, FirmwareGeneration, Language};
 use opcua_configurator::ui::App;
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
@@ -51,14 +51,14 @@ fn trust(mut model: Model, now: DateTime<Utc>) -> Model {
     reduce(&mut model, Message::MoveCursor(0));
     reduce(&mut model, Message::ToggleCursor);
     let commands = reduce(&mut model, Message::Invoke(UiCommand::ClientLists));
-    let job = commands.iter().find_map(|command| match command {
-        Command::Run { job, .. } => Some(*job),
+    let run = commands.iter().find_map(|command| match command {
+        Command::Run { job, task, .. } => Some((*job, task)),
         _ => None,
     });
-    let job = job.expect("the lists are read");
+    let (job, task) = run.expect("the lists are read");
     let start = Instant::now();
-    let result = Ok(Outcome::TrustLists(Box::new(many_certificates(CERTIFICATES, now))));
-    let event = JobEvent::Finished { index: 0, report: Box::new(Report { result, info: None }) };
+    let result = Ok(many_certificates(CERTIFICATES, now));
+    let event = task.finished(0, Report { result, info: None }).expect("lists are its result");
     reduce(&mut model, Message::Event(Event::Job { job, event }));
     report("trust, lists arrive", start.elapsed());
     reduce(&mut model, Message::Event(Event::JobEnded { job, summary: Summary { done: 1, ..Summary::default() } }));

@@ -5,7 +5,9 @@ use std::net::{IpAddr, Ipv4Addr};
 use std::sync::Arc;
 use std::time::Duration;
 
-use opcua_configurator::jobs::{self, JobContext, JobController, JobEvent, Operation, Report, Summary};
+use opcua_configurator::jobs::{
+    self, JobContext, JobController, JobEvent, Operation, OperationOutput, Report, Summary,
+};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::session::{ManagementConnector, Timeouts};
 use opcua_configurator::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, VirtualController};
@@ -86,20 +88,20 @@ impl Plant {
     }
 
     /// Runs an operation on every controller; reports in list order.
-    pub async fn run(&self, operation: impl Operation + 'static) -> Vec<Report> {
+    pub async fn run<O: OperationOutput>(&self, operation: impl Operation<Output = O> + 'static) -> Vec<Report<O>> {
         run(self.listed(), operation, self.context(), CancellationToken::new(), |_| {}).await.0
     }
 }
 
 /// Runs an operation, watching its events; reports in list order.
-pub async fn run(
+pub async fn run<O: OperationOutput>(
     controllers: Vec<JobController>,
-    operation: impl Operation + 'static,
+    operation: impl Operation<Output = O> + 'static,
     context: JobContext,
     cancel: CancellationToken,
-    watch: impl Fn(&JobEvent) + Send + Sync + 'static,
-) -> (Vec<Report>, Summary) {
-    let reports = Arc::new(Mutex::new(vec![None; controllers.len()]));
+    watch: impl Fn(&JobEvent<O>) + Send + Sync + 'static,
+) -> (Vec<Report<O>>, Summary) {
+    let reports = Arc::new(Mutex::new(controllers.iter().map(|_| None).collect::<Vec<_>>()));
     let kept = reports.clone();
     let job = jobs::run(controllers, Arc::new(operation), context, cancel, move |event| {
         watch(&event);

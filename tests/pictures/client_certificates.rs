@@ -1,6 +1,6 @@
 //! The dialogs about client certificates and CRLs as they look.
 
-use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary, TrustChange, TrustFile, TrustSnapshot, WatchEvent};
+use opcua_configurator::jobs::{TrustChange, TrustFile, TrustSnapshot, WatchEvent};
 use opcua_configurator::model::{CertificateStatus, ErrorCode, FirmwareGeneration, Problem};
 use opcua_configurator::pki::{Certificate, read_bundle};
 use opcua_configurator::protocol::CutClient;
@@ -11,7 +11,7 @@ use opcua_configurator::workspace::ThemeChoice;
 
 use crate::authority::{Authority, p7b};
 use crate::harness::{SIZE, choose, click, now, settle, type_into, window};
-use crate::pictures::{W, chinese, job, picture, say, tell, tick};
+use crate::pictures::{W, chinese, finish, picture, say, tell, tick};
 use crate::samples::configuration;
 use crate::trust_samples;
 
@@ -29,20 +29,12 @@ fn open(ticked: &[&str], size: [f32; 2]) -> W {
 fn lists(name: &str, item: [&str; 2], held: TrustSnapshot, size: [f32; 2]) -> W {
     let mut window = open(&[name], size);
     choose(&mut window, &item);
-    end(&mut window, Outcome::TrustLists(Box::new(held)));
+    finish(&mut window, vec![Ok(held)]);
     window
 }
 
 const CLIENTS: [&str; 2] = ["Certificate", "Client certificates…"];
 const CRLS: [&str; 2] = ["Certificate", "CRL…"];
-
-/// The last job that was started ends like this.
-fn end(window: &mut W, outcome: Outcome) {
-    let job = job(window);
-    let report = Report { result: Ok(outcome), info: None };
-    tell(window, Event::Job { job, event: JobEvent::Finished { index: 0, report: Box::new(report) } });
-    tell(window, Event::JobEnded { job, summary: Summary { done: 1, failed: 0, not_started: 0 } });
-}
 
 fn watch(window: &W) -> JobId {
     let watching = |command: &Command| match command {
@@ -53,8 +45,8 @@ fn watch(window: &W) -> JobId {
 }
 
 /// What a change came to.
-fn changed(lists: TrustSnapshot, cut: Vec<CutClient>) -> Outcome {
-    Outcome::TrustChanged(Box::new(TrustChange { lists, cut, undo: None }))
+fn changed(lists: TrustSnapshot, cut: Vec<CutClient>) -> TrustChange {
+    TrustChange { lists, cut, undo: None }
 }
 
 fn cut(n: usize, name: &str, status: CertificateStatus) -> CutClient {
@@ -124,7 +116,7 @@ fn changes() {
         cut(3, "HMI line 3", CertificateStatus::Untrusted),
         cut(4, "Old visualisation", CertificateStatus::Untrusted),
     ];
-    end(&mut window, changed(held, gone));
+    finish(&mut window, vec![Ok(changed(held, gone))]);
     let job = watch(&window);
     tell(&mut window, Event::TrustSeen { job, event: WatchEvent::Lost(ErrorCode::Timeout.into()) });
     picture(&mut window, "trust_cut");
@@ -211,15 +203,8 @@ fn adding_to_many() {
     click(&mut window, "Add");
     picture(&mut window, "trust_add_many_confirm");
     click(&mut window, "Add certificates");
-    let id = job(&window);
     let result = changed(trust_samples::plant(now()), vec![cut(13, "HMI line 1", CertificateStatus::Revoked)]);
-    for (index, result) in
-        [Ok(result), Err(Problem::with_detail(ErrorCode::ListFull, "12 > 10"))].into_iter().enumerate()
-    {
-        let report = Box::new(Report { result, info: None });
-        tell(&mut window, Event::Job { job: id, event: JobEvent::Finished { index, report } });
-    }
-    tell(&mut window, Event::JobEnded { job: id, summary: Summary { done: 1, failed: 1, not_started: 0 } });
+    finish(&mut window, vec![Ok(result), Err(Problem::with_detail(ErrorCode::ListFull, "12 > 10"))]);
     picture(&mut window, "trust_add_many_completed");
     click(&mut window, "Close");
     choose(&mut window, &CRLS);

@@ -1,7 +1,9 @@
 //! The window as it looks, pixel by pixel.
 
-use opcua_configurator::jobs::{JobEvent, Outcome, Report, Step, Summary};
-use opcua_configurator::model::{ControllerSeries, ErrorCode, Language, Problem, ServerSettings};
+use opcua_configurator::jobs::{Done, OperationOutput, Step};
+use opcua_configurator::model::{
+    ControllerInfo, ControllerSeries, ErrorCode, Language, Problem, ServerSettings, UserName,
+};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::protocol::Revisioned;
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
@@ -9,26 +11,24 @@ use opcua_configurator::ui::model::Message;
 use opcua_configurator::workspace::{Configuration, ThemeChoice};
 
 use crate::harness::{SIZE, choose, click, now, settle, type_into, window};
-use crate::pictures::{W, job, picture, say, tell, tick};
+use crate::pictures::{W, end_job, fail, job, picture, say, step, succeed, tell, tick};
 use crate::samples::{configuration, info};
 
 fn open(count: usize) -> W {
     window(RecordingBackend::default(), configuration(count, now()), SIZE)
 }
 
-fn finished(index: usize, result: Result<Outcome, Problem>) -> JobEvent {
-    let info = result.is_ok().then(|| info(index, now(), ControllerSeries::Rc800));
-    JobEvent::Finished { index, report: Box::new(Report { result, info }) }
+fn read(index: usize) -> Option<ControllerInfo> {
+    Some(info(index, now(), ControllerSeries::Rc800))
 }
 
-fn load(window: &mut W, outcome: Outcome) {
-    let job = job(window);
-    tell(window, Event::Job { job, event: finished(0, Ok(outcome)) });
-    tell(window, Event::JobEnded { job, summary: Summary { done: 1, ..Summary::default() } });
+fn load(window: &mut W, output: impl OperationOutput) {
+    succeed(window, 0, output, read(0));
+    end_job(window, 1, 0, 0);
 }
 
-fn settings() -> Outcome {
-    Outcome::Settings(Revisioned { revision: 4, value: ServerSettings::default() })
+fn settings() -> Revisioned<ServerSettings> {
+    Revisioned { revision: 4, value: ServerSettings::default() }
 }
 
 #[test]
@@ -101,20 +101,19 @@ fn processing() {
     let mut window = open(24);
     tick(&mut window, &["Weld 1", "Weld 2", "Weld 10", "Paint booth", "Press feeder"]);
     click(&mut window, "Get new information");
-    let job = job(&window);
-    tell(&mut window, Event::Job { job, event: finished(0, Ok(Outcome::Done)) });
+    succeed(&mut window, 0, Done, read(0));
     let unreachable = Problem::with_detail(ErrorCode::Unreachable, "connection refused (os error 111)");
-    tell(&mut window, Event::Job { job, event: finished(1, Err(unreachable)) });
-    tell(&mut window, Event::Job { job, event: JobEvent::Step { index: 2, step: Step::Connect } });
-    tell(&mut window, Event::Job { job, event: JobEvent::Step { index: 3, step: Step::Read } });
+    fail(&mut window, 1, unreachable);
+    step(&mut window, 2, Step::Connect);
+    step(&mut window, 3, Step::Read);
     click(&mut window, "Cancel");
     picture(&mut window, "processing");
     click(&mut window, "Go on");
     for index in [2, 3] {
-        tell(&mut window, Event::Job { job, event: finished(index, Ok(Outcome::Done)) });
+        succeed(&mut window, index, Done, read(index));
     }
-    tell(&mut window, Event::Job { job, event: finished(4, Err(ErrorCode::Cancelled.into())) });
-    tell(&mut window, Event::JobEnded { job, summary: Summary { done: 3, failed: 1, not_started: 1 } });
+    fail(&mut window, 4, ErrorCode::Cancelled);
+    end_job(&mut window, 3, 1, 1);
     picture(&mut window, "processing_summary");
     say(&mut window, Message::SetLanguage(Language::Zh));
     picture(&mut window, "processing_summary_chinese");
@@ -125,11 +124,10 @@ fn password() {
     let mut window = open(24);
     tick(&mut window, &["Weld 1", "Weld 2"]);
     click(&mut window, "Get new information");
-    let job = job(&window);
     for index in [0, 1] {
-        tell(&mut window, Event::Job { job, event: finished(index, Err(ErrorCode::PasswordMissing.into())) });
+        fail(&mut window, index, ErrorCode::PasswordMissing);
     }
-    tell(&mut window, Event::JobEnded { job, summary: Summary { failed: 2, ..Summary::default() } });
+    end_job(&mut window, 0, 2, 0);
     picture(&mut window, "password");
 }
 
@@ -139,7 +137,7 @@ fn basic_settings() {
     tick(&mut window, &["Weld 1"]);
     choose(&mut window, &["Server settings", "Basic settings…"]);
     load(&mut window, settings());
-    load(&mut window, Outcome::Users(Revisioned { revision: 4, value: vec![] }));
+    load(&mut window, Revisioned::<Vec<UserName>> { revision: 4, value: vec![] });
     picture(&mut window, "settings");
     click(&mut window, "On");
     type_into(&mut window, "Port", "80");
@@ -161,8 +159,8 @@ fn users() {
     let mut window = open(24);
     tick(&mut window, &["Weld 1"]);
     choose(&mut window, &["Server settings", "Users…"]);
-    let users = ["operator1", "Maintenance7", "scada2026"].map(|name| name.parse().unwrap()).to_vec();
-    load(&mut window, Outcome::Users(Revisioned { revision: 4, value: users }));
+    let users: Vec<UserName> = ["operator1", "Maintenance7", "scada2026"].map(|name| name.parse().unwrap()).to_vec();
+    load(&mut window, Revisioned { revision: 4, value: users });
     click(&mut window, "scada2026");
     picture(&mut window, "users");
     click(&mut window, "Add user…");

@@ -1,6 +1,6 @@
 //! The certificate dialogs as they look.
 
-use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
+use opcua_configurator::jobs::{CertificateChecked, CertificateExported};
 use opcua_configurator::model::{
     CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Problem, SelfSignedRequest,
     ServerSettings, Subject, Validity,
@@ -9,11 +9,11 @@ use opcua_configurator::pki::{
     Certificate, CertificateFlaw, Finding, Issuers, KeyUsage, PrivateKey, ServerNames, Severity, self_signed,
 };
 use opcua_configurator::protocol::{Base64Bytes, HeldCertificate, HeldCertificates, Revisioned};
-use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::backend::RecordingBackend;
 use opcua_configurator::workspace::SavedFile;
 
 use crate::harness::{SIZE, choose, click, now, type_into, window};
-use crate::pictures::{W, chinese, job, picture, tell, tick};
+use crate::pictures::{W, chinese, end_job, fail, finish, picture, tick};
 use crate::samples::{configuration, info};
 
 /// Of current firmware, and of legacy firmware.
@@ -24,19 +24,6 @@ fn open(ticked: &[&str]) -> W {
     let mut window = window(RecordingBackend::default(), configuration(24, now()), SIZE);
     tick(&mut window, ticked);
     window
-}
-
-/// The last job that was started ends like this, one result a controller.
-fn end(window: &mut W, results: Vec<Result<Outcome, Problem>>) {
-    let job = job(window);
-    let failed = results.iter().filter(|result| result.is_err()).count();
-    let summary = Summary { done: results.len() - failed, failed, not_started: 0 };
-    for (index, result) in results.into_iter().enumerate() {
-        // What a row shows is not what these pictures are about.
-        let event = JobEvent::Finished { index, report: Box::new(Report { result, info: None }) };
-        tell(window, Event::Job { job, event });
-    }
-    tell(window, Event::JobEnded { job, summary });
 }
 
 /// A certificate whose visible parts are the same in every picture.
@@ -55,10 +42,10 @@ fn certificate() -> Base64Bytes {
     Base64Bytes(self_signed(&request, &names, &key, now()).unwrap().der().to_vec())
 }
 
-fn held(kinds: &[CertificateType], selected: CertificateType) -> Outcome {
+fn held(kinds: &[CertificateType], selected: CertificateType) -> Revisioned<HeldCertificates> {
     let certificate = certificate();
     let held = kinds.iter().map(|kind| HeldCertificate { kind: *kind, certificate: certificate.clone() }).collect();
-    Outcome::Certificates(Revisioned { revision: 4, value: HeldCertificates { selected, held, csr: None } })
+    Revisioned { revision: 4, value: HeldCertificates { selected, held, csr: None } }
 }
 
 #[test]
@@ -66,7 +53,7 @@ fn type_select() {
     use CertificateType::{CaSigned, SelfSigned};
     let mut window = open(&[CURRENT]);
     choose(&mut window, &["Certificate", "Type select…"]);
-    end(&mut window, vec![Ok(held(&[SelfSigned], SelfSigned))]);
+    finish(&mut window, vec![Ok(held(&[SelfSigned], SelfSigned))]);
     click(&mut window, "CA signed");
     picture(&mut window, "type_select");
     click(&mut window, "Cancel");
@@ -75,7 +62,7 @@ fn type_select() {
         click(&mut window, &format!("Tick {name}"));
     }
     choose(&mut window, &["Certificate", "Type select…"]);
-    end(&mut window, vec![Ok(held(&[SelfSigned, CaSigned], CaSigned)), Ok(held(&[SelfSigned], SelfSigned))]);
+    finish(&mut window, vec![Ok(held(&[SelfSigned, CaSigned], CaSigned)), Ok(held(&[SelfSigned], SelfSigned))]);
     click(&mut window, "CA signed");
     picture(&mut window, "type_select_many");
     chinese(&mut window);
@@ -96,8 +83,8 @@ fn export_self_signed() {
     click(&mut window, "Export");
     let file = window.state().model.workspace.root().join("SN0000123/Cert/SelfSigned/1_cert.pem");
     let moved_aside = vec![file.with_file_name("20260301_120000").join("1_cert.pem")];
-    let exported = Outcome::Exported { summary: summary(), saved: SavedFile { file, moved_aside } };
-    end(&mut window, vec![Ok(exported), Err(ErrorCode::CertificateNotStored.into())]);
+    let exported = CertificateExported { summary: summary(), saved: SavedFile { file, moved_aside } };
+    finish(&mut window, vec![Ok(exported), Err(ErrorCode::CertificateNotStored.into())]);
     picture(&mut window, "export_self_signed_completed");
 }
 
@@ -108,7 +95,7 @@ fn ca_signed() {
     picture(&mut window, "ca_signed");
     click(&mut window, "Create CSR…");
     let settings = Revisioned { revision: 4, value: ServerSettings::default() };
-    end(&mut window, vec![Ok(Outcome::Settings(settings))]);
+    finish(&mut window, vec![Ok(settings)]);
     picture(&mut window, "csr");
     click(&mut window, "Create and save");
     picture(&mut window, "confirm_csr");
@@ -118,7 +105,7 @@ fn ca_signed() {
     click(&mut window, "Import…");
     let hosts = CertificateFlaw::HostName { hosts: vec!["192.168.10.1".into()], names: vec!["192.168.0.1".into()] };
     let hosts = Finding { flaw: hosts, severity: Severity::Warning };
-    end(&mut window, vec![checked(vec![hosts])]);
+    finish(&mut window, vec![checked(vec![hosts])]);
     picture(&mut window, "import_warning");
 }
 
@@ -130,7 +117,7 @@ fn ca_signed_for_many() {
     picture(&mut window, "ca_signed_many_chinese");
     click(&mut window, "导入…");
     let not_after = now() - chrono::Duration::days(3);
-    end(
+    finish(
         &mut window,
         vec![
             checked(vec![]),
@@ -158,7 +145,8 @@ fn user_specified() {
     picture(&mut window, "user_specified_pair");
     type_into(&mut window, "Key file", "/media/usb/robot.key");
     click(&mut window, "Import…");
-    end(&mut window, vec![Err(ErrorCode::KeyMismatch.into())]);
+    fail(&mut window, 0, ErrorCode::KeyMismatch);
+    end_job(&mut window, 0, 1, 0);
     picture(&mut window, "user_specified_not_a_pair");
 }
 
@@ -169,13 +157,13 @@ fn the_chain_before_an_import() {
     click(&mut window, "Import…");
     let issuers =
         Issuers { chain: vec![ca("Plant CA", Some("Works root"), 2024), ca("Works root", None, 2020)], complete: true };
-    end(&mut window, vec![checked_with(vec![], Some(issuers.clone()))]);
+    finish(&mut window, vec![checked_with(vec![], Some(issuers.clone()))]);
     picture(&mut window, "import_chain");
     click(&mut window, "Cancel");
     chinese(&mut window);
     click(&mut window, "导入…");
     let issuers = Issuers { chain: issuers.chain[..1].to_vec(), complete: false };
-    end(&mut window, vec![checked_with(vec![], Some(issuers))]);
+    finish(&mut window, vec![checked_with(vec![], Some(issuers))]);
     picture(&mut window, "import_chain_incomplete_chinese");
 }
 
@@ -187,7 +175,7 @@ fn restore() {
     picture(&mut window, "restore");
     click(&mut window, "CSR, its key and the certificate from the CA (3_key.pfx)");
     click(&mut window, "Restore…");
-    end(&mut window, vec![Ok(Outcome::Checked { summary: None, findings: vec![], issuers: None })]);
+    finish(&mut window, vec![Ok(CertificateChecked { summary: None, findings: vec![], issuers: None })]);
     picture(&mut window, "restore_request");
     click(&mut window, "Cancel");
     click(&mut window, "Cancel");
@@ -213,13 +201,13 @@ fn ca(name: &str, by: Option<&str>, from: i32) -> Certificate {
     Certificate::from_der(made.der()).unwrap()
 }
 
-fn checked(findings: Vec<Finding>) -> Result<Outcome, Problem> {
+fn checked(findings: Vec<Finding>) -> Result<CertificateChecked, Problem> {
     checked_with(findings, None)
 }
 
-fn checked_with(findings: Vec<Finding>, issuers: Option<Issuers>) -> Result<Outcome, Problem> {
+fn checked_with(findings: Vec<Finding>, issuers: Option<Issuers>) -> Result<CertificateChecked, Problem> {
     let summary = CertificateSummary { issued_by: "Plant CA".into(), ..summary() };
-    Ok(Outcome::Checked { summary: Some(summary), findings, issuers })
+    Ok(CertificateChecked { summary: Some(summary), findings, issuers })
 }
 
 fn summary() -> CertificateSummary {

@@ -1,13 +1,13 @@
 //! How export, import and the server log look.
 
-use opcua_configurator::jobs::{JobEvent, Outcome, Report, Summary};
+use opcua_configurator::jobs::SettingsExported;
 use opcua_configurator::model::{ControllerSeries, ErrorCode, FirmwareVersion, Problem};
 use opcua_configurator::protocol::LogChunk;
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
 use opcua_configurator::ui::model::ExportFound;
 
 use crate::harness::{SIZE, choose, click, now, type_into, window};
-use crate::pictures::{W, chinese, job, picture, tell, tick};
+use crate::pictures::{W, chinese, end_job, finish, job, picture, succeed, tell, tick};
 use crate::samples::{configuration, info};
 
 /// "Weld 2" has legacy firmware, "Palletiser south" too.
@@ -19,11 +19,8 @@ fn open(names: &[&str], path: &[&str]) -> W {
 }
 
 fn load(window: &mut W, log: LogChunk) {
-    let job = job(window);
-    let info = Some(info(1, now(), ControllerSeries::Rc90));
-    let report = Box::new(Report { result: Ok(Outcome::Log(log)), info });
-    tell(window, Event::Job { job, event: JobEvent::Finished { index: 0, report } });
-    tell(window, Event::JobEnded { job, summary: Summary { done: 1, ..Summary::default() } });
+    succeed(window, 0, log, Some(info(1, now(), ControllerSeries::Rc90)));
+    end_job(window, 1, 0, 0);
 }
 
 #[test]
@@ -36,11 +33,8 @@ fn export() {
     chinese(&mut window);
     picture(&mut window, "export_settings_confirm_chinese");
     click(&mut window, "导出");
-    let job = job(&window);
     let path = window.state().model.workspace.root().join("SN0001460/option.json");
-    let report = Box::new(Report { result: Ok(Outcome::SettingsExported { path }), info: None });
-    tell(&mut window, Event::Job { job, event: JobEvent::Finished { index: 0, report } });
-    tell(&mut window, Event::JobEnded { job, summary: Summary { done: 1, ..Summary::default() } });
+    finish(&mut window, vec![Ok(SettingsExported { path })]);
     picture(&mut window, "export_settings_completed_chinese");
 }
 

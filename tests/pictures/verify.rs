@@ -4,19 +4,18 @@ use std::path::PathBuf;
 
 use chrono::Duration;
 use opcua_configurator::jobs::{
-    CertificateVerdict, EndpointVerdict, JobEvent, NotTried, Outcome, Refusal, Report, Summary, TokenVerdict, Told,
-    Verdict, VerifyFinding, VerifyReport,
+    CertificateVerdict, EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding, VerifyReport,
 };
 use opcua_configurator::model::{
     CertificateStatus, CertificateSummary, ControllerSeries, ErrorCode, Problem, SecurityPolicy, ServerStatus,
 };
 use opcua_configurator::pki::{CertificateFlaw, Finding, Rejection, Severity, client_identity};
 use opcua_configurator::session::opcua_client::{MessageSecurity, TokenKind};
-use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::backend::RecordingBackend;
 use opcua_configurator::workspace::OwnIdentity;
 
 use crate::harness::{SIZE, choose, click, now, window};
-use crate::pictures::{W, chinese, job, picture, tell, tick};
+use crate::pictures::{W, chinese, end_job, fail, picture, succeed, tick};
 use crate::samples::{configuration, info};
 
 fn open(count: usize) -> W {
@@ -125,18 +124,15 @@ fn stopped() -> VerifyReport {
 }
 
 fn answer(window: &mut W, results: Vec<Result<VerifyReport, Problem>>) {
-    let job = job(window);
     let failed = results.iter().filter(|result| result.is_err()).count();
     let done = results.len() - failed;
     for (index, result) in results.into_iter().enumerate() {
-        let info = result.is_ok().then(|| info(index, now(), ControllerSeries::Rc800));
-        let result = result.map(|report| Outcome::Verified(Box::new(report)));
-        tell(
-            window,
-            Event::Job { job, event: JobEvent::Finished { index, report: Box::new(Report { result, info }) } },
-        );
+        match result {
+            Ok(report) => succeed(window, index, report, Some(info(index, now(), ControllerSeries::Rc800))),
+            Err(problem) => fail(window, index, problem),
+        }
     }
-    tell(window, Event::JobEnded { job, summary: Summary { done, failed, not_started: 0 } });
+    end_job(window, done, failed, 0);
 }
 
 #[test]

@@ -167,6 +167,11 @@ impl Task {
         let results: &Results<O> = self.work.results().downcast_ref()?;
         Some(results.event(JobEvent::Finished { index, report: Box::new(report) }))
     }
+
+    /// As [`Task::finished`], for a controller that the operation failed for.
+    pub fn failed(&self, index: usize, problem: Problem) -> TaskEvent {
+        self.work.failed(index, problem)
+    }
 }
 
 impl fmt::Debug for Task {
@@ -225,6 +230,7 @@ trait Work: fmt::Debug + Send + Sync {
     fn must_be_finished(&self) -> bool;
     fn operation(&self) -> &dyn Any;
     fn results(&self) -> &dyn Any;
+    fn failed(&self, index: usize, problem: Problem) -> TaskEvent;
     fn run(
         &self,
         controllers: Vec<JobController>,
@@ -284,6 +290,11 @@ impl<P: Operation + 'static> Work for TypedWork<P> {
 
     fn results(&self) -> &dyn Any {
         &self.results
+    }
+
+    fn failed(&self, index: usize, problem: Problem) -> TaskEvent {
+        let report = Box::new(Report { result: Err(problem), info: None });
+        self.results.event(JobEvent::Finished { index, report })
     }
 
     fn run(

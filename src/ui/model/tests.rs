@@ -9,7 +9,7 @@ mod verify;
 use chrono::Duration;
 
 use super::*;
-use crate::jobs::{JobEvent, Outcome, Report, Step, Summary};
+use crate::jobs::{Done, OperationOutput, Report, SetSettings, Step, Summary};
 use crate::model::{ControllerInfo, ErrorCode, ServerSettings};
 use crate::pki::Fingerprint;
 use crate::protocol::Revisioned;
@@ -52,8 +52,17 @@ fn info() -> ControllerInfo {
     .unwrap()
 }
 
-fn finished(index: usize, result: Result<Outcome, Problem>) -> JobEvent {
-    JobEvent::Finished { index, report: Box::new(Report { info: result.is_ok().then(info), result }) }
+/// The operation of the job succeeds for one of its controllers.
+fn done<O: OperationOutput>(model: &mut Model, job: JobId, index: usize, output: O) -> Vec<Command> {
+    let task = model.job.as_ref().expect("a job").task.clone();
+    let report = Report { result: Ok(output), info: Some(info()) };
+    event(model, job, task.finished(index, report).expect("a result of this operation"))
+}
+
+/// It fails for one of them.
+fn fail(model: &mut Model, job: JobId, index: usize, problem: impl Into<Problem>) -> Vec<Command> {
+    let task = model.job.as_ref().expect("a job").task.clone();
+    event(model, job, task.failed(index, problem.into()))
 }
 
 /// A model whose controllers nobody has confirmed yet, all ticked.
@@ -111,12 +120,12 @@ fn a_file_that_comes_after_its_dialog_was_closed_is_dropped() {
     let picking = reduce(&mut model, Message::ChooseFile);
     let [Command::PickFile { job: picking, .. }] = picking[..] else { panic!("{picking:?}") };
     assert!(reduce(&mut model, Message::ChooseFile).is_empty(), "one dialog of the desktop is enough");
-    let picked = Event::FilePicked { job: picking, result: Ok(Some("/keys.csv".into())) };
-    let reading = reduce(&mut model, Message::Event(picked.clone()));
+    let picked = || Event::FilePicked { job: picking, result: Ok(Some("/keys.csv".into())) };
+    let reading = reduce(&mut model, Message::Event(picked()));
     let [Command::ReadFile { job: reading, .. }] = reading[..] else { panic!("{reading:?}") };
     reduce(&mut model, Message::Close);
     reduce(&mut model, Message::Invoke(UiCommand::Activation));
-    assert!(reduce(&mut model, Message::Event(picked)).is_empty());
+    assert!(reduce(&mut model, Message::Event(picked())).is_empty());
     let contents = FileContents(b"OPCUA.Activation.Ver.1.0\n".to_vec());
     reduce(&mut model, Message::Event(Event::FileRead { job: reading, result: Ok(("/keys.csv".into(), contents)) }));
     let Some(Dialog::Activation(form)) = model.dialogs.last() else { panic!("{:?}", model.dialogs) };
@@ -137,7 +146,7 @@ fn job(commands: &[Command]) -> JobId {
     *job
 }
 
-fn event(model: &mut Model, job: JobId, event: JobEvent) -> Vec<Command> {
+fn event(model: &mut Model, job: JobId, event: TaskEvent) -> Vec<Command> {
     reduce(model, Message::Event(Event::Job { job, event }))
 }
 
@@ -202,9 +211,9 @@ fn reading_closes_by_itself_when_all_went_well() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
-    event(&mut model, id, JobEvent::Step { index: 0, step: Step::Connect });
-    event(&mut model, id, finished(0, Ok(Outcome::Done)));
-    event(&mut model, id, finished(1, Ok(Outcome::Done)));
+    event(&mut model, id, TaskEvent::Step { index: 0, step: Step::Connect });
+    done(&mut model, id, 0, Done);
+    done(&mut model, id, 1, Done);
     assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
     let saved = ended(&mut model, id, 2, 0);
     assert!(matches!(saved[..], [Command::Save(_)]));
@@ -219,8 +228,8 @@ fn a_failure_stays_until_it_was_read() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
-    event(&mut model, id, finished(0, Ok(Outcome::Done)));
-    event(&mut model, id, finished(1, Err(ErrorCode::Unreachable.into())));
+    done(&mut model, id, 0, Done);
+    fail(&mut model, id, 1, ErrorCode::Unreachable);
     ended(&mut model, id, 1, 1);
     assert!(matches!(model.dialogs[..], [Dialog::Processing(ProcessingView { selected: Some(1), .. })]));
     reduce(&mut model, Message::Submit);
@@ -235,11 +244,11 @@ fn late_events_of_an_old_job_are_ignored() {
     let cancelled = reduce(&mut model, Message::Close);
     assert!(matches!(cancelled[..], [Command::Cancel(id)] if id == old));
     let new = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
-    let settings = Outcome::Settings(Revisioned { revision: 9, value: ServerSettings::default() });
-    assert!(event(&mut model, old, finished(0, Ok(settings.clone()))).is_empty());
+    let settings = Revisioned { revision: 9, value: ServerSettings::default() };
+    assert!(done(&mut model, old, 0, settings.clone()).is_empty());
     ended(&mut model, old, 1, 0);
     assert!(matches!(&model.dialogs[..], [Dialog::Settings(form)] if form.reading));
-    event(&mut model, new, finished(0, Ok(settings)));
+    done(&mut model, new, 0, settings);
     assert!(matches!(&model.dialogs[..], [Dialog::Settings(form)] if form.revision == Some(9)));
 }
 
@@ -269,9 +278,8 @@ fn a_change_is_confirmed_and_cancel_leads_back_to_the_form() {
     assert!(matches!(model.dialogs[..], [Dialog::Settings(_)]));
     reduce(&mut model, Message::Submit);
     let commands = reduce(&mut model, Message::Submit);
-    assert!(
-        matches!(&commands[..], [Command::Run { task: Task::SetSettings(_), controllers, .. }] if controllers.len() == 2)
-    );
+    assert!(matches!(&commands[..], [Command::Run { task, controllers, .. }]
+            if task.operation::<SetSettings>().is_some() && controllers.len() == 2));
     assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
 }
 
@@ -299,16 +307,14 @@ fn a_missing_password_is_asked_for_and_those_controllers_are_tried_again() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
-    event(&mut model, id, finished(0, Err(ErrorCode::PasswordMissing.into())));
-    event(&mut model, id, finished(1, Ok(Outcome::Done)));
+    fail(&mut model, id, 0, ErrorCode::PasswordMissing);
+    done(&mut model, id, 1, Done);
     ended(&mut model, id, 1, 1);
     let Some(Dialog::Password(form)) = model.dialogs.last_mut() else { panic!("not asked") };
     assert_eq!(form.names, ["Weld 2"]);
     form.password.0 = "secret".into();
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { controllers, password: Some(_), task: Task::GetInfo, .. }] = &commands[..] else {
-        panic!("{commands:?}")
-    };
+    let [Command::Run { controllers, password: Some(_), .. }] = &commands[..] else { panic!("{commands:?}") };
     assert_eq!(controllers.len(), 1);
     assert!(!format!("{commands:?}").contains("secret"));
     assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
@@ -397,8 +403,8 @@ fn a_form_is_filled_also_under_a_notice() {
     tick(&mut model, &["Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
     reduce(&mut model, Message::Event(Event::SaveFailed(ErrorCode::WorkspaceFull.into())));
-    let settings = Outcome::Settings(Revisioned { revision: 9, value: ServerSettings::default() });
-    event(&mut model, id, finished(0, Ok(settings)));
+    let settings = Revisioned { revision: 9, value: ServerSettings::default() };
+    done(&mut model, id, 0, settings);
     assert!(matches!(&model.dialogs[..], [Dialog::Settings(form), Dialog::Error(_)] if !form.reading));
 }
 
@@ -407,7 +413,7 @@ fn a_form_that_cannot_be_filled_gives_way_to_the_reason() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Users)));
-    event(&mut model, id, finished(0, Err(ErrorCode::TaskRunning.into())));
+    fail(&mut model, id, 0, ErrorCode::TaskRunning);
     ended(&mut model, id, 0, 1);
     assert!(matches!(&model.dialogs[..], [Dialog::Error(problem)] if problem.code == ErrorCode::TaskRunning));
 }

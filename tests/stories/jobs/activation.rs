@@ -26,7 +26,7 @@ fn from(file: &Arc<ActivationFile>) -> Activate {
     Activate { keys: KeySource::File(file.clone()) }
 }
 
-fn code(report: &Report) -> Option<ErrorCode> {
+fn code<O>(report: &Report<O>) -> Option<ErrorCode> {
     report.result.as_ref().err().map(|problem| problem.code)
 }
 

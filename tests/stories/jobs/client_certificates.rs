@@ -4,9 +4,9 @@
 use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::{
-    AddTrust, Destination, ListTrust, MoveClients, Outcome, RemoveClients, RemoveCrls, Report, SelfSigned,
-    SelfSignedFields, SetSettings, SettingsChange, StartServer, TrustChange, TrustFile, TrustSnapshot, TrustUndo,
-    UndoTrust, WatchEvent, watch_trust,
+    AddTrust, Destination, ListTrust, MoveClients, RemoveClients, RemoveCrls, Report, SelfSigned, SelfSignedFields,
+    SetSettings, SettingsChange, StartServer, TrustChange, TrustFile, TrustSnapshot, TrustUndo, UndoTrust, WatchEvent,
+    watch_trust,
 };
 use opcua_configurator::model::{
     CertificateStatus, ClientList, ErrorCode, KeyLength, ListLimits, ServerStatus, UserTokenPolicy, Validity,
@@ -42,22 +42,16 @@ fn undo(plant: &Plant, index: usize, undo: TrustUndo) -> UndoTrust {
     UndoTrust([(plant.listed()[index].name.clone(), undo)].into())
 }
 
-fn code(report: &Report) -> ErrorCode {
+fn code<O: std::fmt::Debug>(report: &Report<O>) -> ErrorCode {
     report.result.as_ref().expect_err("a failure").code
 }
 
-fn changed(report: &Report) -> &TrustChange {
-    match &report.result {
-        Ok(Outcome::TrustChanged(change)) => change,
-        other => panic!("{other:?}"),
-    }
+fn changed(report: &Report<TrustChange>) -> &TrustChange {
+    report.result.as_ref().unwrap()
 }
 
 async fn lists(plant: &Plant) -> TrustSnapshot {
-    match plant.run(ListTrust).await.remove(0).result {
-        Ok(Outcome::TrustLists(lists)) => *lists,
-        other => panic!("{other:?}"),
-    }
+    plant.run(ListTrust).await.remove(0).result.unwrap()
 }
 
 fn counts(lists: &TrustSnapshot) -> [usize; 4] {

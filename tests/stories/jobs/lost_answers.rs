@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use opcua_configurator::jobs::{
-    AddUser, GetInfo, JobContext, Outcome, Report, SelfSigned, SelfSignedFields, StartServer, StopServer,
+    AddUser, Done, GetInfo, JobContext, OperationOutput, Report, SelfSigned, SelfSignedFields, StartServer, StopServer,
 };
 use opcua_configurator::model::{
     Address, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, ServerStatus, UserName, UserPassword, Validity,
@@ -111,11 +111,11 @@ fn user(name: &str) -> AddUser {
     }
 }
 
-async fn in_trouble(
+async fn in_trouble<O: OperationOutput>(
     plant: &Plant,
     trouble: Trouble,
-    operation: impl opcua_configurator::jobs::Operation + 'static,
-) -> Report {
+    operation: impl opcua_configurator::jobs::Operation<Output = O> + 'static,
+) -> Report<O> {
     let network = Network { real: plant.connector, trouble, sessions: AtomicUsize::new(0) };
     let context = JobContext::new(Arc::new(network), plant.passwords.clone(), 1);
     let (mut reports, _) = plant::run(plant.listed(), operation, context, CancellationToken::new(), |_| {}).await;
@@ -147,7 +147,7 @@ async fn a_start_whose_answer_was_lost_is_done_if_the_server_runs() {
         } else {
             in_trouble(&plant, Trouble::Status, StopServer).await
         };
-        assert_eq!(report.result, Ok(Outcome::Done));
+        assert_eq!(report.result, Ok(Done));
         assert_eq!(report.info.map(|info| info.status), Some(status));
     }
     // One that was not done is not said to be.
@@ -162,11 +162,11 @@ async fn a_change_that_was_done_is_not_said_to_have_failed_because_nothing_can_b
     let plant = with_certificate().await;
     let before = plant.controller(0).info().revision;
     let report = in_trouble(&plant, Trouble::Reading, user("operator1")).await;
-    assert_eq!(report.result, Ok(Outcome::Done));
+    assert_eq!(report.result, Ok(Done));
     assert_eq!(report.info.map(|info| info.revision), Some(before + 1), "read with another session");
 
     let report = in_trouble(&plant, Trouble::EveryReading, user("operator2")).await;
-    assert_eq!((report.result, report.info), (Ok(Outcome::Done), None));
+    assert_eq!((report.result, report.info), (Ok(Done), None));
     assert_eq!(plant.controller(0).info().revision, before + 2);
 }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use opcua_configurator::jobs::{
-    AddUser, GetInfo, JobContext, JobController, JobEvent, ListUsers, Outcome, RemoveUsers, Report, SelfSigned,
+    AddUser, CertificateMade, GetInfo, JobContext, JobController, JobEvent, ListUsers, RemoveUsers, Report, SelfSigned,
     SelfSignedFields, SetSettings, SettingsChange, StartServer, Step, StopServer, Summary,
 };
 use opcua_configurator::model::{
@@ -55,11 +55,11 @@ fn policies(list: &[SecurityPolicy]) -> SetSettings {
     SetSettings { change, ..SetSettings::default() }
 }
 
-fn codes(reports: &[Report]) -> Vec<Option<ErrorCode>> {
+fn codes<O>(reports: &[Report<O>]) -> Vec<Option<ErrorCode>> {
     reports.iter().map(|r| r.result.as_ref().err().map(|p| p.code)).collect()
 }
 
-fn status(report: &Report) -> ServerStatus {
+fn status<O>(report: &Report<O>) -> ServerStatus {
     report.info.as_ref().expect("information").status
 }
 
@@ -70,7 +70,7 @@ async fn from_an_empty_controller_to_a_running_server() {
     assert_eq!(codes(&reports), [Some(ErrorCode::NoCertificate); 3]);
     assert_eq!(status(&reports[0]), ServerStatus::Error);
     for report in plant.run(certificate()).await {
-        let Ok(Outcome::Certificate { summary, .. }) = &report.result else { panic!("{report:?}") };
+        let Ok(CertificateMade { summary, .. }) = &report.result else { panic!("{report:?}") };
         let info = report.info.expect("information");
         assert_eq!(summary.issued_to, info.application_name);
         assert_eq!(summary.application_uri, Some(format!("urn:{}", info.application_name)));
@@ -142,7 +142,7 @@ async fn a_connection_lost_before_the_change_leaves_the_controller_as_it_was() {
     let after = plant.controller(0).info();
     assert_eq!((after.revision, after.status), (before.revision, ServerStatus::Run));
     let users = plant.run(ListUsers).await;
-    assert!(matches!(&users[0].result, Ok(Outcome::Users(users)) if users.value.is_empty()), "{users:?}");
+    assert!(matches!(&users[0].result, Ok(users) if users.value.is_empty()), "{users:?}");
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -250,7 +250,7 @@ async fn a_backup_holds_the_certificate_and_for_legacy_firmware_the_key() {
     for (index, report) in
         plant.run(SelfSigned { backup: Some(files.clone()), ..certificate() }).await.into_iter().enumerate()
     {
-        let Ok(Outcome::Certificate { saved: Some(saved), .. }) = report.result else { panic!("{report:?}") };
+        let Ok(CertificateMade { saved: Some(saved), .. }) = report.result else { panic!("{report:?}") };
         let info = report.info.unwrap();
         assert_eq!(saved.certificate, files.self_signed_folder(&info.serial).join("1_cert.der"));
         let certificate = opcua_configurator::pki::Certificate::from_der(&std::fs::read(saved.certificate).unwrap());

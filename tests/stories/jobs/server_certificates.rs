@@ -4,9 +4,10 @@ use std::fs;
 use std::path::Path;
 
 use opcua_configurator::jobs::{
-    CaCertificateSource, CheckCaCertificate, CheckUserCertificate, CreateCsr, CsrFields, ExportSelfSigned,
-    ImportCaCertificate, ImportUserCertificate, ListCertificates, Outcome, Report, SelectCertificateType, SelfSigned,
-    SelfSignedFields, StartServer, UserCertificateFiles,
+    CaCertificateSource, CertificateChecked, CertificateExported, CertificateImported, CheckCaCertificate,
+    CheckUserCertificate, CreateCsr, CsrFields, CsrSaved, Done, ExportSelfSigned, ImportCaCertificate,
+    ImportUserCertificate, ListCertificates, Report, SelectCertificateType, SelfSigned, SelfSignedFields, StartServer,
+    UserCertificateFiles,
 };
 use opcua_configurator::model::{CertificateType, ErrorCode, FileFormat, KeyLength, ServerStatus, Validity};
 use opcua_configurator::pki::{
@@ -60,28 +61,24 @@ fn import(files: &CertificateFiles) -> ImportCaCertificate {
     ImportCaCertificate { source: CaCertificateSource::Folder(files.clone()), accept_warnings: false }
 }
 
-fn codes(reports: &[Report]) -> Vec<Option<ErrorCode>> {
+fn codes<O>(reports: &[Report<O>]) -> Vec<Option<ErrorCode>> {
     reports.iter().map(|r| r.result.as_ref().err().map(|p| p.code)).collect()
 }
 
-fn saved_csr(report: &Report) -> Csr {
-    let Ok(Outcome::Csr { saved, .. }) = &report.result else { panic!("{report:?}") };
+fn saved_csr(report: &Report<CsrSaved>) -> Csr {
+    let Ok(CsrSaved { saved, .. }) = &report.result else { panic!("{report:?}") };
     Csr::from_any(&fs::read(&saved.csr).unwrap()).unwrap()
 }
 
 /// Puts a certificate where the import looks for it.
-fn put(files: &CertificateFiles, report: &Report, certificate: &[u8]) {
+fn put<O>(files: &CertificateFiles, report: &Report<O>, certificate: &[u8]) {
     let folder = files.ca_signed_folder(&report.info.as_ref().unwrap().serial);
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("from_ca.der"), certificate).unwrap();
 }
 
 async fn held(plant: &Plant) -> Vec<HeldCertificates> {
-    let list = |report: Report| match report.result {
-        Ok(Outcome::Certificates(held)) => held.value,
-        other => panic!("{other:?}"),
-    };
-    plant.run(ListCertificates).await.into_iter().map(list).collect()
+    plant.run(ListCertificates).await.into_iter().map(|report| report.result.unwrap().value).collect()
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -92,14 +89,14 @@ async fn from_a_csr_to_a_running_server_with_a_ca_signed_certificate() {
     assert_eq!(codes(&plant.run(import(&files)).await), [Some(ErrorCode::FileNotFound); 3], "nothing there");
     let (ca, reports) = (Ca::new(), plant.run(csr(&files)).await);
     for report in &reports {
-        let Ok(Outcome::Csr { common_name, saved }) = &report.result else { panic!("{report:?}") };
+        let Ok(CsrSaved { common_name, saved }) = &report.result else { panic!("{report:?}") };
         let info = report.info.as_ref().unwrap();
         assert_eq!((common_name, &saved.key), (&info.application_name, &None));
         assert_eq!(saved.csr, folder.path().join(info.serial.as_str()).join("Cert/CSR/3_csr.der"));
         put(&files, report, &ca.sign(&saved_csr(report)));
     }
     for report in plant.run(import(&files)).await {
-        let Ok(Outcome::Imported { summary, findings, .. }) = &report.result else { panic!("{report:?}") };
+        let Ok(CertificateImported { summary, findings, .. }) = &report.result else { panic!("{report:?}") };
         assert_eq!((summary.issued_by.as_str(), findings.as_slice()), ("Plant CA", &[][..]));
         let in_use = report.info.unwrap().certificate.unwrap();
         assert_eq!((in_use.kind, &in_use.summary), (CertificateType::CaSigned, summary));
@@ -164,7 +161,7 @@ async fn a_csr_is_saved_in_the_format_asked_for_and_the_key_only_for_legacy_firm
     plant.run(csr(&files)).await;
     let pem = CreateCsr { format: FileFormat::Pem, backup: true, ..csr(&files) };
     for (index, report) in plant.run(pem).await.iter().enumerate() {
-        let Ok(Outcome::Csr { saved, .. }) = &report.result else { panic!("{report:?}") };
+        let Ok(CsrSaved { saved, .. }) = &report.result else { panic!("{report:?}") };
         let in_folder = fs::read_dir(saved.csr.parent().unwrap()).unwrap().map(|e| e.unwrap().path());
         let files: Vec<_> = in_folder.filter(|path| path.is_file()).collect();
         assert_eq!(files, std::slice::from_ref(&saved.csr), "the former request made room");
@@ -236,7 +233,7 @@ async fn what_clients_may_complain_about_is_asked_first() {
     let nowhere = |p: &mut CertificateParams| p.subject_alt_names.retain(|name| matches!(name, SanType::URI(_)));
     put(&files, made, &ca.sign_changed(&saved_csr(made), nowhere));
     let checked = &plant.run(CheckCaCertificate(CaCertificateSource::Folder(files.clone()))).await[0];
-    let Ok(Outcome::Checked { findings, .. }) = &checked.result else { panic!("{checked:?}") };
+    let Ok(CertificateChecked { findings, .. }) = &checked.result else { panic!("{checked:?}") };
     let [Finding { flaw: CertificateFlaw::HostName { .. }, severity: Severity::Warning }] = &findings[..] else {
         panic!("{findings:?}")
     };
@@ -248,7 +245,10 @@ async fn what_clients_may_complain_about_is_asked_first() {
     assert_eq!(plant.controller(0).info().certificate, None, "nothing was sent");
 
     let accepted = &plant.run(ImportCaCertificate { accept_warnings: true, ..import(&files) }).await[0];
-    assert!(matches!(&accepted.result, Ok(Outcome::Imported { findings, .. }) if findings.len() == 1), "{accepted:?}");
+    assert!(
+        matches!(&accepted.result, Ok(CertificateImported { findings, .. }) if findings.len() == 1),
+        "{accepted:?}"
+    );
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -295,7 +295,7 @@ async fn only_a_type_that_is_held_can_be_selected() {
     plant.run(import(&files)).await;
     for kind in [CertificateType::SelfSigned, CertificateType::CaSigned, CertificateType::SelfSigned] {
         for report in select(kind).await {
-            assert_eq!(report.result, Ok(Outcome::Done));
+            assert_eq!(report.result, Ok(Done));
             let info = report.info.unwrap();
             assert_eq!((info.certificate.unwrap().kind, info.status), (kind, ServerStatus::Run));
         }
@@ -312,7 +312,7 @@ async fn a_self_signed_certificate_is_exported_in_both_formats() {
     plant.run(self_signed()).await;
     for format in FileFormat::ALL {
         for report in plant.run(export(format)).await {
-            let Ok(Outcome::Exported { summary, saved }) = &report.result else { panic!("{report:?}") };
+            let Ok(CertificateExported { summary, saved }) = &report.result else { panic!("{report:?}") };
             let info = report.info.unwrap();
             let expected = format!("{}/Cert/SelfSigned/1_cert.{}", info.serial, format.extension());
             assert_eq!(saved.file, folder.path().join(expected));
@@ -369,7 +369,7 @@ async fn key_and_certificate_of_another_tool_are_imported_from_one_file_or_two()
     for operation in [from_pfx.clone(), from_pair] {
         plant.run(SelectCertificateType(CertificateType::SelfSigned)).await;
         let report = &plant.run(operation).await[0];
-        let Ok(Outcome::Imported { findings, .. }) = &report.result else { panic!("{report:?}") };
+        let Ok(CertificateImported { findings, .. }) = &report.result else { panic!("{report:?}") };
         let info = report.info.clone().unwrap();
         let in_use = info.certificate.unwrap();
         assert_eq!((in_use.kind, in_use.summary), (CertificateType::UserSpecified, certificate.summary()));
@@ -425,6 +425,6 @@ async fn every_mistake_with_another_tools_files_has_its_own_message() {
 
     let files = pfx_of("stranger.pfx", &key, &stranger);
     let checked = plant.run(CheckUserCertificate { files, password: Some("right".into()) }).await.remove(0);
-    let Ok(Outcome::Checked { findings, .. }) = &checked.result else { panic!("{checked:?}") };
+    let Ok(CertificateChecked { findings, .. }) = &checked.result else { panic!("{checked:?}") };
     assert!(matches!(&findings[..], [Finding { flaw: CertificateFlaw::UriMissing { .. }, .. }]), "{findings:?}");
 }

@@ -6,7 +6,7 @@ use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::{
-    GetInfo, LogPart, Outcome, ReadLog, Report, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer,
+    GetInfo, LogPart, ReadLog, Report, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer,
     StopServer,
 };
 use opcua_configurator::model::{
@@ -51,7 +51,7 @@ fn delete() -> SetSettings {
     SetSettings { change, ..SetSettings::default() }
 }
 
-fn code(reports: &[Report]) -> Option<ErrorCode> {
+fn code<O>(reports: &[Report<O>]) -> Option<ErrorCode> {
     reports[0].result.as_ref().err().map(|problem| problem.code)
 }
 
@@ -61,10 +61,7 @@ async fn standing(plant: &Plant) -> (ServerStatus, Option<ErrorCode>) {
 }
 
 async fn log(plant: &Plant, part: LogPart) -> LogChunk {
-    match &plant.run(ReadLog { part }).await[0].result {
-        Ok(Outcome::Log(log)) => log.clone(),
-        other => panic!("{other:?}"),
-    }
+    plant.run(ReadLog { part }).await.remove(0).result.unwrap()
 }
 
 /// A running server on one controller, with its log on.

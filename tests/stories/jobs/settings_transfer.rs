@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 
 use opcua_configurator::jobs::{
-    AddUser, ExportSettings, ImportSettings, Outcome, Report, SelfSigned, SelfSignedFields, SetSettings,
-    SettingsChange, StartServer,
+    AddUser, ExportSettings, ImportSettings, Report, SelfSigned, SelfSignedFields, SetSettings, SettingsChange,
+    SettingsExported, StartServer,
 };
 use opcua_configurator::model::{
     Credential, ErrorCode, KeyLength, SecurityPolicy, ServerPort, ServerSettings, ServerStatus, StartupMode,
@@ -44,7 +44,7 @@ fn certificate() -> SelfSigned {
     }
 }
 
-fn codes(reports: &[Report]) -> Vec<Option<ErrorCode>> {
+fn codes<O>(reports: &[Report<O>]) -> Vec<Option<ErrorCode>> {
     reports.iter().map(|r| r.result.as_ref().err().map(|p| p.code)).collect()
 }
 
@@ -98,7 +98,7 @@ async fn a_round_trip_restores_exactly_and_the_server_runs_again() {
     assert_eq!(codes(&plant.run(StartServer).await), [None; 3]);
     let before: Vec<State> = (0..3).map(|index| office.exported(index)).collect();
     for (index, report) in plant.run(office.export()).await.into_iter().enumerate() {
-        let Ok(Outcome::SettingsExported { path }) = report.result else { panic!("{report:?}") };
+        let Ok(SettingsExported { path }) = report.result else { panic!("{report:?}") };
         assert_eq!(path, office.file(index));
         let text = std::fs::read_to_string(&path).unwrap();
         assert!(!text.contains("operator1") && !text.contains("argon2id"), "{text}");

@@ -4,7 +4,7 @@ use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::{
-    AddUser, NotTried, Outcome, Refusal, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, Told,
+    AddUser, NotTried, Refusal, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, Told,
     TrustConfigurator, Verdict, Verify, VerifyFinding, VerifyReport,
 };
 use opcua_configurator::model::{
@@ -81,18 +81,11 @@ impl Cell {
     }
 
     async fn reports(&self, login: Option<&str>) -> Vec<VerifyReport> {
-        self.plant.run(self.verify(login)).await.into_iter().map(of).collect()
+        self.plant.run(self.verify(login)).await.into_iter().map(|report| report.result.unwrap()).collect()
     }
 
     async fn report(&self, login: Option<&str>) -> VerifyReport {
         self.reports(login).await.remove(0)
-    }
-}
-
-fn of(report: opcua_configurator::jobs::Report) -> VerifyReport {
-    match report.result {
-        Ok(Outcome::Verified(verified)) => *verified,
-        other => panic!("{other:?}"),
     }
 }
 
@@ -141,12 +134,18 @@ async fn once_it_is_trusted_the_configurator_gets_in_everywhere() {
     let cell = Cell::running(2, FleetFirmware::Mixed, &SecurityPolicy::ALL).await;
     let patience = Patience::default();
     cell.run(TrustConfigurator { identity: Workspace::new(cell.folder.path()).own_identity() }).await;
-    for report in cell.plant.run(Verify { patience, ..cell.verify(Some("Passw0rd1")) }).await.into_iter().map(of) {
+    for report in cell
+        .plant
+        .run(Verify { patience, ..cell.verify(Some("Passw0rd1")) })
+        .await
+        .into_iter()
+        .map(|report| report.result.unwrap())
+    {
         assert!(report.all_works(), "{report:?}");
         assert_eq!((report.counts().work, report.endpoints.len()), (22, 11));
     }
     let trust_first = Verify { trust_first: true, patience, ..cell.verify(None) };
-    for report in cell.plant.run(trust_first).await.into_iter().map(of) {
+    for report in cell.plant.run(trust_first).await.into_iter().map(|report| report.result.unwrap()) {
         assert_eq!((report.counts().work, report.counts().not_tried), (11, 11), "trusting twice does no harm");
     }
     assert_eq!(cell.plant.controller(0).state().trusted.len(), 1);
@@ -179,7 +178,7 @@ async fn another_name_for_the_same_controller_is_noticed() {
     listed[0].address = format!("localhost:{port}").parse().unwrap();
     let (mut reports, _) =
         plant::run(listed, cell.verify(None), cell.plant.context(), CancellationToken::new(), |_| {}).await;
-    let report = of(reports.remove(0));
+    let report = reports.remove(0).result.unwrap();
     assert!(report.url.starts_with("opc.tcp://localhost:"), "{}", report.url);
     let other = report.findings.iter().find(|finding| matches!(finding, VerifyFinding::OtherAddress { .. }));
     let Some(VerifyFinding::OtherAddress { url, reachable: true }) = other else { panic!("{report:?}") };
@@ -259,7 +258,7 @@ async fn through_a_gateway(cell: &Cell, login: Option<&str>) -> VerifyReport {
     let (mut reports, _) =
         plant::run(listed, cell.verify(login), cell.plant.context(), CancellationToken::new(), |_| {}).await;
     assert!(asked.elapsed() < Duration::from_secs(30), "{:?}", asked.elapsed());
-    of(reports.remove(0))
+    reports.remove(0).result.unwrap()
 }
 
 #[tokio::test(flavor = "multi_thread")]

@@ -6,8 +6,8 @@ use crate::protocol::LogChunk;
 
 const TEXT: &str = "10:00 INFO server started\r\n10:01 WARN 客户端 refused\n10:02 INFO server stopped";
 
-fn chunk() -> Outcome {
-    Outcome::Log(LogChunk { size: 1000, from: 900, next: 1000, text: TEXT.into() })
+fn chunk() -> LogChunk {
+    LogChunk { size: 1000, from: 900, next: 1000, text: TEXT.into() }
 }
 
 fn log(model: &mut Model) -> &mut LogView {
@@ -20,7 +20,7 @@ fn opened() -> Model {
     tick(&mut model, &["Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::ServerLog)));
     assert!(!log(&mut model).is_read());
-    event(&mut model, id, finished(0, Ok(chunk())));
+    done(&mut model, id, 0, chunk());
     ended(&mut model, id, 1, 0);
     model
 }
@@ -56,7 +56,7 @@ fn what_was_read_stays_when_it_cannot_be_read_again() {
     let mut model = opened();
     let id = job(&reduce(&mut model, Message::RefreshLog));
     assert!(log(&mut model).reading && log(&mut model).is_read());
-    event(&mut model, id, finished(0, Err(ErrorCode::Unreachable.into())));
+    fail(&mut model, id, 0, ErrorCode::Unreachable);
     ended(&mut model, id, 0, 1);
     assert!(matches!(&model.dialogs[..], [Dialog::ServerLog(log), Dialog::Error(_)] if !log.reading));
     assert_eq!(log(&mut model).shown(), 3);
@@ -69,11 +69,12 @@ fn it_is_deleted_after_a_question_and_read_again() {
     let [Dialog::ServerLog(_), Dialog::Confirm { confirmation, .. }] = &model.dialogs[..] else { panic!("not asked") };
     assert!(confirmation.deletes_log && confirmation.server == ServerEffect::Restarts);
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { job: id, task: Task::DeleteLog, .. }] = commands[..] else { panic!("{commands:?}") };
-    event(&mut model, id, finished(0, Ok(Outcome::Done)));
+    let [Command::Run { job: id, ref task, .. }] = commands[..] else { panic!("{commands:?}") };
+    assert!(task.operation::<SetSettings>().unwrap().change.delete_log);
+    done(&mut model, id, 0, Done);
     ended(&mut model, id, 1, 0);
     let id = job(&reduce(&mut model, Message::Submit));
-    event(&mut model, id, finished(0, Ok(Outcome::Log(LogChunk::default()))));
+    done(&mut model, id, 0, LogChunk::default());
     ended(&mut model, id, 1, 0);
     assert_eq!(log(&mut model).size(), (0, 0));
     assert!(matches!(reduce(&mut model, Message::Close)[..], []));

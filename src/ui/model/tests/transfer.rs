@@ -3,7 +3,7 @@
 use secrecy::ExposeSecret as _;
 
 use super::*;
-use crate::jobs::ServerEffect;
+use crate::jobs::{ExportSettings, ImportSettings, ServerEffect};
 use crate::model::FirmwareVersion;
 
 fn know(model: &mut Model, name: &str, firmware: FirmwareVersion) {
@@ -42,9 +42,11 @@ fn an_export_goes_out_after_it_was_confirmed_with_the_passphrase_or_none() {
     tick(&mut model, &["Paint", "Weld 2"]);
     assert!(reduce(&mut model, Message::Invoke(UiCommand::ExportSettings)).is_empty());
     assert!(form(&mut model).path.ends_with("<serial>/option.json"));
-    assert!(matches!(form(&mut model).task(), Some(Task::ExportSettings { passphrase: None })));
+    let workspace = model.workspace.clone();
+    let task = form(&mut model).task(&workspace).unwrap();
+    assert!(task.operation::<ExportSettings>().unwrap().passphrase.is_none());
     form(&mut model).passphrase.0 = "7 chars".into();
-    assert!(form(&mut model).task().is_none());
+    assert!(form(&mut model).task(&workspace).is_none());
     reduce(&mut model, Message::Submit);
     form(&mut model).passphrase.0 = "correct horse".into();
     assert!(reduce(&mut model, Message::Submit).is_empty());
@@ -53,10 +55,8 @@ fn an_export_goes_out_after_it_was_confirmed_with_the_passphrase_or_none() {
     );
     let commands = reduce(&mut model, Message::Submit);
     assert!(!format!("{commands:?} {:?}", model.dialogs).contains("correct"), "no secret in a log");
-    let [Command::Run { task: Task::ExportSettings { passphrase: Some(passphrase) }, controllers, .. }] = &commands[..]
-    else {
-        panic!("{commands:?}")
-    };
+    let [Command::Run { task, controllers, .. }] = &commands[..] else { panic!("{commands:?}") };
+    let passphrase = task.operation::<ExportSettings>().unwrap().passphrase.as_ref().unwrap();
     assert_eq!((passphrase.expose_secret(), controllers.len()), ("correct horse", 2));
     assert!(matches!(model.dialogs[..], [Dialog::Processing(_)]));
 }
@@ -75,14 +75,15 @@ fn the_file_is_looked_at_before_an_import() {
     };
     let old = look(&mut model);
     assert!(form(&mut model).path.ends_with("SN1/option.json"));
-    assert!(form(&mut model).task().is_none(), "still looking");
+    let workspace = model.workspace.clone();
+    assert!(form(&mut model).task(&workspace).is_none(), "still looking");
     reduce(&mut model, Message::Close);
     let job = look(&mut model);
     let found = ExportFound { exported: now(), firmware: legacy() };
     seen(&mut model, old, Ok(found));
     assert_eq!(form(&mut model).preview, Preview::Reading(job), "that was for the one closed");
     seen(&mut model, job, Err(ErrorCode::ExportMissing.into()));
-    assert!(form(&mut model).task().is_none());
+    assert!(form(&mut model).task(&workspace).is_none());
     reduce(&mut model, Message::Close);
 
     let job = look(&mut model);
@@ -92,10 +93,8 @@ fn the_file_is_looked_at_before_an_import() {
     let [Dialog::Transfer(_), Dialog::Confirm { confirmation, .. }] = &model.dialogs[..] else { panic!("not asked") };
     assert!(confirmation.server == ServerEffect::Restarts && confirmation.replaces_settings);
     let commands = reduce(&mut model, Message::Submit);
-    assert!(matches!(
-        &commands[..],
-        [Command::Run { task: Task::ImportSettings { passphrase: Some(_), file: None }, .. }]
-    ));
+    let [Command::Run { task, .. }] = &commands[..] else { panic!("{commands:?}") };
+    assert!(task.operation::<ImportSettings>().unwrap().passphrase.is_some());
 }
 
 #[test]

@@ -77,7 +77,7 @@ fn opened() -> (Model, JobId) {
     let mut model = model();
     tick(&mut model, &["Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::ClientLists)));
-    let commands = event(&mut model, id, finished(0, Ok(Outcome::TrustLists(Box::new(held(4))))));
+    let commands = done(&mut model, id, 0, held(4));
     ended(&mut model, id, 1, 0);
     let Some(Command::WatchTrust { job, .. }) = commands.last() else { panic!("{commands:?}") };
     (model, *job)
@@ -165,7 +165,7 @@ fn a_change_is_made_without_asking_and_its_answer_is_newer_than_what_was_being_r
         status: CertificateStatus::Revoked,
     };
     let change = TrustChange { lists, cut: vec![client.clone()], undo: None };
-    event(&mut model, id, finished(0, Ok(Outcome::TrustChanged(Box::new(change)))));
+    done(&mut model, id, 0, change);
     ended(&mut model, id, 1, 0);
     let done = Done::Moved { from: PaneKind::Rejected, to: PaneKind::Trusted, count: 1 };
     let lists = form(&mut model);
@@ -178,7 +178,7 @@ fn a_change_is_made_without_asking_and_its_answer_is_newer_than_what_was_being_r
 
 #[test]
 fn a_client_that_is_never_let_in_is_trusted_only_after_asking() {
-    use crate::ui::model::{Task, trust::TrustTask};
+    use crate::jobs::MoveClients;
     let (mut model, _) = opened();
     let der = include_bytes!("../../../../tests/cases/15-never-admitted/self-ec.der");
     let certificate = crate::pki::Certificate::from_der(der).unwrap();
@@ -195,10 +195,8 @@ fn a_client_that_is_never_let_in_is_trusted_only_after_asking() {
     let flaw = crate::pki::CertificateFlaw::KeyNotRsa;
     assert_eq!((name.as_str(), &notes[0]), ("ec", &crate::jobs::Note::NeverAccepted { authority: false, flaw }));
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { task: Task::Trust(TrustTask::Move(moved)), .. }] = &commands[..] else {
-        panic!("{commands:?}")
-    };
-    assert!(moved.accept_notes);
+    let [Command::Run { task, .. }] = &commands[..] else { panic!("{commands:?}") };
+    assert!(task.operation::<MoveClients>().unwrap().accept_notes);
 }
 
 #[test]
@@ -208,7 +206,7 @@ fn a_change_that_failed_leaves_everything_as_it_was() {
     act(&mut model, TrustAction::Delete(PaneKind::Trusted));
     assert!(matches!(model.dialogs.last(), Some(Dialog::DeleteTrust(asked)) if asked.what.len() == 1));
     let id = job(&reduce(&mut model, Message::Submit));
-    event(&mut model, id, finished(0, Err(ErrorCode::TaskRunning.into())));
+    fail(&mut model, id, 0, ErrorCode::TaskRunning);
     ended(&mut model, id, 0, 1);
     assert!(
         matches!(&model.dialogs[..], [Dialog::Trust(_), Dialog::Error(problem)] if problem.code == ErrorCode::TaskRunning)
@@ -228,13 +226,13 @@ fn a_lost_connection_is_said_and_a_given_up_one_can_be_tried_again() {
     assert_eq!(form(&mut model).link, Link::Live);
     seen(&mut model, watch, WatchEvent::Ended(ErrorCode::WrongPassword.into()));
     let id = job(&act(&mut model, TrustAction::Reconnect));
-    event(&mut model, id, finished(0, Err(ErrorCode::WrongPassword.into())));
+    fail(&mut model, id, 0, ErrorCode::WrongPassword);
     ended(&mut model, id, 0, 1);
     assert!(matches!(model.dialogs.last(), Some(Dialog::Password(form)) if form.wrong));
     reduce(&mut model, Message::Close);
     assert!(matches!(form(&mut model).link, Link::Ended(_)), "what was read is still shown");
     let id = job(&act(&mut model, TrustAction::Reconnect));
-    let commands = event(&mut model, id, finished(0, Ok(Outcome::TrustLists(Box::new(held(4))))));
+    let commands = done(&mut model, id, 0, held(4));
     ended(&mut model, id, 1, 0);
     let Some(Command::WatchTrust { job, .. }) = commands.last() else { panic!("{commands:?}") };
     assert_ne!(*job, watch);
@@ -248,7 +246,7 @@ fn without_lists_there_is_no_dialog() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Crl)));
-    event(&mut model, id, finished(0, Err(ErrorCode::Unreachable.into())));
+    fail(&mut model, id, 0, ErrorCode::Unreachable);
     ended(&mut model, id, 0, 1);
     assert!(matches!(&model.dialogs[..], [Dialog::Error(_)]));
 }

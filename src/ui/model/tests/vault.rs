@@ -18,8 +18,8 @@ fn with_vault(vault: VaultState) -> Model {
 fn find_it_closed(model: &mut Model) {
     tick(model, &["Weld 2", "Paint"]);
     let id = job(&reduce(model, Message::Invoke(UiCommand::GetInfo)));
-    event(model, id, finished(0, Ok(Outcome::Done)));
-    event(model, id, finished(1, Err(ErrorCode::VaultLocked.into())));
+    done(model, id, 0, Done);
+    fail(model, id, 1, ErrorCode::VaultLocked);
     ended(model, id, 1, 1);
 }
 
@@ -77,8 +77,8 @@ fn a_password_that_is_not_kept_opens_no_dialog() {
         tick(&mut model, &["Weld 2", "Paint"]);
         let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
         reduce(&mut model, Message::Event(Event::PasswordNotKept(code.into())));
-        event(&mut model, id, finished(0, Ok(Outcome::Done)));
-        event(&mut model, id, finished(1, Err(ErrorCode::Unreachable.into())));
+        done(&mut model, id, 0, Done);
+        fail(&mut model, id, 1, ErrorCode::Unreachable);
         ended(&mut model, id, 1, 1);
         assert!(matches!(model.dialogs[..], [Dialog::Processing(ProcessingView { selected: Some(1), .. })]));
         assert_eq!(model.not_kept, Some(code.into()));

@@ -1,14 +1,17 @@
 //! Connecting as a client, as the window sees it.
 
 use super::*;
-use crate::jobs::{EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding, VerifyReport};
+use crate::jobs::{
+    EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, TrustConfigurator, Verdict, Verify, VerifyFinding,
+    VerifyReport,
+};
 use crate::model::{CertificateStatus, SecurityPolicy};
 use crate::pki::client_identity;
 use crate::session::opcua_client::{MessageSecurity, TokenKind};
 use crate::workspace::OwnIdentity;
 
 /// `None` works, and a user name was not tried; `trusted` says whether the encrypted endpoint works as well.
-fn report(trusted: bool) -> Outcome {
+fn report(trusted: bool) -> VerifyReport {
     let token = |kind, verdict| TokenVerdict { kind, verdict };
     let refused = Refusal::OwnCertificate(Some(Told {
         status: CertificateStatus::Untrusted,
@@ -17,7 +20,7 @@ fn report(trusted: bool) -> Outcome {
     }));
     let encrypted = if trusted { Verdict::Works } else { Verdict::Fails(refused) };
     let endpoint = |policy, mode, tokens| EndpointVerdict { policy: Ok(policy), mode: Some(mode), tokens };
-    Outcome::Verified(Box::new(VerifyReport {
+    VerifyReport {
         url: "opc.tcp://10.0.0.1:4840".into(),
         own: OwnIdentity {
             certificate: client_identity("OPC UA Configurator", "desk", now()).unwrap().certificate,
@@ -41,7 +44,7 @@ fn report(trusted: bool) -> Outcome {
                 vec![token(TokenKind::Anonymous, encrypted)],
             ),
         ],
-    }))
+    }
 }
 
 fn view(model: &mut Model) -> &mut VerifyView {
@@ -56,17 +59,18 @@ fn verifying(names: &[&str]) -> (Model, JobId) {
     let mut model = model();
     tick(&mut model, names);
     let commands = reduce(&mut model, Message::Invoke(UiCommand::Verify));
-    let [Command::Run { job, task: Task::Verify { login: None }, .. }] = commands[..] else { panic!("{commands:?}") };
+    let [Command::Run { job, ref task, .. }] = commands[..] else { panic!("{commands:?}") };
+    assert!(task.operation::<Verify>().unwrap().login.is_none());
     (model, job)
 }
 
 #[test]
 fn the_first_report_with_something_wrong_is_shown_first() {
     let (mut model, id) = verifying(&["Weld 10", "Weld 2", "Paint"]);
-    event(&mut model, id, finished(0, Ok(report(true))));
+    done(&mut model, id, 0, report(true));
     assert_eq!(view(&mut model).shown, None, "not before all are there");
-    event(&mut model, id, finished(1, Ok(report(false))));
-    event(&mut model, id, finished(2, Err(ErrorCode::Unreachable.into())));
+    done(&mut model, id, 1, report(false));
+    fail(&mut model, id, 2, ErrorCode::Unreachable);
     ended(&mut model, id, 2, 1);
     assert!(matches!(model.dialogs[..], [Dialog::Verify(_)]), "{:?}", model.dialogs);
     let second = view(&mut model).rows[1];
@@ -75,11 +79,10 @@ fn the_first_report_with_something_wrong_is_shown_first() {
 
     assert!(reduce(&mut model, Message::TrustConfigurator).is_empty(), "asked first");
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { job, task: Task::TrustConfigurator, ref controllers, .. }] = commands[..] else {
-        panic!("{commands:?}")
-    };
+    let [Command::Run { job, ref task, ref controllers, .. }] = commands[..] else { panic!("{commands:?}") };
+    assert!(task.operation::<TrustConfigurator>().is_some());
     assert_eq!(controllers.len(), 1);
-    event(&mut model, job, finished(0, Ok(Outcome::Done)));
+    done(&mut model, job, 0, Done);
     ended(&mut model, job, 1, 0);
     assert!(matches!(model.dialogs[..], [Dialog::Verify(_)]), "back to the reports, without a click");
 }
@@ -87,21 +90,20 @@ fn the_first_report_with_something_wrong_is_shown_first() {
 #[test]
 fn a_login_is_used_when_it_is_whole() {
     let (mut model, id) = verifying(&["Paint"]);
-    event(&mut model, id, finished(0, Ok(report(true))));
+    done(&mut model, id, 0, report(true));
     ended(&mut model, id, 1, 0);
     assert!(view(&mut model).asks_for_login());
     view(&mut model).user = "operator1".into();
     assert!(reduce(&mut model, Message::Submit).is_empty(), "half a login");
     view(&mut model).password.0 = "Passw0rd1".into();
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { job, task: Task::Verify { login: Some(login) }, .. }] = &commands[..] else {
-        panic!("{commands:?}")
-    };
+    let [Command::Run { job, task, .. }] = &commands[..] else { panic!("{commands:?}") };
+    let login = task.operation::<Verify>().unwrap().login.as_ref().unwrap();
     assert_eq!((login.name.as_str(), login.password.expose()), ("operator1", "Passw0rd1"));
     assert!(!format!("{commands:?}{:?}", model.dialogs).contains("Passw0rd1"));
     assert!(view(&mut model).running);
     let job = *job;
-    event(&mut model, job, finished(0, Ok(report(true))));
+    done(&mut model, job, 0, report(true));
     ended(&mut model, job, 1, 0);
     assert!(!view(&mut model).running);
 }
@@ -109,8 +111,8 @@ fn a_login_is_used_when_it_is_whole() {
 #[test]
 fn a_job_that_was_stopped_leaves_what_it_found() {
     let (mut model, id) = verifying(&["Weld 10", "Weld 2"]);
-    event(&mut model, id, finished(0, Ok(report(true))));
-    event(&mut model, id, finished(1, Err(ErrorCode::Cancelled.into())));
+    done(&mut model, id, 0, report(true));
+    fail(&mut model, id, 1, ErrorCode::Cancelled);
     reduce(
         &mut model,
         Message::Event(Event::JobEnded { job: id, summary: Summary { done: 1, failed: 0, not_started: 1 } }),
@@ -118,7 +120,7 @@ fn a_job_that_was_stopped_leaves_what_it_found() {
     assert_eq!(view(&mut model).of.len(), 1);
 
     let (mut model, id) = verifying(&["Paint"]);
-    event(&mut model, id, finished(0, Err(ErrorCode::Cancelled.into())));
+    fail(&mut model, id, 0, ErrorCode::Cancelled);
     reduce(
         &mut model,
         Message::Event(Event::JobEnded { job: id, summary: Summary { done: 0, failed: 0, not_started: 1 } }),
@@ -129,19 +131,19 @@ fn a_job_that_was_stopped_leaves_what_it_found() {
 #[test]
 fn who_lacks_its_password_is_asked_for_it_and_joins_the_others() {
     let (mut model, id) = verifying(&["Weld 10", "Weld 2"]);
-    event(&mut model, id, finished(0, Ok(report(true))));
-    event(&mut model, id, finished(1, Err(ErrorCode::PasswordMissing.into())));
+    done(&mut model, id, 0, report(true));
+    fail(&mut model, id, 1, ErrorCode::PasswordMissing);
     ended(&mut model, id, 1, 1);
     let Some(Dialog::Password(form)) = model.dialogs.last_mut() else { panic!("{:?}", model.dialogs) };
     form.password.0 = "plant".into();
     let id = job(&reduce(&mut model, Message::Submit));
-    event(&mut model, id, finished(0, Ok(report(true))));
+    done(&mut model, id, 0, report(true));
     ended(&mut model, id, 1, 0);
     assert!(matches!(model.dialogs[..], [Dialog::Verify(_)]), "{:?}", model.dialogs);
     assert!(view(&mut model).of.values().all(Result::is_ok));
 
     let (mut model, id) = verifying(&["Paint"]);
-    event(&mut model, id, finished(0, Err(ErrorCode::PasswordMissing.into())));
+    fail(&mut model, id, 0, ErrorCode::PasswordMissing);
     ended(&mut model, id, 0, 1);
     reduce(&mut model, Message::Close);
     assert!(matches!(model.dialogs[..], [Dialog::Error(_)]), "{:?}", model.dialogs);
@@ -154,10 +156,12 @@ fn servers_that_were_started_again_are_verified_by_themselves_if_that_is_wanted(
         reduce(&mut model, Message::SetVerifyAfterChanges(wanted));
         tick(&mut model, &["Paint"]);
         let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Start)));
-        event(&mut model, id, finished(0, Ok(Outcome::Done)));
+        done(&mut model, id, 0, Done);
         let summary = Summary { done: 1, ..Summary::default() };
         let commands = reduce(&mut model, Message::Event(Event::JobEnded { job: id, summary }));
-        commands.iter().any(|command| matches!(command, Command::Run { task: Task::Verify { .. }, .. }))
+        commands
+            .iter()
+            .any(|command| matches!(command, Command::Run { task, .. } if task.operation::<Verify>().is_some()))
     };
     assert!(start(true));
     assert!(!start(false));
