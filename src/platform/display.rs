@@ -15,7 +15,7 @@ fn is_source_location(word: &str) -> bool {
 
 #[cfg(all(unix, not(target_os = "macos")))]
 mod unix {
-    use std::ffi::OsString;
+    use std::ffi::{CStr, OsString};
     use std::os::unix::net::UnixStream;
     use std::path::PathBuf;
 
@@ -36,6 +36,37 @@ mod unix {
         prefers_x11_in(|name| std::env::var_os(name))
     }
 
+    /// The first library that the keyboard needs on this display and that is not installed. winit panics without it,
+    /// where it says of every other library that is missing.
+    pub fn missing_library() -> Option<MissingLibrary> {
+        let needed: &[MissingLibrary] = if is_wayland() { &[XKBCOMMON] } else { &[XKBCOMMON, XKBCOMMON_X11] };
+        needed.iter().find(|library| !can_be_loaded(library.file)).copied()
+    }
+
+    /// A shared library that is looked for when the window opens.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+    pub struct MissingLibrary {
+        file: &'static CStr,
+        /// The package of Debian and Ubuntu that has it.
+        package: &'static str,
+    }
+
+    impl std::fmt::Display for MissingLibrary {
+        fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            write!(f, "{} is not installed (Debian, Ubuntu: package {})", self.file.to_string_lossy(), self.package)
+        }
+    }
+
+    const XKBCOMMON: MissingLibrary = MissingLibrary { file: c"libxkbcommon.so.0", package: "libxkbcommon0" };
+    const XKBCOMMON_X11: MissingLibrary =
+        MissingLibrary { file: c"libxkbcommon-x11.so.0", package: "libxkbcommon-x11-0" };
+
+    /// The library stays loaded: winit asks for it next.
+    fn can_be_loaded(file: &CStr) -> bool {
+        // SAFETY: the name ends with a zero byte; the initialisers of these libraries have no preconditions.
+        !unsafe { libc::dlopen(file.as_ptr(), libc::RTLD_LAZY) }.is_null()
+    }
+
     fn prefers_x11_in(variable: impl Fn(&str) -> Option<OsString>) -> bool {
         let set = |name| variable(name).filter(|value| !value.is_empty());
         // An inherited socket is open already.
@@ -52,6 +83,13 @@ mod unix {
         use std::os::unix::net::UnixListener;
 
         use super::*;
+
+        #[test]
+        fn a_library_that_is_missing_is_named_with_its_package() {
+            assert!(can_be_loaded(c"libc.so.6") && !can_be_loaded(c"libnone-of-that-name.so.0"));
+            let said = "libxkbcommon-x11.so.0 is not installed (Debian, Ubuntu: package libxkbcommon-x11-0)";
+            assert_eq!(XKBCOMMON_X11.to_string(), said);
+        }
 
         #[test]
         fn x11_is_used_only_if_wayland_does_not_answer() {
@@ -80,7 +118,7 @@ mod unix {
 }
 
 #[cfg(all(unix, not(target_os = "macos")))]
-pub use unix::{is_there, is_wayland, prefers_x11};
+pub use unix::{MissingLibrary, is_there, is_wayland, missing_library, prefers_x11};
 
 #[cfg(not(all(unix, not(target_os = "macos"))))]
 pub fn is_wayland() -> bool {

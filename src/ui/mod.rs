@@ -74,6 +74,12 @@ impl std::fmt::Debug for WindowOptions {
 /// Draws with OpenGL 2.1. On Windows, where remote desktops and virtual machines often have none, Direct3D 12 is tried
 /// next; it draws in software if there is no graphics card.
 pub fn run(options: WindowOptions) -> Result<(), Problem> {
+    #[cfg(all(unix, not(target_os = "macos")))]
+    if crate::platform::display::is_there()
+        && let Some(library) = crate::platform::display::missing_library()
+    {
+        return Err(Problem::with_detail(ErrorCode::NoDisplay, library));
+    }
     let title = TextKey::AppName.text(options.configuration.options.language.unwrap_or(options.language));
     let size = options.configuration.options.window.size.map_or(theme::DEFAULT_WINDOW, |(w, h)| [w, h]);
     let viewport = viewport(title).with_inner_size(size).with_min_inner_size(theme::MIN_WINDOW);
