@@ -155,3 +155,16 @@ impl FilePicker for FixedPicker {
         Err(Problem::with_detail(ErrorCode::FolderNotOpened, folder.display()))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_dialog_that_is_gone_at_once_was_never_there() {
+        let (tell, told) = std::sync::mpsc::channel();
+        let done = Box::new(move |result: Result<Option<PathBuf>, Problem>| tell.send(result).unwrap());
+        ask(FileKind::Csv, "Choose".into(), done, |_| None::<PathBuf>, |chosen| chosen);
+        assert_eq!(told.recv().unwrap(), Err(ErrorCode::NoFilePicker.into()));
+    }
+}

@@ -417,7 +417,10 @@ async fn a_cancel_does_not_wait_for_a_locked_keyring() {
         stop.cancel();
     });
     let job = plant::run(crowd(3), GetInfo, context, cancel, |_| {});
-    let (_, summary) = tokio::time::timeout(Duration::from_secs(20), job).await.expect("cancelled");
+    let (reports, summary) = tokio::time::timeout(Duration::from_secs(20), job).await.expect("cancelled");
+    for report in &reports {
+        assert_eq!(report.result.as_ref().unwrap_err().code, ErrorCode::Cancelled);
+    }
     assert_eq!(summary, Summary { not_started: 3, ..Summary::default() });
     drop(home);
 }
