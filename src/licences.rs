@@ -70,6 +70,7 @@ mod tests {
         for (name, words) in [
             ("async-opcua-server", "Mozilla Public License"),
             ("Noto Sans CJK SC (subset)", "SIL OPEN FONT LICENSE"),
+            ("Noto Sans CJK JP (subset)", "SIL OPEN FONT LICENSE"),
             ("epaint_default_fonts", "UBUNTU FONT LICENCE"),
         ] {
             let component = licences.components().iter().find(|component| component.name == name).unwrap();

@@ -118,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn the_help_is_chinese_and_english_by_choice() {
+    fn the_help_is_in_the_language_that_was_chosen() {
         let help = |language, path: &[&str]| {
             let mut command = localised(Cli::command(), language);
             command.build();
@@ -132,6 +132,10 @@ mod tests {
         }
         for text in ["Options:", "Usage:", "Print help", "Country"] {
             assert!(!chinese.contains(text), "{text} in\n{chinese}");
+        }
+        let japanese = help(Language::Ja, &["cert", "self-signed"]);
+        for text in ["自己署名のサーバー証明書を作成", "使用方法：", "オプション", "--country <CC>", "ヘルプを表示"] {
+            assert!(japanese.contains(text), "no {text} in\n{japanese}");
         }
         assert!(help(Language::En, &["cert", "self-signed"]).contains("Make and install a self-signed"));
         let root = help(Language::Zh, &[]);

@@ -57,7 +57,7 @@ pub struct Cli {
     #[arg(long, value_name = "DIR", global = true)]
     workspace: Option<PathBuf>,
 
-    /// Language of messages: en or zh [default: the system's]
+    /// Language of messages: en, zh or ja [default: the system's]
     #[arg(long, value_name = "LANG", global = true, value_parser = parse_language)]
     lang: Option<Language>,
 
@@ -169,11 +169,10 @@ enum Command {
 }
 
 fn parse_language(text: &str) -> Result<Language, String> {
-    match text.to_ascii_lowercase().as_str() {
-        "en" => Ok(Language::En),
-        "zh" => Ok(Language::Zh),
-        other => Err(format!("\"{other}\" is not a language; known are en and zh")),
-    }
+    Language::ALL.into_iter().find(|language| language.code().eq_ignore_ascii_case(text)).ok_or_else(|| {
+        let known = Language::ALL.map(Language::code).join(", ");
+        format!("\"{text}\" is not a language; known are {known}")
+    })
 }
 
 /// What every subcommand needs to know.
@@ -332,7 +331,8 @@ mod tests {
         let of = |arguments: &[&str]| language_of(arguments.iter().map(Into::into));
         assert_eq!(of(&["program", "--lang", "zh", "info"]), Some(Language::Zh));
         assert_eq!(of(&["program", "info", "--lang=zh", "--help"]), Some(Language::Zh));
-        for none in [&["program", "info"][..], &["program", "--lang"], &["program", "--lang", "ja"]] {
+        assert_eq!(of(&["program", "--lang", "JA"]), Some(Language::Ja));
+        for none in [&["program", "info"][..], &["program", "--lang"], &["program", "--lang", "de"]] {
             assert_eq!(of(none), None, "{none:?}");
         }
     }

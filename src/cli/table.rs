@@ -2,7 +2,7 @@ use unicode_width::UnicodeWidthStr as _;
 
 use crate::model::foreign_text;
 
-/// A plain table for a terminal: columns padded to their widest cell, two blanks apart. Chinese counts double.
+/// A plain table for a terminal: columns padded to their widest cell, two blanks apart. Chinese and Japanese characters count double.
 ///
 /// Names in certificates and the like come from strangers: each cell is one line ([`foreign_text`]).
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {

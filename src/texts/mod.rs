@@ -3,12 +3,12 @@
 //! | part | content |
 //! |---|---|
 //! | [`TextKey`] | the names of fixed texts |
-//! | `en`, `zh` | one folder a language, each with the same files and the same functions in them |
+//! | `en`, `zh`, `ja` | one folder a language, each with the same files and the same functions in them |
 //! | the other files | one a topic: which sentences there are, and which text belongs to which value |
 //!
 //! A language that lacks a text does not compile: fixed texts are looked up by an exhaustive `match`, and `in_language!`
 //! calls a function of the same name in each language. A new language is a folder here, a variant of [`Language`] and an
-//! arm of `in_language!`. Its glyphs are in the font (`assets/fonts`).
+//! arm of `in_language!`. Its glyphs are in a font (`assets/fonts`).
 //!
 //! What `--json` prints, what logs hold and what a controller is sent is for programs and stays English.
 
@@ -18,6 +18,7 @@ macro_rules! in_language {
         match $language {
             $crate::model::Language::En => $crate::texts::en::$topic::$name($($arg),*),
             $crate::model::Language::Zh => $crate::texts::zh::$topic::$name($($arg),*),
+            $crate::model::Language::Ja => $crate::texts::ja::$topic::$name($($arg),*),
         }
     };
 }
@@ -64,6 +65,7 @@ macro_rules! country_names {
 }
 
 mod en;
+mod ja;
 mod zh;
 
 mod authority;

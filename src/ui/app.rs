@@ -8,7 +8,7 @@ use super::backend::{Backend, Command};
 use super::closing::CloseChoice;
 use super::model::{Message, Model, reduce};
 use super::{closing, dialogs, drops, fonts, keys, theme, views};
-use crate::model::clock;
+use crate::model::{Language, clock};
 use crate::workspace::ThemeChoice;
 
 /// What the window remembers of itself is saved when nothing changed for so long.
@@ -24,6 +24,8 @@ pub struct App<B: Backend> {
     /// In egui's time.
     save_at: Option<f64>,
     theme: Option<ThemeChoice>,
+    /// The language the order of the fonts is for.
+    fonts_of: Language,
     size: Option<(f32, f32)>,
     dialogs_shown: usize,
     /// The frame in which the window asks for the focus.
@@ -39,8 +41,9 @@ impl<B: Backend> std::fmt::Debug for App<B> {
 impl<B: Backend> App<B> {
     pub fn new(ctx: &egui::Context, model: Model, backend: B) -> Self {
         theme::install(ctx);
-        fonts::install(ctx);
+        fonts::install(ctx, model.language);
         Self {
+            fonts_of: model.language,
             model,
             backend,
             clock: Arc::new(clock::now),
@@ -62,6 +65,7 @@ impl<B: Backend> App<B> {
     pub fn frame(&mut self, ui: &mut egui::Ui) {
         self.take_in_events(ui.ctx());
         self.apply_theme(ui.ctx());
+        self.apply_fonts(ui.ctx());
 
         let mut messages = Vec::new();
         drops::read(ui.ctx(), &self.model, &mut messages);
@@ -139,6 +143,14 @@ impl<B: Backend> App<B> {
                 ThemeChoice::Light => ThemePreference::Light,
                 ThemeChoice::Dark => ThemePreference::Dark,
             });
+        }
+    }
+
+    fn apply_fonts(&mut self, ctx: &egui::Context) {
+        let language = self.model.language;
+        let before = std::mem::replace(&mut self.fonts_of, language);
+        if fonts::order(before) != fonts::order(language) {
+            fonts::install(ctx, language);
         }
     }
 

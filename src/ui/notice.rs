@@ -9,7 +9,7 @@ pub fn show_notice(text: &str, language: Language) -> Result<(), Problem> {
     let notice = Notice { text: text.to_owned(), language };
     let create = |creation: &eframe::CreationContext<'_>| {
         theme::install(&creation.egui_ctx);
-        fonts::install(&creation.egui_ctx);
+        fonts::install(&creation.egui_ctx, language);
         Ok(Box::new(notice) as Box<dyn eframe::App>)
     };
     eframe::run_native(super::APP_ID, native_options(viewport), Box::new(create)).map_err(no_display)

@@ -41,6 +41,8 @@ fn main_window() {
     say(&mut window, Message::SetTheme(ThemeChoice::Light));
     say(&mut window, Message::SetLanguage(Language::Zh));
     picture(&mut window, "main_chinese");
+    say(&mut window, Message::SetLanguage(Language::Ja));
+    picture(&mut window, "main_japanese");
 }
 
 #[test]

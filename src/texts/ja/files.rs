@@ -1,0 +1,119 @@
+//! Sentences about files and their lines, in Japanese.
+
+use std::path::Path;
+
+use super::LANGUAGE;
+use crate::model::AddressError;
+use crate::model::activation::{KeyError, LineMistake, Mistake};
+use crate::texts::TextKey as T;
+use crate::workspace::Skipped;
+
+pub fn moved_aside(name: &str, file: &Path) -> String {
+    format!("{name}：以前のファイルを{}に移動しました", file.display())
+}
+
+pub fn line(line: impl std::fmt::Display) -> String {
+    format!("{line}行目")
+}
+
+pub fn key_error(error: KeyError) -> String {
+    match error {
+        KeyError::Character(c) => format!("{c:?}は半角英数字ではありません"),
+        KeyError::Length { found, expected } => format!("{found}文字です。{expected}文字にしてください。"),
+    }
+}
+
+pub fn key_progress(found: usize, expected: usize) -> String {
+    format!("半角英数字{expected}文字中{found}文字を入力済み")
+}
+
+pub fn keys_found(ready: usize, all: usize) -> String {
+    format!("{all}台中{ready}台のキーが見つかりました")
+}
+
+pub fn line_mistake(mistake: &LineMistake) -> String {
+    let what = match &mistake.mistake {
+        Mistake::Fields(count) => format!(
+            "項目が{count}個です。シリアル番号、ライセンスキー、\
+             アクティベーションキーの3個にしてください。"
+        ),
+        Mistake::Separator { found, expected } => {
+            format!("区切り文字「{found}」が、前の行の「{expected}」と異なります")
+        }
+        Mistake::Quotes => "引用符が閉じていないか、項目に改行が含まれています".to_owned(),
+        Mistake::Serial => {
+            "シリアル番号が正しくありません。半角英数字、「-」、「_」の1～32文字にしてください。".to_owned()
+        }
+        Mistake::Licence(error) => format!("ライセンスキー：{}", key_error(*error)),
+        Mistake::Activation(error) => format!("アクティベーションキー：{}", key_error(*error)),
+        Mistake::Duplicate(line) => format!("シリアル番号が{line}行目と重複しています"),
+    };
+    format!("{}：{what}", line(mistake.line))
+}
+
+pub fn to_import(ticked: usize, all: usize) -> String {
+    format!("{all}台中{ticked}台をインポート")
+}
+
+pub fn imported(count: usize) -> String {
+    format!("コントローラー{count}台を追加しました (未確認)")
+}
+
+pub fn skipped(why: &Skipped) -> String {
+    match why {
+        Skipped::Usb => "USB接続のため、ネットワークから接続できません".to_owned(),
+        Skipped::Virtual => "開発環境の仮想コントローラーです".to_owned(),
+        Skipped::NameRegistered => "名前は登録済みです".to_owned(),
+        Skipped::AddressRegistered(name) => format!("アドレスは登録済みです ({name})"),
+        Skipped::Fields(count) => format!("項目が{count}個です。名前、タイプ、アドレスの3個にしてください。"),
+        Skipped::Type(kind) => format!("「{kind}」は、接続の種類 (Ethernet、USB、Virtual) ではありません"),
+        Skipped::Name(_) => format!("名前が正しくありません：{}", T::NameRule.text(LANGUAGE)),
+        Skipped::Quotes => "引用符が閉じていないか、項目に改行が含まれています".to_owned(),
+        Skipped::Address(error) => format!("アドレスが正しくありません：{}", address_error(error)),
+        Skipped::NameTwice(line) => format!("名前が{line}行目と重複しています"),
+        Skipped::AddressTwice(line) => format!("アドレスが{line}行目と重複しています"),
+    }
+}
+
+/// Why a text is not the address of a controller.
+fn address_error(error: &AddressError) -> String {
+    match error {
+        AddressError::Scheme(scheme) => {
+            format!("「{scheme}://」を除いて、管理プロトコルのアドレスを入力してください (ポートは省略できます)")
+        }
+        AddressError::Path(path) => format!("「{path}」を除いてください"),
+        AddressError::LeadingZeros { found, meant } => {
+            format!("「{found}」の先頭に0があります。{meant}と入力してください。")
+        }
+        AddressError::Zone(zone) => {
+            format!("ゾーン「{zone}」には対応していません。ゾーンのないアドレスを入力してください。")
+        }
+        AddressError::NotAscii(_) => "ASCII以外の文字があります。半角文字で入力してください。".to_owned(),
+        _ => T::AddressRule.text(LANGUAGE).to_owned(),
+    }
+}
+
+pub fn drop_title(count: usize) -> String {
+    match count {
+        1 => "ここにファイルをドロップしてください".to_owned(),
+        _ => format!("ここに{count}個のファイルをドロップしてください"),
+    }
+}
+
+pub fn drop_opens(dialog: &str) -> String {
+    format!("開くダイアログ：{dialog}")
+}
+
+pub fn drop_disabled(dialog: &str, why: &str) -> String {
+    format!("{dialog}：{why}")
+}
+
+pub fn more(count: usize) -> String {
+    format!("ほか{count}個")
+}
+
+pub fn only_these(names: &[String]) -> String {
+    let named = names.iter().take(3).map(String::as_str).collect::<Vec<_>>();
+    let rest = if names.len() > 3 { format!("、{}", more(names.len() - 3)) } else { String::new() };
+    format!("{}{rest}のみ", named.join("、"))
+}

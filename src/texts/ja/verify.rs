@@ -1,0 +1,155 @@
+//! What came of connecting to a server as a client, in Japanese.
+
+use super::LANGUAGE;
+use crate::jobs::{Counts, NotTried, Refusal, Told, VerifyFinding};
+use crate::model::CertificateStatus;
+use crate::session::opcua_client::TokenKind;
+
+pub fn refusal(refusal: &Refusal) -> String {
+    match refusal {
+        Refusal::NotReachable(why) => format!(
+            "このアドレスから応答がありません ({why})。ポート、\
+             ファイアウォール、ケーブルを確認してください。"
+        ),
+        Refusal::TimedOut => {
+            "時間内に応答がありません。ネットワークを確認するか、サーバーを再度開始してください。".to_owned()
+        }
+        Refusal::NotOpcUa(why) => format!("応答した相手は、正常なOPC UAサーバーではありません：{why}"),
+        Refusal::Closed => "サーバーが、理由を通知せずに接続を切断しました。サーバーログで理由を確認してください。\
+                            拒否が続くと、サーバーは1分間理由を通知しません。"
+            .to_owned(),
+        Refusal::OwnCertificate(None) => "サーバーが本ツールの証明書を拒否しましたが、理由は通知されていません。\
+                                          多くの場合、本ツールの証明書が信頼リストにないことが原因です。"
+            .to_owned(),
+        Refusal::OwnCertificate(Some(Told { status: CertificateStatus::Untrusted, .. })) => {
+            "サーバーが本ツールの証明書を信頼していません。\
+             証明書を信頼リストに追加してから、再検証してください。"
+                .to_owned()
+        }
+        Refusal::OwnCertificate(Some(told)) => {
+            let said = told.explain(LANGUAGE);
+            format!("サーバーが本ツールの証明書を拒否しました ({})：{said}", told.status)
+        }
+        Refusal::OtherCertificate => "サーバーが、エンドポイントの証明書とは別の証明書で応答しました。\
+                                      パスワードは送信されていません。"
+            .to_owned(),
+        Refusal::Password => "ユーザー名またはパスワードが間違っているか、ユーザーが1分間ロックされています".to_owned(),
+        Refusal::Anonymous => "匿名接続が提供されていますが、ユーザー名なしの接続は拒否されました".to_owned(),
+        Refusal::Busy(name) => format!(
+            "サーバーに接続できるクライアント数の上限に達しています ({name})。\
+             不要なクライアントを終了してから、再検証してください。"
+        ),
+        Refusal::State(state) => format!("クライアントは接続できますが、サーバーの状態がRunningではなく{state}です"),
+        Refusal::Status { name, reason } if reason.is_empty() => format!("サーバーが拒否しました：{name}"),
+        Refusal::Status { name, reason } => format!("サーバーが拒否しました：{name}、{reason}"),
+    }
+}
+
+pub const fn not_tried(why: NotTried) -> &'static str {
+    match why {
+        NotTried::NoPassword => "未試行：試行するには、ユーザー名とパスワードを入力してください",
+        NotTried::PasswordRefused => {
+            "未試行：パスワードがすでに拒否されています。試行を続けると、ユーザーがロックされます。"
+        }
+        NotTried::PasswordInTheClear => "未試行：サーバーが、暗号化しないパスワードの送信を要求しています",
+        NotTried::OtherToken => "未試行：試行できるのは、ユーザー名とパスワードだけです",
+        NotTried::UnknownSecurity => "未試行：このセキュリティポリシーまたはモードには対応していません",
+        NotTried::OtherCertificate => {
+            "未試行：サーバーが提示した証明書が、コントローラーで選択されている証明書と異なります"
+        }
+        NotTried::Chain => "未試行：サーバーが証明書チェーンを送信しましたが、まだ対応していません",
+    }
+}
+
+pub fn verify_finding(finding: &VerifyFinding) -> String {
+    match finding {
+        VerifyFinding::NotRunning { error: Some(code), .. } => {
+            format!("サーバーが動作していません：{}", code.explain(LANGUAGE).message)
+        }
+        VerifyFinding::NotRunning { error: None, .. } => {
+            "サーバーが動作していません。サーバーを開始してから、再検証してください。".to_owned()
+        }
+        VerifyFinding::NoAnswer(why) => refusal(why),
+        VerifyFinding::NoEndpoints => "サーバーがエンドポイントを提供していません".to_owned(),
+        VerifyFinding::PolicyMissing(policy) => format!(
+            "基本設定で{policy}が選択されていますが、\
+             サーバーは提供していません。サーバーを再度開始してください。"
+        ),
+        VerifyFinding::PolicyNotTicked(policy) => {
+            format!(
+                "サーバーは{policy}を提供していますが、\
+                 基本設定では選択されていません。サーバーを再度開始してください。"
+            )
+        }
+        VerifyFinding::TokenMissing(token) => {
+            format!(
+                "基本設定で「{}」が選択されていますが、\
+                 サーバーは提供していません。サーバーを再度開始してください。",
+                TokenKind::from(*token).text(LANGUAGE)
+            )
+        }
+        VerifyFinding::TokenNotTicked(token) => {
+            format!(
+                "サーバーは「{}」を提供していますが、\
+                 基本設定では選択されていません。サーバーを再度開始してください。",
+                TokenKind::from(*token).text(LANGUAGE)
+            )
+        }
+        VerifyFinding::OtherAddress { url, reachable: true } => {
+            format!("サーバーが通知するアドレスは{url}です。クライアントがこの名前で接続できる必要があります。")
+        }
+        VerifyFinding::OtherAddress { url, reachable: false } => {
+            format!(
+                "サーバーが通知するアドレスは{url}ですが、このPCからは接続できません。\
+                 このアドレスを使用するクライアントは、接続に失敗します。"
+            )
+        }
+        VerifyFinding::WeakPolicy(policy) if policy.as_str() == "None" => {
+            "セキュリティポリシーNoneが提供されています。\
+             通信内容が第三者に読み取られ、改ざんされるおそれがあります。"
+                .to_owned()
+        }
+        VerifyFinding::WeakPolicy(policy) => {
+            format!("非推奨の{policy}が提供されています。解読されるおそれがあります。")
+        }
+        VerifyFinding::NoUsers => "ユーザー名とパスワードによる接続だけが許可されていますが、\
+                                   コントローラーにユーザーが登録されていません。ユーザーを追加してください。"
+            .to_owned(),
+        VerifyFinding::Clock(ahead) => format!(
+            "コントローラーの時計が{1}{0}います。時計を合わせないと、証明書が拒否される場合があります。",
+            if *ahead < chrono::TimeDelta::zero() { "遅れて" } else { "進んで" },
+            span(ahead.num_minutes().unsigned_abs())
+        ),
+    }
+}
+
+fn span(minutes: u64) -> String {
+    match minutes {
+        0..120 => format!("{minutes}分"),
+        120..2880 => format!("{}時間", minutes / 60),
+        _ => format!("{}日", minutes / 1440),
+    }
+}
+
+pub const fn token_kind(kind: TokenKind) -> &'static str {
+    match kind {
+        TokenKind::Anonymous => "匿名",
+        TokenKind::UserName => "ユーザー名とパスワード",
+        TokenKind::Certificate => "ユーザー証明書",
+        TokenKind::Issued => "発行トークン",
+    }
+}
+
+pub fn verify_counts(counts: Counts) -> String {
+    let Counts { work, fail, not_tried } = counts;
+    format!("正常{work}件、失敗{fail}件、未試行{not_tried}件")
+}
+
+pub fn endpoints_named(names: &[String]) -> String {
+    match names {
+        names if names.len() > MOST => format!("{}個のエンドポイント", names.len()),
+        names => names.join("、"),
+    }
+}
+
+const MOST: usize = 4;
