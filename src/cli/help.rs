@@ -134,7 +134,8 @@ mod tests {
             assert!(!chinese.contains(text), "{text} in\n{chinese}");
         }
         let japanese = help(Language::Ja, &["cert", "self-signed"]);
-        for text in ["自己署名のサーバー証明書を作成", "使用方法：", "オプション", "--country <CC>", "ヘルプを表示"] {
+        for text in ["自己署名のサーバー証明書を作成", "使用方法：", "オプション", "--country <CC>", "ヘルプを表示"]
+        {
             assert!(japanese.contains(text), "no {text} in\n{japanese}");
         }
         assert!(help(Language::En, &["cert", "self-signed"]).contains("Make and install a self-signed"));

@@ -38,7 +38,8 @@ fn japanese_follows_its_house_style() {
             assert!(!blank, "a blank between Japanese and Latin: {text}");
         }
         assert!(!text.contains(['（', '）', '，', '“', '”']), "{text}");
-        for word in ["コントローラ", "サーバ", "ユーザ", "フォルダ", "エラ", "ドライバ", "パラメータ"] {
+        for word in ["コントローラ", "サーバ", "ユーザ", "フォルダ", "エラ", "ドライバ", "パラメータ"]
+        {
             let short = text.match_indices(word).any(|(at, _)| !text[at + word.len()..].starts_with('ー'));
             assert!(!short, "{word} without its long vowel: {text}");
         }
