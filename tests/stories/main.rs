@@ -5,11 +5,13 @@
 //! - `cli`: the program as a process
 //! - `jobs`: operations without a window
 //! - `interop`: against peers of other projects
+//! - `architecture`: the structure of the source
 //! - `corpora`: readers and rules against many inputs
 //!
 //! The tests run as threads of one process: none may change its environment, its current folder or its limits. A test
 //! that needs such a change starts a process for it, as `cli::main_job` does for a full disk.
 
+mod architecture;
 mod cli;
 #[path = "../common/mod.rs"]
 mod common;
