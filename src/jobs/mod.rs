@@ -27,6 +27,7 @@
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activate;
+mod controller;
 mod create_csr;
 mod enroll;
 mod export_self_signed;
@@ -50,6 +51,7 @@ mod users;
 mod verify;
 
 pub use activate::{Activate, KeySource};
+pub use controller::JobController;
 pub use create_csr::{CreateCsr, CsrFields, CsrSaved};
 pub use enroll::{Enrolled, enroll, probe};
 pub use export_self_signed::{CertificateExported, ExportSelfSigned};
@@ -60,7 +62,7 @@ pub use operation::{Confirmation, Done, Operation, OperationOutput, OutputFacts,
 pub use preflight::{CertificateChecked, CertificateImported};
 pub use push_authority::PushAuthority;
 pub use restore_certificate::{CertificateRestored, CheckCertificateBackup, RestoreCertificate};
-pub use runner::{JobContext, JobController, JobEvent, Report, Summary, run};
+pub use runner::{JobContext, JobEvent, Report, Summary, run};
 pub use select_certificate::{ListCertificates, SelectCertificateType};
 pub use self_signed::{CertificateMade, SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};

@@ -7,32 +7,11 @@ use tokio::sync::Semaphore;
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
-use super::{Operation, OperationOutput, Run, Step};
-use crate::model::{Address, ControllerInfo, ControllerName, ErrorCode, Problem};
+use super::{JobController, Operation, OperationOutput, Run, Step};
+use crate::model::{ControllerInfo, ErrorCode, Problem};
 use crate::pki::Fingerprint;
 use crate::session::{Connector, ControllerSession};
-use crate::workspace::{ControllerEntry, Passwords};
-
-/// A controller as a job sees it.
-#[derive(Debug, Clone, PartialEq)]
-pub struct JobController {
-    pub name: ControllerName,
-    pub address: Address,
-    pub fingerprint: Option<Fingerprint>,
-    /// What was read last; lets an operation refuse before anything is sent.
-    pub known: Option<ControllerInfo>,
-}
-
-impl From<&ControllerEntry> for JobController {
-    fn from(entry: &ControllerEntry) -> Self {
-        Self {
-            name: entry.name.clone(),
-            address: entry.address.clone(),
-            fingerprint: entry.fingerprint,
-            known: entry.last.as_ref().map(|last| last.info.clone()),
-        }
-    }
-}
+use crate::workspace::Passwords;
 
 /// What every job needs and shares.
 #[derive(Clone)]

@@ -9,7 +9,8 @@
 //! | `remove` | [`RemoveClients`], [`RemoveCrls`] |
 //! | `relist` | [`MoveClients`]: from one list into another |
 //! | `change` | one change sent, and what came of it: [`TrustChange`] |
-//! | `undo` | [`TrustUndo`]: what puts it back |
+//! | `undo` | [`TrustUndo`]: the steps that reverse a change |
+//! | `undo_trust` | [`UndoTrust`]: sends them |
 //! | `watch` | [`watch_trust`]: the lists as they change |
 
 mod add;
@@ -21,15 +22,19 @@ mod remove;
 #[cfg(test)]
 mod samples;
 mod snapshot;
+mod target;
 mod undo;
+mod undo_trust;
 mod watch;
 
 pub use add::AddTrust;
 pub use change::TrustChange;
 pub use notes::Note;
-pub use plan::{Destination, Fate, Planned, SkipReason, Target, Thing, TrustFile, TrustPlan};
+pub use plan::{Destination, Fate, Planned, SkipReason, Thing, TrustFile, TrustPlan};
 pub use relist::MoveClients;
 pub use remove::{RemoveClients, RemoveCrls};
 pub use snapshot::{ListTrust, TrustSnapshot};
-pub use undo::{TrustUndo, UndoTrust};
+pub use target::Target;
+pub use undo::TrustUndo;
+pub use undo_trust::UndoTrust;
 pub use watch::{WATCH_INTERVAL, WatchEvent, watch_trust};

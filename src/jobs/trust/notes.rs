@@ -2,7 +2,8 @@ use std::collections::BTreeMap;
 
 use chrono::{DateTime, Utc};
 
-use super::{Target, TrustSnapshot};
+use super::TrustSnapshot;
+use super::target::Target;
 use crate::model::ClientList;
 use crate::pki::{Certificate, CertificateFlaw, is_authority, never_accepted, validity_flaw};
 

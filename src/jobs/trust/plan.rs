@@ -5,6 +5,7 @@ use chrono::{DateTime, Utc};
 
 use super::TrustSnapshot;
 use super::notes::{self, Note};
+use super::target::Target;
 use crate::model::{CertificateSummary, ClientList, CrlSummary, ErrorCode, FirmwareGeneration, ListLimits, Problem};
 use crate::pki::{Bundle, Certificate, Crl, is_authority};
 use crate::protocol::{Base64Bytes, MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES, TrustStep};
@@ -29,14 +30,6 @@ pub enum Destination {
     /// The issuers list, authorities only.
     Issuers,
     /// CRLs only.
-    Crls,
-}
-
-/// Where something goes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Target {
-    Trusted,
-    Issuers,
     Crls,
 }
 

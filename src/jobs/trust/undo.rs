@@ -1,46 +1,10 @@
-use std::collections::BTreeMap;
-
-use async_trait::async_trait;
-
 use super::TrustSnapshot;
-use super::change::{TrustChange, apply};
-use crate::jobs::{Confirmation, JobController, Operation, Run, Step};
-use crate::model::{ClientList, ControllerName, ErrorCode, Problem};
+use crate::model::ClientList;
 use crate::protocol::{Base64Bytes, TrustStep};
 
 /// What puts the lists and CRLs of one controller back to what they were before a change.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct TrustUndo(Vec<TrustStep>);
-
-/// Takes changes back, each in the controller it was made in.
-///
-/// All or nothing in each controller, whatever else was changed meanwhile; refused where that makes it impossible. Its
-/// own [`TrustUndo`] does the change once more.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct UndoTrust(pub BTreeMap<ControllerName, TrustUndo>);
-
-#[async_trait]
-impl Operation for UndoTrust {
-    type Output = TrustChange;
-
-    fn confirmation(&self) -> Option<Confirmation> {
-        Some(Confirmation { disconnects_clients: true, ..Confirmation::default() })
-    }
-
-    fn check(&self, controller: &JobController) -> Result<(), Problem> {
-        if self.0.contains_key(&controller.name) {
-            return Ok(());
-        }
-        Err(Problem::with_detail(ErrorCode::Refused, "nothing was changed here that could be taken back"))
-    }
-
-    async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
-        run.begin(Step::Read)?;
-        let before = TrustSnapshot::read(run.session).await?;
-        let steps = self.0.get(&run.controller.name).map(|undo| undo.0.clone()).unwrap_or_default();
-        apply(run, before, steps, None).await
-    }
-}
+pub struct TrustUndo(pub(super) Vec<TrustStep>);
 
 /// What makes `before` of `after` again; `None` if they are the same, or nothing can.
 pub(super) fn undo(before: &TrustSnapshot, after: &TrustSnapshot) -> Option<TrustUndo> {

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `config` | what a server is made of, checked before anything is started |
 //! | `server` | start, stop, and whether it still runs |
+//! | `start_error` | why a server could not be started |
 //! | `admission` | the connections of the clients, and who is let in |
 //! | `events` | what happens in a running server, for its log |
 //! | `endpoints` | security policies and user tokens as OPC UA endpoints, and what a client may ask for |
@@ -25,6 +26,7 @@ mod events;
 mod login_delays;
 mod nodesets;
 mod server;
+mod start_error;
 #[cfg(test)]
 mod tests;
 mod users;
@@ -32,5 +34,6 @@ mod users;
 pub use admission::{Clock, CutConnection, Refusals};
 pub use config::{AdmissionOptions, DeviceIdentity, OpcUaConfig, OpcUaUser};
 pub use events::{Event, Events};
-pub use server::{OpcUaServer, StartError};
+pub use server::OpcUaServer;
+pub use start_error::StartError;
 pub use users::{HashError, hash_password};

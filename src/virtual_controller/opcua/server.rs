@@ -24,19 +24,9 @@ use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
 use super::events::{Event, Events};
 use super::nodesets::NodeSet;
+use super::start_error::StartError;
 use super::users::Users;
 use crate::pki::TrustLists;
-
-/// Why a server could not be started.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum StartError {
-    #[error("port {0} is in use")]
-    PortInUse(u16),
-    #[error("the server cannot run with these settings: {0}")]
-    InvalidParameter(String),
-    #[error("the server could not be started: {0}")]
-    Failed(String),
-}
 
 /// A running OPC UA server. Dropping it stops it too, without waiting.
 pub struct OpcUaServer {
