@@ -33,10 +33,7 @@ pub fn keys_found(ready: usize, all: usize) -> String {
 
 pub fn line_mistake(mistake: &LineMistake) -> String {
     let what = match &mistake.mistake {
-        Mistake::Fields(count) => format!(
-            "項目が{count}個です。シリアル番号、ライセンスキー、\
-             アクティベーションキーの3個にしてください。"
-        ),
+        Mistake::Fields(count) => format!("項目数が{count}個です。シリアル番号とキー2つの3個にしてください。"),
         Mistake::Separator { found, expected } => {
             format!("区切り文字「{found}」が、前の行の「{expected}」と異なります")
         }
@@ -65,7 +62,7 @@ pub fn skipped(why: &Skipped) -> String {
         Skipped::Virtual => "開発環境の仮想コントローラーです".to_owned(),
         Skipped::NameRegistered => "名前は登録済みです".to_owned(),
         Skipped::AddressRegistered(name) => format!("アドレスは登録済みです ({name})"),
-        Skipped::Fields(count) => format!("項目が{count}個です。名前、タイプ、アドレスの3個にしてください。"),
+        Skipped::Fields(count) => format!("項目数が{count}個です。名前、タイプ、アドレスの3個にしてください。"),
         Skipped::Type(kind) => format!("「{kind}」は、接続の種類 (Ethernet、USB、Virtual) ではありません"),
         Skipped::Name(_) => format!("名前が正しくありません：{}", T::NameRule.text(LANGUAGE)),
         Skipped::Quotes => "引用符が閉じていないか、項目に改行が含まれています".to_owned(),

@@ -73,7 +73,7 @@ fixed_texts! {
     TickAll: "すべてにチェック";
     TickAllTip: "表示中のすべてのコントローラーにチェックを付けます";
     Search: "検索";
-    SearchTip: "名前、アドレス、シリアル番号、タイプで検索します";
+    SearchTip: "名前、アドレス、番号、タイプで検索";
     TryVirtual: "仮想コントローラーで試す";
     TryVirtualTip: "仮想コントローラーをこのPCで数台起動し、リストに追加します";
 
@@ -88,13 +88,13 @@ fixed_texts! {
 
     // table
     ColumnName: "名前";
-    ColumnType: "コントローラータイプ";
+    ColumnType: "タイプ";
     ColumnAddress: "IPアドレス";
     ColumnSerial: "シリアル番号";
     ColumnStatus: "ステータス";
     ColumnExpiry: "有効期限";
     ColumnCertificate: "証明書タイプ";
-    ColumnActivation: "アクティベーション";
+    ColumnActivation: "ライセンス";
     ColumnRetrieved: "取得日時";
     NotConfirmed: "未確認";
     NotConfirmedTip: "フィンガープリントを照合するまで、データは送信されません。[最新情報の取得]を選択してください。";
@@ -102,12 +102,12 @@ fixed_texts! {
     StatusStop: "停止中";
     StatusError: "エラー";
     Expired: "期限切れ";
-    ExpiresSoon: "まもなく期限切れ";
+    ExpiresSoon: "期限間近";
     TypeSelfSigned: "自己署名";
     TypeUserSpecified: "ユーザー指定";
     TypeCaSigned: "CA署名";
-    Yes: "はい";
-    No: "いいえ";
+    Yes: "あり";
+    No: "なし";
     NotRead: "未取得";
     NothingFound: "検索に一致するコントローラーはありません";
     ClearSearch: "検索をクリア";
@@ -707,7 +707,7 @@ fixed_texts! {
     ReasonPrivilegeWithdrawn: "権限の取り消し";
 
     // the command line: headings of tables, in capitals
-    HeadingActivated: "アクティベーション";
+    HeadingActivated: "ライセンス";
     HeadingAddress: "IPアドレス";
     HeadingBits: "ビット数";
     HeadingCa: "CA";

@@ -25,7 +25,7 @@ pub fn expired(count: usize) -> String {
 }
 
 pub fn expiring(count: usize) -> String {
-    format!("まもなく期限切れの証明書{count}件")
+    format!("期限間近の証明書{count}件")
 }
 
 pub fn days_left(days: i64) -> String {

@@ -14,7 +14,7 @@ use crate::texts::certificates::date;
 pub fn how_full(count: usize, limit: Option<usize>) -> String {
     match limit {
         Some(limit) => format!("{count} / {limit}"),
-        None => count.to_string(),
+        None => format!("{count}件"),
     }
 }
 

@@ -199,6 +199,6 @@ fn actions(
 
 const TO_WIDTH: f32 = 280.0;
 const SERIAL_WIDTH: f32 = 250.0;
-const PROFILE_WIDTH: f32 = 64.0;
+const PROFILE_WIDTH: f32 = 88.0;
 const STATUS_WIDTH: f32 = 92.0;
 const DATE_WIDTH: f32 = 90.0;

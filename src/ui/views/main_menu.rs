@@ -1,4 +1,4 @@
-use egui::{MenuBar, Ui};
+use egui::{MenuBar, TextWrapMode, Ui};
 
 use crate::model::Language;
 use crate::texts::{TextKey as T, theme};
@@ -64,6 +64,8 @@ fn options(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
 
 /// Groups of commands with lines between them.
 fn items(ui: &mut Ui, groups: &[&[C]], model: &Model, messages: &mut Vec<Message>) {
+    // A menu is as wide as its widest entry.
+    ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
     for (index, group) in groups.iter().enumerate() {
         if index > 0 {
             ui.separator();

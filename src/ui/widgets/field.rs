@@ -19,7 +19,8 @@ pub fn labelled(ui: &mut Ui, label: &str, field: impl FnOnce(&mut Ui) -> Option<
             ui.add_space(0.0);
             ui.vertical(|ui| {
                 ui.add_space(5.0);
-                ui.label(label)
+                // The column is as wide as its widest label.
+                ui.add(egui::Label::new(label).extend())
             })
             .inner
         })
