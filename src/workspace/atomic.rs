@@ -73,8 +73,9 @@ impl<'a> Staged<'a> {
         let locked = file.as_file().try_lock().is_ok();
         file.write_all(bytes).map_err(failed)?;
         file.as_file().sync_all().map_err(failed)?;
-        if locked {
-            file.as_file().unlock().map_err(failed)?;
+        if locked && let Err(error) = file.as_file().unlock() {
+            // Wine cannot unlock a file that was written to meanwhile. The lock ends with the handle at the latest.
+            tracing::debug!(path = %path.display(), %error, "the file stays locked until it takes its name");
         }
         Ok(Self { path, folder, file })
     }
