@@ -15,8 +15,8 @@ use super::secret_file::read_secret;
 use crate::model::{ControllerName, ErrorCode, Problem, text};
 use crate::pki::Fingerprint;
 use crate::workspace::{
-    Configuration, MAX_PASSWORD_LIST_BYTES, PasswordList, PasswordPlace, PasswordStore, Passwords, SystemKeyring,
-    VaultState,
+    Configuration, MAX_PASSWORD_LIST_BYTES, PasswordError, PasswordList, PasswordPlace, PasswordStore, Passwords,
+    SystemKeyring, VaultState,
 };
 
 /// What was given on the command line, before what is kept on this computer.
@@ -29,14 +29,14 @@ struct CommandPasswords {
 }
 
 impl Passwords for CommandPasswords {
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem> {
+    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
         match self.listed.get(&controller).or(self.given.as_ref()) {
             Some(password) => Ok(Some(password.clone())),
             None => self.store.get(controller),
         }
     }
 
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem> {
+    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), PasswordError> {
         self.store.set(controller, password)
     }
 

@@ -98,7 +98,7 @@ impl CreateCsr {
         let legacy = info.generation() == FirmwareGeneration::Legacy;
         let (files, serial) = (self.files.clone(), info.serial.clone());
         let key_password = (self.backup && legacy).then(|| run.password.clone());
-        run.off_thread(move || files.check_csr_writable(&serial, key_password.as_ref())).await?;
+        run.off_thread(move || files.check_csr_writable(&serial, key_password.as_ref()).map_err(Problem::from)).await?;
         let (made, key) = if legacy {
             let (made, key) = make_and_send(run, info, request).await?;
             (made, Some(key))
@@ -111,7 +111,7 @@ impl CreateCsr {
         (run.on_step)(Step::SaveBackup);
         let (files, serial, password) = (self.files.clone(), info.serial.clone(), run.password.clone());
         let (format, key, saving) = (self.format, key.filter(|_| self.backup), csr.clone());
-        let save = move || files.save_csr(&serial, &saving, format, key.as_ref(), &password);
+        let save = move || files.save_csr(&serial, &saving, format, key.as_ref(), &password).map_err(Problem::from);
         Ok((csr, run.off_thread(save).await?))
     }
 }

@@ -31,8 +31,9 @@ pub async fn enroll(
     let info = info?;
     info.series.check_firmware(info.firmware)?;
     let passwords = context.passwords.clone();
-    let password_not_kept = tokio::task::spawn_blocking(move || passwords.set(fingerprint, password).err())
-        .await
-        .map_err(|e| Problem::with_detail(crate::model::ErrorCode::Internal, e))?;
+    let password_not_kept =
+        tokio::task::spawn_blocking(move || passwords.set(fingerprint, password).err().map(Problem::from))
+            .await
+            .map_err(|e| Problem::with_detail(crate::model::ErrorCode::Internal, e))?;
     Ok(Enrolled { fingerprint, info, password_not_kept })
 }

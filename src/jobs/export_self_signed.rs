@@ -47,7 +47,8 @@ impl Operation for ExportSelfSigned {
         run.begin(Step::SaveBackup)?;
         let (files, format, password) = (self.files.clone(), self.format, run.password.clone());
         let exporting = certificate.clone();
-        let export = move || files.export_self_signed(&info.serial, &exporting, format, &password);
+        let export =
+            move || files.export_self_signed(&info.serial, &exporting, format, &password).map_err(Problem::from);
         let saved = run.off_thread(export).await?;
         Ok(CertificateExported { summary: certificate.summary(), saved })
     }

@@ -36,7 +36,7 @@ impl CaCertificateSource {
 
     fn path(&self, serial: &SerialNumber) -> Result<PathBuf, Problem> {
         match self {
-            Self::Folder(files) => files.find_ca_signed(serial),
+            Self::Folder(files) => Ok(files.find_ca_signed(serial)?),
             Self::File(path) => Ok(path.clone()),
         }
     }

@@ -33,12 +33,13 @@ pub enum UserCertificateFiles {
 impl UserCertificateFiles {
     /// The only `.pfx` in a controller's `UserSpecified` folder.
     pub fn pfx_in(files: &CertificateFiles, serial: &SerialNumber) -> Result<Self, Problem> {
-        files.find_user_pfx(serial).map(Self::Pfx)
+        Ok(Self::Pfx(files.find_user_pfx(serial)?))
     }
 
     /// The only `.der` and the only `.key` in a controller's `UserSpecified` folder.
     pub fn pair_in(files: &CertificateFiles, serial: &SerialNumber) -> Result<Self, Problem> {
-        files.find_user_pair(serial).map(|(certificate, key)| Self::Pair { certificate, key })
+        let (certificate, key) = files.find_user_pair(serial)?;
+        Ok(Self::Pair { certificate, key })
     }
 
     /// Reads them, and checks that key and certificate belong together. Blocks while the password is hashed.

@@ -9,7 +9,7 @@ use super::{
 use crate::model::{CertificateSummary, CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, Problem};
 use crate::pki::{Finding, PkiError, pkcs12_write, pkcs12_write_key};
 use crate::protocol::{Base64Bytes, ImportCertificate, ImportCsr, WireSecret};
-use crate::workspace::{BackupKind, KeyBackup, KeyBackupSource};
+use crate::workspace::{BackupKind, KeyBackup, KeyBackupError, KeyBackupSource};
 
 /// Puts a backup of a key back into the controller, under the type it was made as: a self-signed certificate with its
 /// key, or a signing request with its key and with what a CA issued for it (manual 2.8.1, appendix B-1).
@@ -138,10 +138,12 @@ async fn read(
         let read = |password: &SecretString| source.read(&serial, password);
         match &given {
             Some(password) => read(password),
-            None => read(&connection).or_else(|problem| match problem.code {
+            None => read(&connection).or_else(|error| match error {
                 // Made while the controller had no connection password, by a version that allowed it.
-                ErrorCode::WrongKeyPassword => read(&SecretString::default()).map_err(|_| problem),
-                _ => Err(problem),
+                KeyBackupError::Content { ref source, .. } if source.code() == ErrorCode::WrongKeyPassword => {
+                    read(&SecretString::default()).map_err(|_| error)
+                }
+                _ => Err(error),
             }),
         }
     };

@@ -102,7 +102,7 @@ impl Operation for SelfSigned {
         if let Some(files) = &self.backup {
             let (files, serial) = (files.clone(), info.serial.clone());
             let key_password = (info.generation() == FirmwareGeneration::Legacy).then(|| run.password.clone());
-            run.off_thread(move || files.check_writable(&serial, key_password.as_ref())).await?;
+            run.off_thread(move || files.check_writable(&serial, key_password.as_ref()).map_err(Problem::from)).await?;
         }
         let (installed, key) = match info.generation() {
             FirmwareGeneration::Current => {
@@ -123,7 +123,9 @@ impl Operation for SelfSigned {
                 (run.on_step)(Step::SaveBackup);
                 let (files, serial, password) = (files.clone(), info.serial.clone(), run.password.clone());
                 let certificate = certificate.clone();
-                let save = move || files.save_self_signed(&serial, &certificate, key.as_ref(), &password);
+                let save = move || {
+                    files.save_self_signed(&serial, &certificate, key.as_ref(), &password).map_err(Problem::from)
+                };
                 Some(run.off_thread(save).await?)
             }
         };

@@ -138,61 +138,67 @@ pub enum PkiError {
     Signing,
 }
 
+impl PkiError {
+    /// The code that stands for the error in a [`Problem`].
+    pub const fn code(&self) -> ErrorCode {
+        match self {
+            Self::Subject(_)
+            | Self::ApplicationUri(_)
+            | Self::DnsName(_)
+            | Self::NoHostName
+            | Self::AuthorityName
+            | Self::AuthorityKey(_) => ErrorCode::BadCertificateRequest,
+            Self::CannotSign(_) => ErrorCode::AuthorityDamaged,
+            Self::CsrRefused(_) => ErrorCode::CsrRefused,
+            Self::ShortKey(_) => ErrorCode::ShortKey,
+            Self::AuthorityExpired(_) | Self::AuthorityNotYetValid(_) => ErrorCode::AuthorityExpired,
+            Self::NotAPair => ErrorCode::KeyMismatch,
+            Self::WrongPasswordOrDamaged | Self::PasswordNeeded => ErrorCode::WrongKeyPassword,
+            Self::Expired(_) => ErrorCode::CertificateExpired,
+            Self::KeyLengthNotAllowed(_) => ErrorCode::KeyLengthNotAllowed,
+            Self::NotAPrivateKey
+            | Self::KeyLength(_)
+            | Self::NotACsr
+            | Self::CsrSignature
+            | Self::SeveralCsrs(_)
+            | Self::NotPkcs12
+            | Self::UnsupportedPkcs12(_)
+            | Self::NoKey
+            | Self::SeveralKeys(_)
+            | Self::Damaged
+            | Self::Text(_)
+            | Self::OtherContent { wanted: Wanted::Csr | Wanted::PrivateKey | Wanted::Pkcs12, .. }
+            | Self::UnsupportedKeyEncryption(_) => ErrorCode::FileFormat,
+            Self::KeyGeneration
+            | Self::KeyEncoding
+            | Self::Pkcs12Encoding
+            | Self::OtherKeyLength { .. }
+            | Self::Dates
+            | Self::Random
+            | Self::Signing => ErrorCode::Internal,
+            Self::Empty
+            | Self::TooLarge { .. }
+            | Self::NotACertificate
+            | Self::TrailingBytes(_)
+            | Self::SignatureAlgorithms
+            | Self::RepeatedExtension
+            | Self::BadPem
+            | Self::NoCertificate
+            | Self::SeveralCertificates(_)
+            | Self::NotACrl(_)
+            | Self::NotPkcs7(_)
+            | Self::NotTrustMaterial
+            | Self::OtherContent { .. }
+            | Self::TooMany(_)
+            | Self::TooManySigners
+            | Self::PrivateKeyInside => ErrorCode::BadCertificate,
+        }
+    }
+}
+
 impl From<PkiError> for Problem {
     fn from(error: PkiError) -> Self {
-        let code = match error {
-            PkiError::Subject(_)
-            | PkiError::ApplicationUri(_)
-            | PkiError::DnsName(_)
-            | PkiError::NoHostName
-            | PkiError::AuthorityName
-            | PkiError::AuthorityKey(_) => ErrorCode::BadCertificateRequest,
-            PkiError::CannotSign(_) => ErrorCode::AuthorityDamaged,
-            PkiError::CsrRefused(_) => ErrorCode::CsrRefused,
-            PkiError::ShortKey(_) => ErrorCode::ShortKey,
-            PkiError::AuthorityExpired(_) | PkiError::AuthorityNotYetValid(_) => ErrorCode::AuthorityExpired,
-            PkiError::NotAPair => ErrorCode::KeyMismatch,
-            PkiError::WrongPasswordOrDamaged | PkiError::PasswordNeeded => ErrorCode::WrongKeyPassword,
-            PkiError::Expired(_) => ErrorCode::CertificateExpired,
-            PkiError::KeyLengthNotAllowed(_) => ErrorCode::KeyLengthNotAllowed,
-            PkiError::NotAPrivateKey
-            | PkiError::KeyLength(_)
-            | PkiError::NotACsr
-            | PkiError::CsrSignature
-            | PkiError::SeveralCsrs(_)
-            | PkiError::NotPkcs12
-            | PkiError::UnsupportedPkcs12(_)
-            | PkiError::NoKey
-            | PkiError::SeveralKeys(_)
-            | PkiError::Damaged
-            | PkiError::Text(_)
-            | PkiError::OtherContent { wanted: Wanted::Csr | Wanted::PrivateKey | Wanted::Pkcs12, .. }
-            | PkiError::UnsupportedKeyEncryption(_) => ErrorCode::FileFormat,
-            PkiError::KeyGeneration
-            | PkiError::KeyEncoding
-            | PkiError::Pkcs12Encoding
-            | PkiError::OtherKeyLength { .. }
-            | PkiError::Dates
-            | PkiError::Random
-            | PkiError::Signing => ErrorCode::Internal,
-            PkiError::Empty
-            | PkiError::TooLarge { .. }
-            | PkiError::NotACertificate
-            | PkiError::TrailingBytes(_)
-            | PkiError::SignatureAlgorithms
-            | PkiError::RepeatedExtension
-            | PkiError::BadPem
-            | PkiError::NoCertificate
-            | PkiError::SeveralCertificates(_)
-            | PkiError::NotACrl(_)
-            | PkiError::NotPkcs7(_)
-            | PkiError::NotTrustMaterial
-            | PkiError::OtherContent { .. }
-            | PkiError::TooMany(_)
-            | PkiError::TooManySigners
-            | PkiError::PrivateKeyInside => ErrorCode::BadCertificate,
-        };
-        Self::with_detail(code, error)
+        Self::with_detail(error.code(), error)
     }
 }
 

@@ -2,12 +2,13 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use secrecy::{ExposeSecret as _, SecretString};
+use thiserror::Error;
 
 use super::atomic::open_lock_file;
 use super::file_sets::replace_set;
 use super::import_files::certificate_files_in;
-use super::{WorkspaceError, check_protects_files, read_import_file, write_atomic};
-use crate::model::{ErrorCode, FileFormat, Problem, SerialNumber};
+use super::{PassphraseError, WorkspaceError, check_protects_files, read_import_file, write_atomic};
+use crate::model::{FileFormat, SerialNumber};
 use crate::pki::{
     Certificate, Csr, MAX_CERTIFICATE_FILE_BYTES, MAX_PKCS12_BYTES, PkiError, PrivateKey, pkcs12_read_key,
     pkcs12_write, pkcs12_write_key, read_bundle,
@@ -49,6 +50,21 @@ pub struct SavedCsr {
     pub moved_aside: Vec<PathBuf>,
 }
 
+/// Why certificates and keys are not saved on the PC.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SaveError {
+    /// The files cannot be written.
+    #[error(transparent)]
+    Workspace(#[from] WorkspaceError),
+    /// The connection password protects no key file.
+    #[error(transparent)]
+    Passphrase(#[from] PassphraseError),
+    /// The key file could not be made.
+    #[error(transparent)]
+    Encoding(#[from] PkiError),
+}
+
 impl CertificateFiles {
     pub(super) fn new(root: PathBuf) -> Self {
         Self { root }
@@ -80,7 +96,7 @@ impl CertificateFiles {
 
     /// Finds out whether a backup could be written, before anything is changed in the controller. `key_password`: the
     /// connection password, if it is to protect a key.
-    pub fn check_writable(&self, serial: &SerialNumber, key_password: Option<&SecretString>) -> Result<(), Problem> {
+    pub fn check_writable(&self, serial: &SerialNumber, key_password: Option<&SecretString>) -> Result<(), SaveError> {
         key_password.map_or(Ok(()), check_protects_files)?;
         Ok(probe(&self.self_signed_folder(serial))?)
     }
@@ -90,7 +106,7 @@ impl CertificateFiles {
         &self,
         serial: &SerialNumber,
         key_password: Option<&SecretString>,
-    ) -> Result<(), Problem> {
+    ) -> Result<(), SaveError> {
         key_password.map_or(Ok(()), check_protects_files)?;
         probe(&self.csr_folder(serial))?;
         // Also where there is no key to keep: it is the folder that the CA's answer has to be put into.
@@ -108,7 +124,7 @@ impl CertificateFiles {
         format: FileFormat,
         key: Option<&PrivateKey>,
         password: &SecretString,
-    ) -> Result<SavedCsr, Problem> {
+    ) -> Result<SavedCsr, SaveError> {
         let _lock = self.lock(serial)?;
         let (requests, issued) = (self.csr_folder(serial), self.ca_signed_folder(serial));
         let key_path = issued.join(CSR_KEY);
@@ -147,7 +163,7 @@ impl CertificateFiles {
         certificate: &Certificate,
         format: FileFormat,
         password: &SecretString,
-    ) -> Result<SavedFile, Problem> {
+    ) -> Result<SavedFile, SaveError> {
         let SavedCertificate { certificate: file, moved_aside, .. } =
             self.save(serial, certificate, format, None, password)?;
         Ok(SavedFile { file, moved_aside })
@@ -163,7 +179,7 @@ impl CertificateFiles {
         certificate: &Certificate,
         key: Option<&PrivateKey>,
         password: &SecretString,
-    ) -> Result<SavedCertificate, Problem> {
+    ) -> Result<SavedCertificate, SaveError> {
         self.save(serial, certificate, FileFormat::Der, key, password)
     }
 
@@ -174,7 +190,7 @@ impl CertificateFiles {
         format: FileFormat,
         key: Option<&PrivateKey>,
         password: &SecretString,
-    ) -> Result<SavedCertificate, Problem> {
+    ) -> Result<SavedCertificate, SaveError> {
         let _lock = self.lock(serial)?;
         let folder = self.self_signed_folder(serial);
         let key_path = folder.join(SELF_SIGNED_KEY);
@@ -254,9 +270,9 @@ fn issued_for(requests: &[Csr], folder: &Path) -> Vec<PathBuf> {
 fn protected(
     password: &SecretString,
     write: impl FnOnce(&str) -> Result<Vec<u8>, PkiError>,
-) -> Result<Vec<u8>, Problem> {
+) -> Result<Vec<u8>, SaveError> {
     check_protects_files(password)?;
-    write(password.expose_secret()).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))
+    Ok(write(password.expose_secret())?)
 }
 
 /// Writes into a folder and cleans up after itself.

@@ -3,9 +3,10 @@ use std::io;
 
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize, Serializer};
+use thiserror::Error;
 
 use super::PasswordPlace;
-use crate::model::{Address, ControllerInfo, ControllerName, ControllerSeries, ErrorCode, Language, Problem, text};
+use crate::model::{Address, ControllerInfo, ControllerName, ControllerSeries, Language, text};
 use crate::pki::Fingerprint;
 
 const VERSION: u32 = 1;
@@ -138,6 +139,17 @@ impl Default for Configuration {
     }
 }
 
+/// Why a controller cannot be registered beside the others.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NotUnique {
+    /// Another controller has the name.
+    #[error("another controller is called {0}")]
+    Name(ControllerName),
+    /// The controller of this name has the address and port.
+    #[error("{0} has the address")]
+    Address(ControllerName),
+}
+
 impl Configuration {
     /// The reason in words when the bytes are not a configuration.
     pub(super) fn from_json(bytes: &[u8]) -> Result<Self, String> {
@@ -160,20 +172,21 @@ impl Configuration {
     }
 
     /// Names, and addresses with their ports, are unique (manual 2.5.1).
-    pub fn check_new(&self, name: &ControllerName, address: &Address) -> Result<(), Problem> {
+    pub fn check_new(&self, name: &ControllerName, address: &Address) -> Result<(), NotUnique> {
         if self.controllers.iter().any(|c| c.name == *name) {
-            return Err(Problem::with_detail(ErrorCode::NameTaken, name));
+            return Err(NotUnique::Name(name.clone()));
         }
-        if let Some(taken) = self.controllers.iter().find(|c| c.address == *address) {
-            return Err(Problem::with_detail(ErrorCode::AddressTaken, &taken.name));
+        match self.controllers.iter().find(|c| c.address == *address) {
+            Some(taken) => Err(NotUnique::Address(taken.name.clone())),
+            None => Ok(()),
         }
-        Ok(())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{ErrorCode, Problem};
 
     fn with_one() -> Configuration {
         Configuration {
@@ -192,7 +205,9 @@ mod tests {
     fn names_and_addresses_are_unique() {
         let configuration = with_one();
         let check = |name: &str, address: &str| {
-            configuration.check_new(&name.parse().unwrap(), &address.parse().unwrap()).map_err(|p| p.code)
+            configuration
+                .check_new(&name.parse().unwrap(), &address.parse().unwrap())
+                .map_err(|error| Problem::from(error).code)
         };
         assert_eq!(check("Weld 1", "192.168.0.2"), Err(ErrorCode::NameTaken));
         assert_eq!(check("Weld 2", "192.168.0.1:7943"), Err(ErrorCode::AddressTaken));

@@ -5,7 +5,7 @@ use thiserror::Error;
 use super::{Configuration, ControllerEntry};
 use crate::model::table::{Table, TableRow};
 use crate::model::text::{self, TextError};
-use crate::model::{Address, AddressError, ControllerName, ControllerSeries, ErrorCode, NameError, Problem};
+use crate::model::{Address, AddressError, ControllerName, ControllerSeries, NameError};
 
 /// The columns, as the first line names them.
 pub const CONNECTION_LIST_COLUMNS: [&str; 3] = ["Name", "Type", "Address"];
@@ -52,12 +52,6 @@ fn found(columns: &str) -> String {
     if columns.is_empty() { String::new() } else { format!(" but \"{columns}\"") }
 }
 
-impl From<ConnectionListError> for Problem {
-    fn from(error: ConnectionListError) -> Self {
-        Self::with_detail(ErrorCode::BadConnectionList, error)
-    }
-}
-
 /// What will be done with one line of the list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlannedConnection {
@@ -99,28 +93,13 @@ pub enum Skipped {
     #[error("\"{0}\" is not a type of connection; known are Ethernet, USB and Virtual")]
     Type(String),
     #[error("{0}")]
-    Name(NameError),
+    Name(#[source] NameError),
     #[error("{0}")]
-    Address(AddressError),
+    Address(#[source] AddressError),
     #[error("the name also stands in line {0}")]
     NameTwice(usize),
     #[error("the address also stands in line {0}")]
     AddressTwice(usize),
-}
-
-impl Skipped {
-    /// The mistake to be told about; `None` where leaving the line out is what was wanted.
-    pub fn problem(&self, line: usize) -> Option<Problem> {
-        let code = match self {
-            Self::Usb | Self::Virtual | Self::NameRegistered | Self::AddressRegistered(_) => return None,
-            Self::Fields(_) | Self::Quotes | Self::Type(_) => ErrorCode::BadConnectionList,
-            Self::Name(_) => ErrorCode::BadName,
-            Self::Address(_) => ErrorCode::BadAddress,
-            Self::NameTwice(_) => ErrorCode::NameTaken,
-            Self::AddressTwice(_) => ErrorCode::AddressTaken,
-        };
-        Some(Problem::with_detail(code, format!("line {line}: {self}")))
-    }
 }
 
 impl NewConnection {
@@ -235,6 +214,7 @@ impl Columns {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{ErrorCode, Problem};
 
     const SAMPLE: &str = include_str!("../../fixtures/connections.csv");
 

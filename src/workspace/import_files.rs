@@ -3,44 +3,37 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use super::{CertificateFiles, read_bounded};
+use super::{CertificateFiles, FileError, read_bounded};
+use crate::model::SerialNumber;
 use crate::model::file_names::is_reserved;
-use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::pki::MAX_CERTIFICATE_FILE_BYTES;
 
 impl CertificateFiles {
     /// The only `.der` in `CASigned`.
-    pub fn find_ca_signed(&self, serial: &SerialNumber) -> Result<PathBuf, Problem> {
+    pub fn find_ca_signed(&self, serial: &SerialNumber) -> Result<PathBuf, FileError> {
         single(&self.ca_signed_folder(serial), "der")
     }
 
     /// The only `.pfx` in `UserSpecified`.
-    pub fn find_user_pfx(&self, serial: &SerialNumber) -> Result<PathBuf, Problem> {
+    pub fn find_user_pfx(&self, serial: &SerialNumber) -> Result<PathBuf, FileError> {
         single(&self.user_specified_folder(serial), "pfx")
     }
 
     /// The only `.der` and the only `.key` in `UserSpecified`.
-    pub fn find_user_pair(&self, serial: &SerialNumber) -> Result<(PathBuf, PathBuf), Problem> {
+    pub fn find_user_pair(&self, serial: &SerialNumber) -> Result<(PathBuf, PathBuf), FileError> {
         let folder = self.user_specified_folder(serial);
         Ok((single(&folder, "der")?, single(&folder, "key")?))
     }
 }
 
-/// Reads a file of at most `max` bytes that somebody chose; a larger one is not what it should be.
-pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, Problem> {
-    let unreadable = |e: io::Error| {
-        let code = match e.kind() {
-            io::ErrorKind::NotFound => ErrorCode::FileNotFound,
-            _ => ErrorCode::FileUnreadable,
-        };
-        Problem::with_detail(code, format!("{}: {e}", path.display()))
-    };
-    let bytes = read_bounded(path, max as u64).map_err(unreadable)?;
-    if bytes.len() > max {
-        let detail = format!("{}: more than {max} bytes", path.display());
-        return Err(Problem::with_detail(ErrorCode::FileFormat, detail));
-    }
-    Ok(bytes)
+/// Reads a file of at most `max` bytes that was chosen by a person. Blocks.
+///
+/// # Errors
+/// [`FileError::Missing`], [`FileError::Unreadable`]; [`FileError::TooLarge`]: a file of the expected kind has not more
+/// than `max` bytes.
+pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, FileError> {
+    let bytes = read_bounded(path, max as u64).map_err(|source| FileError::reading(path, source))?;
+    if bytes.len() > max { Err(FileError::TooLarge { path: path.to_owned(), max }) } else { Ok(bytes) }
 }
 
 /// The contents of the other certificate files in the folder of one, of at most 50. One that cannot be read
@@ -70,14 +63,11 @@ const MAX_BESIDE: usize = 50;
 const MAX_LISTED: usize = 10_000;
 
 /// The only file with this extension in a folder, with a name as the manual wants it (6.2). Other files do not matter.
-fn single(folder: &Path, extension: &str) -> Result<PathBuf, Problem> {
-    let missing = || {
-        let detail = format!("{}: no .{extension}", folder.display());
-        Problem::with_detail(ErrorCode::FileNotFound, detail)
-    };
-    let unreadable = |e: io::Error| match e.kind() {
-        io::ErrorKind::NotFound => missing(),
-        _ => Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", folder.display())),
+fn single(folder: &Path, extension: &'static str) -> Result<PathBuf, FileError> {
+    let missing = || FileError::NoneOfKind { folder: folder.to_owned(), extension };
+    let unreadable = |source: io::Error| match FileError::reading(folder, source) {
+        FileError::Missing { .. } => missing(),
+        other => other,
     };
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).map_err(unreadable)? {
@@ -89,11 +79,8 @@ fn single(folder: &Path, extension: &str) -> Result<PathBuf, Problem> {
     match found.as_slice() {
         [] => Err(missing()),
         [path] if has_plain_name(path) => Ok(path.clone()),
-        [path] => Err(Problem::with_detail(ErrorCode::BadFileName, path.display())),
-        several => {
-            let detail = format!("{}: {} .{extension} files", folder.display(), several.len());
-            Err(Problem::with_detail(ErrorCode::SeveralFiles, detail))
-        }
+        [path] => Err(FileError::BadName(path.clone())),
+        several => Err(FileError::SeveralOfKind { folder: folder.to_owned(), extension, count: several.len() }),
     }
 }
 
@@ -107,14 +94,19 @@ fn has_plain_name(path: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{ErrorCode, Problem};
     use crate::workspace::Workspace;
+
+    fn code_of(error: FileError) -> ErrorCode {
+        Problem::from(error).code
+    }
 
     #[test]
     fn exactly_one_file_with_a_plain_name_is_found() {
         let root = tempfile::tempdir().unwrap();
         let files = Workspace::new(root.path().join("my workspace")).certificate_files();
         let serial: SerialNumber = "SN0000123".parse().unwrap();
-        let code = || files.find_ca_signed(&serial).map_err(|p| p.code);
+        let code = || files.find_ca_signed(&serial).map_err(code_of);
         assert_eq!(code(), Err(ErrorCode::FileNotFound), "no folder");
         let folder = files.ca_signed_folder(&serial);
         fs::create_dir_all(folder.join("folder.der")).unwrap();
@@ -139,12 +131,12 @@ mod tests {
         let folder = files.user_specified_folder(&serial);
         fs::create_dir_all(&folder).unwrap();
         fs::write(folder.join("ccc.der"), "x").unwrap();
-        assert_eq!(files.find_user_pair(&serial).unwrap_err().code, ErrorCode::FileNotFound);
+        assert_eq!(code_of(files.find_user_pair(&serial).unwrap_err()), ErrorCode::FileNotFound);
         fs::write(folder.join("ddd.key"), "x").unwrap();
-        assert_eq!(files.find_user_pair(&serial), Ok((folder.join("ccc.der"), folder.join("ddd.key"))));
-        assert_eq!(files.find_user_pfx(&serial).unwrap_err().code, ErrorCode::FileNotFound);
+        assert_eq!(files.find_user_pair(&serial).unwrap(), (folder.join("ccc.der"), folder.join("ddd.key")));
+        assert_eq!(code_of(files.find_user_pfx(&serial).unwrap_err()), ErrorCode::FileNotFound);
         fs::write(folder.join("eee.pfx"), "x").unwrap();
-        assert_eq!(files.find_user_pfx(&serial), Ok(folder.join("eee.pfx")));
+        assert_eq!(files.find_user_pfx(&serial).unwrap(), folder.join("eee.pfx"));
     }
 
     #[test]
@@ -164,11 +156,11 @@ mod tests {
     fn a_file_is_read_within_its_limit() {
         let root = tempfile::tempdir().unwrap();
         let path = root.path().join("x");
-        let code = |max| read_import_file(&path, max).map_err(|p| p.code);
+        let code = |max| read_import_file(&path, max).map_err(code_of);
         assert_eq!(code(3), Err(ErrorCode::FileNotFound));
         fs::write(&path, "abc").unwrap();
         assert_eq!(code(3), Ok(b"abc".to_vec()));
         assert_eq!(code(2), Err(ErrorCode::FileFormat));
-        assert_eq!(read_import_file(root.path(), 2).unwrap_err().code, ErrorCode::FileUnreadable);
+        assert_eq!(code_of(read_import_file(root.path(), 2).unwrap_err()), ErrorCode::FileUnreadable);
     }
 }

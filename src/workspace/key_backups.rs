@@ -4,10 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use secrecy::{ExposeSecret as _, SecretString};
+use thiserror::Error;
 
 use super::certificate_files::{CSR_KEY, SELF_SIGNED_KEY, csr_name, read_csr};
-use super::{CertificateFiles, certificate_files_beside, read_import_file};
-use crate::model::{ErrorCode, FileFormat, Problem, SerialNumber};
+use super::{CertificateFiles, FileError, certificate_files_beside, read_import_file};
+use crate::model::{FileFormat, SerialNumber};
 use crate::pki::{Certificate, Csr, MAX_PKCS12_BYTES, PkiError, PrivateKey, pkcs12_read, pkcs12_read_key, read_bundle};
 
 /// What a backup is of.
@@ -46,12 +47,35 @@ impl KeyBackup {
     }
 }
 
+/// Why a key cannot be put back.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum KeyBackupError {
+    /// The chosen file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The controller has no key file on the PC. `moved_aside`: the newest of those that a later one replaced.
+    #[error("{}{}", path.display(), moved(moved_aside.as_ref()))]
+    NoKey { path: PathBuf, moved_aside: Option<PathBuf> },
+    /// No signing request of the key is in this folder or beside the key.
+    #[error("{}: no 3_csr.der or 3_csr.pem of this key", .0.display())]
+    NoRequest(PathBuf),
+    /// The file is damaged, of another kind, or the password does not open it.
+    #[error("{}: {source}", path.display())]
+    Content { path: PathBuf, source: PkiError },
+}
+
+fn moved(aside: Option<&PathBuf>) -> String {
+    aside.map_or_else(String::new, |path| format!("; one that was moved aside: {}", path.display()))
+}
+
 impl KeyBackupSource {
     /// Finds and reads the backup for a controller. Blocks while the password is hashed.
     ///
-    /// Errors: [`ErrorCode::FileNotFound`] for a key or a request that is missing, [`ErrorCode::WrongKeyPassword`],
-    /// [`ErrorCode::FileFormat`] for files that are damaged or of another kind.
-    pub fn read(&self, serial: &SerialNumber, password: &SecretString) -> Result<KeyBackup, Problem> {
+    /// # Errors
+    /// [`KeyBackupError::NoKey`] and [`KeyBackupError::NoRequest`] for what is missing, [`KeyBackupError::Content`] with a
+    /// wrong password and for files that are damaged or of another kind.
+    pub fn read(&self, serial: &SerialNumber, password: &SecretString) -> Result<KeyBackup, KeyBackupError> {
         let path = self.path(serial)?;
         let bytes = read_import_file(&path, MAX_PKCS12_BYTES)?;
         let password = password.expose_secret();
@@ -80,7 +104,7 @@ impl KeyBackupSource {
     }
 
     /// The key file of a controller.
-    fn path(&self, serial: &SerialNumber) -> Result<PathBuf, Problem> {
+    fn path(&self, serial: &SerialNumber) -> Result<PathBuf, KeyBackupError> {
         if let Some(chosen) = &self.chosen {
             return Ok(chosen.clone());
         }
@@ -89,11 +113,8 @@ impl KeyBackupSource {
         if path.is_file() {
             return Ok(path);
         }
-        let mut detail = path.display().to_string();
-        if let Some(former) = moved_aside(&folder, name).last() {
-            detail = format!("{detail}; one that was moved aside: {}", former.display());
-        }
-        Err(Problem::with_detail(ErrorCode::FileNotFound, detail))
+        let moved_aside = moved_aside(&folder, name).pop();
+        Err(KeyBackupError::NoKey { path, moved_aside })
     }
 
     fn folder_and_name(&self, serial: &SerialNumber) -> (PathBuf, &'static str) {
@@ -114,7 +135,7 @@ fn moved_aside(folder: &Path, name: &str) -> Vec<PathBuf> {
 }
 
 /// The request of a key: in the folder of requests that goes with the key's, or beside the key.
-fn request_of(key: &PrivateKey, path: &Path) -> Result<Csr, Problem> {
+fn request_of(key: &PrivateKey, path: &Path) -> Result<Csr, KeyBackupError> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let requests = folder.with_file_name("CSR");
     // A key that was moved aside is one folder further down, and its request in a folder of the same name.
@@ -122,10 +143,8 @@ fn request_of(key: &PrivateKey, path: &Path) -> Result<Csr, Problem> {
     let former = above.as_ref().and_then(|requests| Some(requests.join(folder.file_name()?)));
     let folders = [Some(requests.clone()), former, above, Some(folder.to_owned())].into_iter().flatten();
     let mut files = folders.flat_map(|f| FileFormat::ALL.map(|format| f.join(csr_name(format))));
-    files.find_map(|file| read_csr(&file).filter(|csr| csr.is_of(key))).ok_or_else(|| {
-        let detail = format!("{}: no 3_csr.der or 3_csr.pem of this key", requests.display());
-        Problem::with_detail(ErrorCode::FileNotFound, detail)
-    })
+    let found = files.find_map(|file| read_csr(&file).filter(|csr| csr.is_of(key)));
+    found.ok_or(KeyBackupError::NoRequest(requests))
 }
 
 fn certificates_beside(path: &Path) -> Vec<Certificate> {
@@ -137,7 +156,6 @@ fn newest(certificates: impl Iterator<Item = Certificate>) -> Option<Certificate
     certificates.max_by_key(Certificate::not_after)
 }
 
-fn at(path: &Path, error: PkiError) -> Problem {
-    let Problem { code, .. } = error.clone().into();
-    Problem::with_detail(code, format!("{}: {error}", path.display()))
+fn at(path: &Path, source: PkiError) -> KeyBackupError {
+    KeyBackupError::Content { path: path.to_owned(), source }
 }

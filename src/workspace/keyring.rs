@@ -1,17 +1,28 @@
-use keyring::{Entry, Error};
+use keyring::{Entry as KeyringEntry, Error};
 use secrecy::{ExposeSecret as _, SecretString};
 
-use crate::model::{ErrorCode, Problem};
 use crate::pki::Fingerprint;
 
+/// Why the keyring did not answer.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum KeyringError {
+    /// The computer has no keyring.
+    #[error("there is no keyring")]
+    None,
+    /// The keyring is locked, or cannot be reached.
+    #[error("{0}")]
+    Failed(#[source] Error),
+}
+
 /// The operating system's keyring. Calls may block for as long as the user is asked to unlock it.
-///
-/// Errors: [`ErrorCode::KeyringUnavailable`] where there is no keyring, or it is locked.
 pub trait Keyring: Send + Sync {
     /// `None`: the keyring works and has no password of this controller.
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem>;
-    fn set(&self, controller: Fingerprint, password: &SecretString) -> Result<(), Problem>;
-    fn forget(&self, controller: Fingerprint) -> Result<(), Problem>;
+    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, KeyringError>;
+    /// Stores or replaces the password of a controller.
+    fn set(&self, controller: Fingerprint, password: &SecretString) -> Result<(), KeyringError>;
+    /// Deletes the password of a controller; nothing to do if there is none.
+    fn forget(&self, controller: Fingerprint) -> Result<(), KeyringError>;
 }
 
 /// Credential Manager on Windows, Keychain on macOS, the Secret Service of the desktop elsewhere.
@@ -21,34 +32,30 @@ pub struct SystemKeyring;
 impl SystemKeyring {
     const SERVICE: &str = "opcua-configurator";
 
-    fn entry(controller: Fingerprint) -> Result<Entry, Problem> {
-        Entry::new(Self::SERVICE, &controller.to_string()).map_err(unavailable)
+    fn entry(controller: Fingerprint) -> Result<KeyringEntry, KeyringError> {
+        KeyringEntry::new(Self::SERVICE, &controller.to_string()).map_err(KeyringError::Failed)
     }
 }
 
 impl Keyring for SystemKeyring {
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem> {
+    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, KeyringError> {
         match Self::entry(controller)?.get_password() {
             Ok(password) => Ok(Some(SecretString::from(password))),
             Err(Error::NoEntry) => Ok(None),
-            Err(error) => Err(unavailable(error)),
+            Err(error) => Err(KeyringError::Failed(error)),
         }
     }
 
-    fn set(&self, controller: Fingerprint, password: &SecretString) -> Result<(), Problem> {
-        Self::entry(controller)?.set_password(password.expose_secret()).map_err(unavailable)
+    fn set(&self, controller: Fingerprint, password: &SecretString) -> Result<(), KeyringError> {
+        Self::entry(controller)?.set_password(password.expose_secret()).map_err(KeyringError::Failed)
     }
 
-    fn forget(&self, controller: Fingerprint) -> Result<(), Problem> {
+    fn forget(&self, controller: Fingerprint) -> Result<(), KeyringError> {
         match Self::entry(controller)?.delete_credential() {
             Ok(()) | Err(Error::NoEntry) => Ok(()),
-            Err(error) => Err(unavailable(error)),
+            Err(error) => Err(KeyringError::Failed(error)),
         }
     }
-}
-
-fn unavailable(error: Error) -> Problem {
-    Problem::with_detail(ErrorCode::KeyringUnavailable, error)
 }
 
 /// A PC without a keyring.
@@ -56,15 +63,15 @@ fn unavailable(error: Error) -> Problem {
 pub struct NoKeyring;
 
 impl Keyring for NoKeyring {
-    fn get(&self, _: Fingerprint) -> Result<Option<SecretString>, Problem> {
-        Err(ErrorCode::KeyringUnavailable.into())
+    fn get(&self, _: Fingerprint) -> Result<Option<SecretString>, KeyringError> {
+        Err(KeyringError::None)
     }
 
-    fn set(&self, _: Fingerprint, _: &SecretString) -> Result<(), Problem> {
-        Err(ErrorCode::KeyringUnavailable.into())
+    fn set(&self, _: Fingerprint, _: &SecretString) -> Result<(), KeyringError> {
+        Err(KeyringError::None)
     }
 
-    fn forget(&self, _: Fingerprint) -> Result<(), Problem> {
-        Err(ErrorCode::KeyringUnavailable.into())
+    fn forget(&self, _: Fingerprint) -> Result<(), KeyringError> {
+        Err(KeyringError::None)
     }
 }

@@ -25,6 +25,7 @@ pub mod authority;
 mod certificate_files;
 mod configuration;
 mod connection_list;
+mod error;
 mod file_sets;
 mod import_files;
 mod key_backups;
@@ -33,6 +34,7 @@ mod own_identity;
 mod password_list;
 mod password_store;
 mod passwords;
+mod problem;
 mod recognise;
 mod running_window;
 mod settings_files;
@@ -42,30 +44,32 @@ use std::fs::{self, File, TryLockError};
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use thiserror::Error;
-
 pub use atomic::write_atomic;
-pub use certificate_files::{CertificateFiles, SavedCertificate, SavedCsr, SavedFile};
+pub use certificate_files::{CertificateFiles, SaveError, SavedCertificate, SavedCsr, SavedFile};
 pub use configuration::{
-    Configuration, ControllerEntry, MAX_PARALLELISM, Options, Retrieved, ThemeChoice, WindowState,
+    Configuration, ControllerEntry, MAX_PARALLELISM, NotUnique, Options, Retrieved, ThemeChoice, WindowState,
 };
 pub use connection_list::{
     CONNECTION_LIST_COLUMNS, ConnectionList, ConnectionListError, MAX_CONNECTION_LIST_BYTES, MAX_CONNECTIONS,
     NewConnection, PlannedConnection, Skipped,
 };
+pub use error::{FileError, WorkspaceError};
 pub use import_files::{certificate_files_beside, read_import_file};
-pub use key_backups::{BackupKind, KeyBackup, KeyBackupSource};
-pub use keyring::{Keyring, NoKeyring, SystemKeyring};
-pub use own_identity::{KeyFile, OwnIdentity, OwnIdentityFiles};
+pub use key_backups::{BackupKind, KeyBackup, KeyBackupError, KeyBackupSource};
+pub use keyring::{Keyring, KeyringError, NoKeyring, SystemKeyring};
+pub use own_identity::{KeyFile, OwnIdentity, OwnIdentityError, OwnIdentityFiles};
 pub use password_list::{MAX_PASSWORD_LIST_BYTES, PasswordList, PasswordListError};
 pub use password_store::{PasswordPlace, PasswordStore, StoreStatus, VaultState};
-pub use passwords::{MIN_PASSPHRASE_CHARS, MemoryPasswords, Passwords, check_passphrase, check_protects_files};
-pub use recognise::{MAX_RECOGNISED_BYTES, Recognised, recognise, recognise_file};
+pub use passwords::{
+    MIN_PASSPHRASE_CHARS, MemoryPasswords, PassphraseError, PasswordError, Passwords, check_passphrase,
+    check_protects_files,
+};
+pub use recognise::{MAX_RECOGNISED_BYTES, RecogniseError, Recognised, recognise, recognise_file};
 pub use running_window::{Shown, StartRequests, show_running_window};
-pub use settings_files::SettingsFiles;
+pub use settings_files::{SettingsFileError, SettingsFiles};
 pub use vault::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS, Vault, VaultError, VaultFiles};
 
-use crate::model::{ErrorCode, Problem, clock};
+use crate::model::clock;
 use crate::platform::replace;
 
 const CONFIGURATION: &str = "epson_opcua_config.json";
@@ -74,53 +78,6 @@ const LOCK: &str = ".lock";
 
 /// A configuration larger than this is not one (10,000 controllers take about 12 MB).
 const MAX_CONFIGURATION_BYTES: u64 = 64 * 1024 * 1024;
-
-/// Why the folder could not be used.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum WorkspaceError {
-    #[error("{}: {source}", path.display())]
-    NotWritable { path: PathBuf, source: io::Error },
-    #[error("{}: {source}", path.display())]
-    Full { path: PathBuf, source: io::Error },
-    #[error("{} is in use", .0.display())]
-    Busy(PathBuf),
-    /// Another program has a file open and does not let go of it; the source says which.
-    #[error("{0}")]
-    Held(io::Error),
-    #[error("{}: {source}", path.display())]
-    Unreadable { path: PathBuf, source: io::Error },
-    /// See [`is_reserved`](crate::model::file_names::is_reserved).
-    #[error("{}: \"{name}\" is a name that Windows keeps for itself", path.display())]
-    ReservedName { path: PathBuf, name: String },
-}
-
-impl WorkspaceError {
-    fn writing(path: &Path, source: io::Error) -> Self {
-        let path = path.to_owned();
-        match source.kind() {
-            io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
-                Self::Full { path, source }
-            }
-            io::ErrorKind::ResourceBusy => Self::Held(source),
-            _ => Self::NotWritable { path, source },
-        }
-    }
-}
-
-impl From<WorkspaceError> for Problem {
-    fn from(error: WorkspaceError) -> Self {
-        let code = match &error {
-            WorkspaceError::NotWritable { .. } => ErrorCode::WorkspaceReadOnly,
-            WorkspaceError::Full { .. } => ErrorCode::WorkspaceFull,
-            WorkspaceError::Busy(_) => ErrorCode::WorkspaceBusy,
-            WorkspaceError::Held(_) => ErrorCode::FileInUse,
-            WorkspaceError::Unreadable { .. } => ErrorCode::FileUnreadable,
-            WorkspaceError::ReservedName { .. } => ErrorCode::BadFileName,
-        };
-        Self::with_detail(code, error)
-    }
-}
 
 /// A workspace folder.
 #[derive(Debug, Clone)]
@@ -164,15 +121,6 @@ pub struct Loaded {
     pub configuration: Configuration,
     /// The file was damaged and is now kept under this name, with the reason.
     pub damaged: Option<(PathBuf, String)>,
-}
-
-impl Loaded {
-    /// What to tell the engineer, if anything.
-    pub fn notice(&self) -> Option<Problem> {
-        self.damaged.as_ref().map(|(path, reason)| {
-            Problem::with_detail(ErrorCode::ConfigurationDamaged, format!("{reason}; kept as {}", path.display()))
-        })
-    }
 }
 
 impl Workspace {
@@ -291,6 +239,7 @@ impl Workspace {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{ErrorCode, Problem};
 
     fn entry(name: &str) -> ControllerEntry {
         ControllerEntry {

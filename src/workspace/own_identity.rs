@@ -3,12 +3,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use chrono::{DateTime, Utc};
+use thiserror::Error;
 
 use zeroize::Zeroizing;
 
 use super::{WorkspaceError, atomic, read_bounded, write_atomic};
-use crate::model::{ErrorCode, Problem};
-use crate::pki::{Certificate, MAX_CERTIFICATE_BYTES, MAX_KEY_FILE_BYTES, client_identity, read_pair};
+use crate::pki::{Certificate, MAX_CERTIFICATE_BYTES, MAX_KEY_FILE_BYTES, PkiError, client_identity, read_pair};
 use crate::platform::replace;
 
 /// The configurator's own OPC UA application instance certificate and its key, made once for a workspace:
@@ -42,6 +42,30 @@ pub struct KeyFile {
     _copy: File,
 }
 
+/// Why this program has no identity to show to OPC UA servers.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum OwnIdentityError {
+    /// The files cannot be written.
+    #[error(transparent)]
+    Workspace(#[from] WorkspaceError),
+    /// Key and certificate could not be made.
+    #[error(transparent)]
+    Making(#[from] PkiError),
+    /// A file exists and cannot be read.
+    #[error("{}: {source}", path.display())]
+    Unreadable { path: PathBuf, source: io::Error },
+    /// Key and certificate are damaged, or do not belong together.
+    #[error("{}: {source}", path.display())]
+    Content { path: PathBuf, source: PkiError },
+    /// The key was protected by another Windows account.
+    #[error("{}: {source}", path.display())]
+    Unprotect { path: PathBuf, source: io::Error },
+    /// The current folder of the process is not known.
+    #[error("{0}")]
+    Path(#[source] io::Error),
+}
+
 impl OwnIdentity {
     /// The ApplicationUri in the certificate.
     pub fn application_uri(&self) -> String {
@@ -50,15 +74,14 @@ impl OwnIdentity {
 
     /// The key as the OPC UA library reads it. `folder` is one that only this account can use; on Windows a decrypted
     /// copy lies there, which is gone when the result is dropped or the process ends. Blocks.
-    pub fn open_key(&self, folder: &Path) -> Result<KeyFile, Problem> {
+    pub fn open_key(&self, folder: &Path) -> Result<KeyFile, OwnIdentityError> {
         #[cfg(windows)]
         {
             use std::io::Write as _;
 
             use crate::platform::windows::access::{Open, open_file};
             let path = folder.join("key.pem");
-            let unreadable =
-                |e: io::Error| Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", path.display()));
+            let unreadable = |source: io::Error| OwnIdentityError::Unreadable { path: path.clone(), source };
             let pem = read_key(&self.key_path)?.ok_or_else(|| unreadable(io::ErrorKind::NotFound.into()))?;
             let mut copy = open_file(&path, Open::Temporary).map_err(unreadable)?;
             copy.write_all(&pem).map_err(unreadable)?;
@@ -67,7 +90,7 @@ impl OwnIdentity {
         #[cfg(not(windows))]
         {
             let _ = folder;
-            let path = std::path::absolute(&self.key_path).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;
+            let path = std::path::absolute(&self.key_path).map_err(OwnIdentityError::Path)?;
             Ok(KeyFile { path })
         }
     }
@@ -85,9 +108,10 @@ impl OwnIdentityFiles {
 
     /// The identity; made if there is none yet, and anew once it has expired. Blocks, and makes a key.
     ///
-    /// Files that are there but damaged, or do not belong together, are [`ErrorCode::FileFormat`] and left alone: a new
-    /// identity would have to be trusted again everywhere.
-    pub fn load_or_make(&self, now: DateTime<Utc>) -> Result<OwnIdentity, Problem> {
+    /// # Errors
+    /// Files that are there but damaged, or do not belong together, are [`OwnIdentityError::Content`] and left alone: a
+    /// new identity would have to be trusted again everywhere.
+    pub fn load_or_make(&self, now: DateTime<Utc>) -> Result<OwnIdentity, OwnIdentityError> {
         let paths = OwnPaths { certificate: self.certificate_path(), key: self.folder.join(KEY) };
         if let Some(found) = paths.load(now)? {
             return Ok(found);
@@ -126,25 +150,25 @@ impl OwnPaths {
         OwnIdentity { certificate, certificate_path: self.certificate.clone(), key_path: self.key.clone() }
     }
 
-    fn load(&self, now: DateTime<Utc>) -> Result<Option<OwnIdentity>, Problem> {
+    fn load(&self, now: DateTime<Utc>) -> Result<Option<OwnIdentity>, OwnIdentityError> {
         let Some(certificate) = read(&self.certificate, MAX_CERTIFICATE_BYTES)? else { return Ok(None) };
         let Some(key) = read_key(&self.key)? else { return Ok(None) };
         let (_, certificate) = read_pair(&certificate, &key, None)
-            .map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", self.certificate.display())))?;
+            .map_err(|source| OwnIdentityError::Content { path: self.certificate.clone(), source })?;
         Ok((certificate.not_after() > now).then(|| self.identity(certificate)))
     }
 }
 
-fn read(path: &Path, most: usize) -> Result<Option<Vec<u8>>, Problem> {
+fn read(path: &Path, most: usize) -> Result<Option<Vec<u8>>, OwnIdentityError> {
     match read_bounded(path, most as u64) {
         Ok(bytes) => Ok(Some(bytes)),
         Err(e) if e.kind() == io::ErrorKind::NotFound => Ok(None),
-        Err(e) => Err(Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", path.display()))),
+        Err(source) => Err(OwnIdentityError::Unreadable { path: path.to_owned(), source }),
     }
 }
 
 /// The key in PEM; `None` if there is none.
-fn read_key(path: &Path) -> Result<Option<Zeroizing<Vec<u8>>>, Problem> {
+fn read_key(path: &Path) -> Result<Option<Zeroizing<Vec<u8>>>, OwnIdentityError> {
     let stored = read(path, MAX_KEY_FILE_BYTES)?.map(Zeroizing::new);
     #[cfg(not(windows))]
     return Ok(stored);
@@ -152,7 +176,7 @@ fn read_key(path: &Path) -> Result<Option<Zeroizing<Vec<u8>>>, Problem> {
     {
         let Some(stored) = stored else { return Ok(None) };
         let pem = crate::platform::windows::protect::unprotect(&stored);
-        pem.map(Some).map_err(|e| Problem::with_detail(ErrorCode::FileFormat, format!("{}: {e}", path.display())))
+        pem.map(Some).map_err(|source| OwnIdentityError::Unprotect { path: path.to_owned(), source })
     }
 }
 
@@ -178,6 +202,7 @@ const LOCK: &str = ".lock";
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{ErrorCode, Problem};
     use crate::platform::private;
     use chrono::Duration;
 
@@ -221,7 +246,7 @@ mod tests {
         let new = files.load_or_make(Utc::now()).unwrap();
         assert_ne!(old.certificate, new.certificate);
         std::fs::write(&new.key_path, "no key").unwrap();
-        assert_eq!(files.load_or_make(Utc::now()).unwrap_err().code, ErrorCode::FileFormat);
+        assert_eq!(Problem::from(files.load_or_make(Utc::now()).unwrap_err()).code, ErrorCode::FileFormat);
         assert_eq!(std::fs::read(&new.certificate_path).unwrap(), new.certificate.der());
         // A crash between the two files leaves a key alone.
         std::fs::remove_file(&new.certificate_path).unwrap();

@@ -6,7 +6,6 @@ use thiserror::Error;
 use zeroize::Zeroizing;
 
 use super::{MAX_CONNECTIONS, MAX_VAULT_PASSWORD_BYTES};
-use crate::model::{ErrorCode, Problem};
 
 /// A larger file is not a list of passwords.
 pub const MAX_PASSWORD_LIST_BYTES: usize = 16 * 1024 * 1024;
@@ -37,12 +36,6 @@ pub enum PasswordListError {
     Quotes(usize),
     #[error("the list has more than {MAX_CONNECTIONS} controllers")]
     TooMany,
-}
-
-impl From<PasswordListError> for Problem {
-    fn from(error: PasswordListError) -> Self {
-        Self::with_detail(ErrorCode::BadPasswordList, error)
-    }
 }
 
 impl std::fmt::Debug for PasswordList {
@@ -216,6 +209,7 @@ mod tests {
     use secrecy::ExposeSecret as _;
 
     use super::*;
+    use crate::model::{ErrorCode, Problem};
 
     fn list(text: &str) -> Vec<(String, String)> {
         let list = PasswordList::parse(text).unwrap();

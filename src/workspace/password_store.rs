@@ -4,9 +4,8 @@ use parking_lot::Mutex;
 use secrecy::SecretString;
 use serde::{Deserialize, Serialize};
 
-use super::vault::{Vault, VaultFiles};
-use super::{Keyring, MemoryPasswords, Passwords};
-use crate::model::{ErrorCode, Problem};
+use super::vault::{Vault, VaultError, VaultFiles};
+use super::{Keyring, MemoryPasswords, PasswordError, Passwords};
 use crate::pki::Fingerprint;
 
 /// Where connection passwords are kept.
@@ -59,7 +58,7 @@ impl StoreStatus {
 /// The passwords of a workspace: in the keyring, or in the vault where that was chosen or there is no keyring. What can
 /// be kept in neither is known until the program ends.
 ///
-/// A password is [`ErrorCode::VaultLocked`] while the vault that may hold it is closed; once its passphrase was
+/// A password is [`PasswordError::VaultClosed`] while the vault that may hold it is closed; once its passphrase was
 /// declined, it is merely not known.
 pub struct PasswordStore {
     vault: VaultFiles,
@@ -121,7 +120,7 @@ impl PasswordStore {
 
     /// Makes a vault and uses it from now on. The passwords of these controllers are taken over from the keyring, as
     /// far as it has them, and so is what could not be kept before. Returns how many there are.
-    pub fn create_vault(&self, passphrase: &SecretString, controllers: &[Fingerprint]) -> Result<usize, Problem> {
+    pub fn create_vault(&self, passphrase: &SecretString, controllers: &[Fingerprint]) -> Result<usize, PasswordError> {
         // Asked first: a keyring that waits for its user must not hold up others.
         let found: Vec<_> = controllers.iter().filter_map(|c| Some((*c, self.ask_keyring(*c)?))).collect();
         let mut vault = self.vault.create(passphrase)?;
@@ -131,7 +130,7 @@ impl PasswordStore {
 
     /// Opens the vault for the rest of the run, or until it is closed. Returns how many passwords are in it. What was
     /// entered and deleted while it was closed follows.
-    pub fn open_vault(&self, passphrase: &SecretString) -> Result<usize, Problem> {
+    pub fn open_vault(&self, passphrase: &SecretString) -> Result<usize, PasswordError> {
         Ok(self.opened(self.vault.open(passphrase)?, false))
     }
 
@@ -158,7 +157,7 @@ impl PasswordStore {
     }
 
     /// Seals the vault under another passphrase, if the present one is right. It is open afterwards.
-    pub fn change_passphrase(&self, present: &SecretString, new: &SecretString) -> Result<(), Problem> {
+    pub fn change_passphrase(&self, present: &SecretString, new: &SecretString) -> Result<(), PasswordError> {
         let mut vault = self.vault.open(present)?;
         vault.change_passphrase(new)?;
         self.opened(vault, false);
@@ -187,33 +186,26 @@ impl PasswordStore {
     }
 
     /// Takes passwords out of the open vault; how many of them were there.
-    pub fn forget_in_vault(&self, controllers: &[Fingerprint]) -> Result<usize, Problem> {
+    pub fn forget_in_vault(&self, controllers: &[Fingerprint]) -> Result<usize, PasswordError> {
         self.with_vault(|vault| vault.forget(controllers))
     }
 
     /// Puts passwords into the open vault, all of them or none.
-    pub fn put_into_vault(&self, passwords: Vec<(Fingerprint, SecretString)>) -> Result<(), Problem> {
+    pub fn put_into_vault(&self, passwords: Vec<(Fingerprint, SecretString)>) -> Result<(), PasswordError> {
         self.with_vault(|vault| vault.set_all(passwords))
     }
 
-    /// [`ErrorCode::VaultLocked`] unless it is open, or [`ErrorCode::VaultMissing`].
-    fn with_vault<T>(
-        &self,
-        work: impl FnOnce(&mut Vault) -> Result<T, super::vault::VaultError>,
-    ) -> Result<T, Problem> {
+    /// [`PasswordError::VaultClosed`] unless it is open, or [`PasswordError::NoVault`].
+    fn with_vault<T>(&self, work: impl FnOnce(&mut Vault) -> Result<T, VaultError>) -> Result<T, PasswordError> {
         let mut state = self.state.lock();
         let Access::Open(vault) = &mut state.access else {
-            let code = if self.vault.exists() { ErrorCode::VaultLocked } else { ErrorCode::VaultMissing };
-            return Err(code.into());
+            return Err(if self.vault.exists() { PasswordError::VaultClosed } else { PasswordError::NoVault });
         };
-        let problem = match work(vault) {
-            Ok(done) => return Ok(done),
-            Err(error) => Problem::from(error),
-        };
-        if problem.code == ErrorCode::VaultLocked {
+        let done = work(vault);
+        if matches!(done, Err(VaultError::PassphraseChanged(_))) {
             state.access = Access::Closed;
         }
-        Err(problem)
+        Ok(done?)
     }
 
     /// Whether the vault holds passwords, or would.
@@ -229,8 +221,8 @@ impl PasswordStore {
     fn ask_keyring(&self, controller: Fingerprint) -> Option<SecretString> {
         match self.keyring.get(controller) {
             Ok(password) => password,
-            Err(problem) => {
-                tracing::debug!(%problem, "no password from the keyring");
+            Err(error) => {
+                tracing::debug!(%error, "no password from the keyring");
                 self.state.lock().keyring_fails = true;
                 None
             }
@@ -249,7 +241,7 @@ impl PasswordStore {
 }
 
 impl Passwords for PasswordStore {
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem> {
+    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
         if let Some(password) = self.memory.known(controller) {
             return Ok(Some(password));
         }
@@ -267,16 +259,16 @@ impl Passwords for PasswordStore {
         self.with_vault(|vault| vault.get(controller))
     }
 
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem> {
+    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), PasswordError> {
         self.set_for(&[controller], &password)
     }
 
-    fn set_for(&self, controllers: &[Fingerprint], password: &SecretString) -> Result<(), Problem> {
+    fn set_for(&self, controllers: &[Fingerprint], password: &SecretString) -> Result<(), PasswordError> {
         let mut result = Ok(());
         if !self.uses_vault() {
             for controller in controllers {
                 // One that cannot be kept must not keep the others out.
-                result = self.keyring.set(*controller, password).and(result);
+                result = self.keyring.set(*controller, password).map_err(PasswordError::from).and(result);
                 self.memory.put(*controller, password.clone());
             }
             if result.is_ok() {
@@ -302,8 +294,8 @@ impl Passwords for PasswordStore {
         if self.with_vault(|vault| vault.forget(&[controller])).is_err() {
             self.state.lock().to_forget.insert(controller);
         }
-        if let Err(problem) = self.keyring.forget(controller) {
-            tracing::debug!(%problem, "no password deleted from the keyring");
+        if let Err(error) = self.keyring.forget(controller) {
+            tracing::debug!(%error, "no password deleted from the keyring");
         }
     }
 
@@ -317,7 +309,8 @@ mod tests {
     use secrecy::ExposeSecret as _;
 
     use super::*;
-    use crate::workspace::{NoKeyring, Workspace};
+    use crate::model::{ErrorCode, Problem};
+    use crate::workspace::{KeyringError, NoKeyring, Workspace};
 
     const PASSPHRASE: &str = "correct horse";
 
@@ -326,17 +319,21 @@ mod tests {
     struct Works(MemoryPasswords);
 
     impl Keyring for Works {
-        fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem> {
+        fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, KeyringError> {
             Ok(self.0.known(controller))
         }
-        fn set(&self, controller: Fingerprint, password: &SecretString) -> Result<(), Problem> {
+        fn set(&self, controller: Fingerprint, password: &SecretString) -> Result<(), KeyringError> {
             self.0.put(controller, password.clone());
             Ok(())
         }
-        fn forget(&self, controller: Fingerprint) -> Result<(), Problem> {
+        fn forget(&self, controller: Fingerprint) -> Result<(), KeyringError> {
             self.0.forget(controller);
             Ok(())
         }
+    }
+
+    fn code(error: PasswordError) -> ErrorCode {
+        Problem::from(error).code
     }
 
     struct Pc(tempfile::TempDir);
@@ -356,12 +353,12 @@ mod tests {
     }
 
     fn get(store: &PasswordStore, name: &str) -> Result<Option<String>, ErrorCode> {
-        let password = store.get(id(name)).map_err(|problem| problem.code)?;
+        let password = store.get(id(name)).map_err(code)?;
         Ok(password.map(|password| password.expose_secret().to_owned()))
     }
 
     fn set(store: &PasswordStore, name: &str, password: &str) -> Result<(), ErrorCode> {
-        store.set(id(name), password.into()).map_err(|problem| problem.code)
+        store.set(id(name), password.into()).map_err(code)
     }
 
     #[test]
@@ -374,14 +371,14 @@ mod tests {
         assert_eq!(set(&store, "weld", "a"), Err(ErrorCode::KeyringUnavailable));
         assert_eq!(get(&store, "weld"), Ok(Some("a".into())));
         // A vault that is made now takes it in.
-        assert_eq!(store.create_vault(&PASSPHRASE.into(), &[id("weld")]), Ok(1));
+        assert_eq!(store.create_vault(&PASSPHRASE.into(), &[id("weld")]).unwrap(), 1);
         assert_eq!(set(&store, "paint", ""), Ok(()));
         assert!(store.status().keeps());
 
         let later = pc.start(PasswordPlace::Keyring, NoKeyring);
         assert_eq!(get(&later, "weld"), Err(ErrorCode::VaultLocked), "there is no keyring, but a vault");
-        assert_eq!(later.open_vault(&"correct house".into()).unwrap_err().code, ErrorCode::VaultPassphrase);
-        assert_eq!(later.open_vault(&PASSPHRASE.into()), Ok(2));
+        assert_eq!(code(later.open_vault(&"correct house".into()).unwrap_err()), ErrorCode::VaultPassphrase);
+        assert_eq!(later.open_vault(&PASSPHRASE.into()).unwrap(), 2);
         assert_eq!(get(&later, "weld"), Ok(Some("a".into())));
         assert_eq!(get(&later, "paint"), Ok(Some(String::new())), "a controller without a password is known as such");
         assert_eq!(get(&later, "other"), Ok(None));
@@ -400,7 +397,7 @@ mod tests {
         assert_eq!(store.status().vault, VaultState::Declined);
         // What was entered and deleted meanwhile follows.
         store.forget(id("gone"));
-        assert_eq!(store.open_vault(&PASSPHRASE.into()), Ok(1));
+        assert_eq!(store.open_vault(&PASSPHRASE.into()).unwrap(), 1);
         store.close_vault();
         assert_eq!(get(&store, "weld"), Err(ErrorCode::VaultLocked), "closing forgets");
     }
@@ -415,7 +412,7 @@ mod tests {
         set(&store, "paint", "b").unwrap();
         store.close_vault();
         store.forget(id("weld"));
-        assert_eq!(store.open_vault(&PASSPHRASE.into()), Ok(1));
+        assert_eq!(store.open_vault(&PASSPHRASE.into()).unwrap(), 1);
         store.forget(id("paint"));
         assert_eq!(store.in_vault(), Some(vec![]));
     }
@@ -426,7 +423,7 @@ mod tests {
         let store = pc.start(PasswordPlace::Keyring, Works::default());
         set(&store, "weld", "a").unwrap();
         assert_eq!(store.status().vault, VaultState::None);
-        assert_eq!(store.create_vault(&PASSPHRASE.into(), &[id("weld"), id("paint")]), Ok(1), "taken over");
+        assert_eq!(store.create_vault(&PASSPHRASE.into(), &[id("weld"), id("paint")]).unwrap(), 1, "taken over");
         set(&store, "paint", "b").unwrap();
         assert_eq!(
             store.status(),
@@ -443,14 +440,12 @@ mod tests {
         let store = pc.start(PasswordPlace::Vault, NoKeyring);
         store.create_vault(&PASSPHRASE.into(), &[]).unwrap();
         set(&store, "weld", "a").unwrap();
-        let change = |present: &str, new: &str| {
-            store.change_passphrase(&present.into(), &new.into()).map_err(|problem| problem.code)
-        };
+        let change = |present: &str, new: &str| store.change_passphrase(&present.into(), &new.into()).map_err(code);
         assert_eq!(change("correct house", "another one"), Err(ErrorCode::VaultPassphrase));
         assert_eq!(change(PASSPHRASE, "short"), Err(ErrorCode::BadPassphrase));
         assert_eq!(change(PASSPHRASE, "another one"), Ok(()));
         let later = pc.start(PasswordPlace::Vault, NoKeyring);
-        assert_eq!(later.open_vault(&PASSPHRASE.into()).unwrap_err().code, ErrorCode::VaultPassphrase);
-        assert_eq!(later.open_vault(&"another one".into()), Ok(1));
+        assert_eq!(code(later.open_vault(&PASSPHRASE.into()).unwrap_err()), ErrorCode::VaultPassphrase);
+        assert_eq!(later.open_vault(&"another one".into()).unwrap(), 1);
     }
 }

@@ -2,10 +2,36 @@ use std::collections::HashMap;
 
 use parking_lot::Mutex;
 use secrecy::{ExposeSecret as _, SecretString};
+use thiserror::Error;
 
-use super::PasswordStore;
-use crate::model::{ErrorCode, Problem};
+use super::{KeyringError, PasswordStore, VaultError};
 use crate::pki::Fingerprint;
+
+/// Why a connection password cannot be looked up or kept.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum PasswordError {
+    #[error(transparent)]
+    Keyring(#[from] KeyringError),
+    #[error(transparent)]
+    Vault(#[from] VaultError),
+    /// The vault that may hold the password is not open.
+    #[error("the vault is closed")]
+    VaultClosed,
+    #[error("there is no vault")]
+    NoVault,
+}
+
+/// Why a passphrase or password does not protect a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[non_exhaustive]
+pub enum PassphraseError {
+    #[error("a passphrase has at least {MIN_PASSPHRASE_CHARS} characters")]
+    TooShort,
+    /// A connection password may be empty, but then it protects nothing.
+    #[error("an empty password protects no file")]
+    Empty,
+}
 
 /// Where connection passwords are kept between jobs.
 ///
@@ -13,14 +39,14 @@ use crate::pki::Fingerprint;
 /// empty password is a password: that of a controller that has none. Calls may block (a keyring may ask the user to
 /// unlock it): not for the window's thread.
 pub trait Passwords: Send + Sync {
-    /// `None`: not known. An error says why it cannot be found out, as [`ErrorCode::VaultLocked`] does.
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem>;
+    /// `None`: not known. An error says why it cannot be found out, as [`PasswordError::VaultClosed`] does.
+    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError>;
 
-    /// Remembers a password at least until the program ends. An error says that it will not outlive that.
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem>;
+    /// Remembers a password at least until the program ends. With an error, it is forgotten then.
+    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), PasswordError>;
 
     /// Remembers the same password for several controllers; of several errors, the last.
-    fn set_for(&self, controllers: &[Fingerprint], password: &SecretString) -> Result<(), Problem> {
+    fn set_for(&self, controllers: &[Fingerprint], password: &SecretString) -> Result<(), PasswordError> {
         let mut result = Ok(());
         for controller in controllers {
             // One that cannot be kept must not keep the others out.
@@ -29,6 +55,7 @@ pub trait Passwords: Send + Sync {
         result
     }
 
+    /// Drops the password of a controller everywhere.
     fn forget(&self, controller: Fingerprint);
 
     /// The store with the vault, where this is one.
@@ -41,17 +68,23 @@ pub trait Passwords: Send + Sync {
 pub const MIN_PASSPHRASE_CHARS: usize = 8;
 
 /// Refuses a passphrase shorter than [`MIN_PASSPHRASE_CHARS`].
-pub fn check_passphrase(passphrase: &SecretString) -> Result<(), Problem> {
+///
+/// # Errors
+/// [`PassphraseError::TooShort`].
+pub fn check_passphrase(passphrase: &SecretString) -> Result<(), PassphraseError> {
     if passphrase.expose_secret().chars().count() < MIN_PASSPHRASE_CHARS {
-        return Err(ErrorCode::BadPassphrase.into());
+        return Err(PassphraseError::TooShort);
     }
     Ok(())
 }
 
-/// Refuses to protect a file by a connection password that is empty ([`ErrorCode::UnprotectedFile`]).
-pub fn check_protects_files(connection_password: &SecretString) -> Result<(), Problem> {
+/// Refuses to protect a file by a connection password that is empty.
+///
+/// # Errors
+/// [`PassphraseError::Empty`].
+pub fn check_protects_files(connection_password: &SecretString) -> Result<(), PassphraseError> {
     if connection_password.expose_secret().is_empty() {
-        return Err(ErrorCode::UnprotectedFile.into());
+        return Err(PassphraseError::Empty);
     }
     Ok(())
 }
@@ -77,11 +110,11 @@ impl MemoryPasswords {
 }
 
 impl Passwords for MemoryPasswords {
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, Problem> {
+    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
         Ok(self.known(controller))
     }
 
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), Problem> {
+    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), PasswordError> {
         self.put(controller, password);
         Ok(())
     }

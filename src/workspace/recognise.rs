@@ -1,12 +1,13 @@
 //! What a file that somebody hands over is, by its content.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
+use thiserror::Error;
 
-use super::{ConnectionList, MAX_CONNECTION_LIST_BYTES, read_import_file};
+use super::{ConnectionList, FileError, MAX_CONNECTION_LIST_BYTES, read_import_file};
 use crate::model::activation::{self, MAX_ACTIVATION_FILE_BYTES};
-use crate::model::{ErrorCode, Problem, text};
+use crate::model::text;
 use crate::pki::{self, PkiKind};
 use crate::protocol::{EXPORT_FORMAT, MAX_EXPORT_BYTES};
 
@@ -43,14 +44,22 @@ pub fn recognise(bytes: &[u8]) -> Option<Recognised> {
     pki::recognise(bytes).map(Recognised::Pki)
 }
 
+/// Why a file is not recognised.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum RecogniseError {
+    /// The file cannot be read, or is larger than [`MAX_RECOGNISED_BYTES`].
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The content is nothing that this program reads.
+    #[error("{}", .0.display())]
+    Unknown(PathBuf),
+}
+
 /// Reads a file of at most [`MAX_RECOGNISED_BYTES`] and says what it is. Blocks.
-pub fn recognise_file(path: &Path) -> Result<Recognised, Problem> {
-    let bytes = read_import_file(path, MAX_RECOGNISED_BYTES).map_err(|problem| match problem.code {
-        ErrorCode::FileFormat => Problem { code: ErrorCode::FileTooLarge, ..problem },
-        ErrorCode::FileNotFound => Problem { code: ErrorCode::FileUnreadable, ..problem },
-        _ => problem,
-    })?;
-    recognise(&bytes).ok_or_else(|| Problem::with_detail(ErrorCode::FileNotRecognised, path.display()))
+pub fn recognise_file(path: &Path) -> Result<Recognised, RecogniseError> {
+    let bytes = read_import_file(path, MAX_RECOGNISED_BYTES)?;
+    recognise(&bytes).ok_or_else(|| RecogniseError::Unknown(path.to_owned()))
 }
 
 fn is_export(text: &str) -> bool {
@@ -65,6 +74,7 @@ const MAX_HEAD_BYTES: usize = 1024;
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::{ErrorCode, Problem};
 
     #[test]
     fn every_kind_is_recognised_by_its_content() {
@@ -92,7 +102,7 @@ mod tests {
     fn a_file_that_cannot_be_used_is_told_apart() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("x.csv");
-        let code = || recognise_file(&path).map_err(|problem| problem.code);
+        let code = || recognise_file(&path).map_err(|error| Problem::from(error).code);
         assert_eq!(code(), Err(ErrorCode::FileUnreadable), "it is not there");
         std::fs::write(&path, "hello").unwrap();
         assert_eq!(code(), Err(ErrorCode::FileNotRecognised));
@@ -100,6 +110,10 @@ mod tests {
         assert_eq!(code(), Err(ErrorCode::FileTooLarge));
         std::fs::write(&path, "Name,Type,Address\n").unwrap();
         assert_eq!(code(), Ok(Recognised::ConnectionList));
-        assert_eq!(recognise_file(folder.path()).unwrap_err().code, ErrorCode::FileUnreadable, "a folder");
+        assert_eq!(
+            Problem::from(recognise_file(folder.path()).unwrap_err()).code,
+            ErrorCode::FileUnreadable,
+            "a folder"
+        );
     }
 }

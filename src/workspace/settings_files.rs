@@ -1,9 +1,11 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use super::{WorkspaceError, read_bounded, read_import_file, write_atomic};
-use crate::model::{ErrorCode, Problem, SerialNumber};
-use crate::protocol::{MAX_EXPORT_BYTES, SettingsExport};
+use thiserror::Error;
+
+use super::{FileError, WorkspaceError, read_bounded, read_import_file, write_atomic};
+use crate::model::SerialNumber;
+use crate::protocol::{ExportError, MAX_EXPORT_BYTES, SettingsExport};
 
 /// The settings exports kept on the PC, one a controller: `<workspace>/<serial>/option.json` (manual 2.6.4, 2.6.5,
 /// appendix B-1).
@@ -12,6 +14,24 @@ pub struct SettingsFiles {
     root: PathBuf,
     /// Loaded instead of the controller's own.
     chosen: Option<PathBuf>,
+}
+
+/// Why a controller's export cannot be loaded.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum SettingsFileError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The file is not a whole export.
+    #[error(transparent)]
+    Content(#[from] ExportError),
+    /// The export has another name than the one expected (manual 2.6.5).
+    #[error("{}", .0.display())]
+    Renamed(PathBuf),
+    /// There is no export of the controller.
+    #[error("{}", .0.display())]
+    Missing(PathBuf),
 }
 
 const FILE: &str = "option.json";
@@ -44,7 +64,7 @@ impl SettingsFiles {
 
     /// The controller's export and its file, whole, but of whom and whether it opens is still to be seen. An export
     /// under another name is not looked for, but said to be there (manual 2.6.5).
-    pub fn load(&self, serial: &SerialNumber) -> Result<(SettingsExport, PathBuf), Problem> {
+    pub fn load(&self, serial: &SerialNumber) -> Result<(SettingsExport, PathBuf), SettingsFileError> {
         if let Some(file) = &self.chosen {
             return Ok((SettingsExport::from_json(&read_import_file(file, MAX_EXPORT_BYTES)?)?, file.clone()));
         }
@@ -52,10 +72,10 @@ impl SettingsFiles {
         match read(&path) {
             Ok(bytes) => Ok((SettingsExport::from_json(&bytes)?, path)),
             Err(error) if error.kind() == io::ErrorKind::NotFound => match renamed(&path) {
-                Some(found) => Err(Problem::with_detail(ErrorCode::ExportRenamed, found.display())),
-                None => Err(Problem::with_detail(ErrorCode::ExportMissing, path.display())),
+                Some(found) => Err(SettingsFileError::Renamed(found)),
+                None => Err(SettingsFileError::Missing(path)),
             },
-            Err(error) => Err(Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {error}", path.display()))),
+            Err(source) => Err(FileError::Unreadable { path, source }.into()),
         }
     }
 }

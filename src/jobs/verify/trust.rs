@@ -31,7 +31,7 @@ impl Operation for TrustConfigurator {
 /// The program's own certificate; made if there is none yet.
 pub(super) async fn own(files: &OwnIdentityFiles, run: &Run<'_>) -> Result<OwnIdentity, Problem> {
     let files = files.clone();
-    run.on_a_core(move || files.load_or_make(clock::now())).await?
+    Ok(run.on_a_core(move || files.load_or_make(clock::now())).await??)
 }
 
 /// Does nothing if it is trusted already.

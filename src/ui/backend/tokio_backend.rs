@@ -220,9 +220,8 @@ async fn remember(
     controllers: Vec<crate::pki::Fingerprint>,
     password: SecretString,
 ) -> Result<(), Problem> {
-    tokio::task::spawn_blocking(move || passwords.set_for(&controllers, &password))
-        .await
-        .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?
+    let kept = tokio::task::spawn_blocking(move || passwords.set_for(&controllers, &password));
+    Ok(kept.await.map_err(|e| Problem::with_detail(ErrorCode::Internal, e))??)
 }
 
 /// What the store is like, before the event of the work that may have changed it.
@@ -313,7 +312,7 @@ impl Backend for TokioBackend {
             Command::ReadFile { job, path, most } => {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
-                        let result = workspace::read_import_file(&path, most);
+                        let result = workspace::read_import_file(&path, most).map_err(Problem::from);
                         emit(Event::FileRead { job, result: result.map(|bytes| (path, FileContents(bytes))) });
                     });
                 }
@@ -340,7 +339,7 @@ impl Backend for TokioBackend {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
                         let files = paths.into_iter().map(|path| {
-                            let found = workspace::recognise_file(&path);
+                            let found = workspace::recognise_file(&path).map_err(Problem::from);
                             DroppedFile { path, found }
                         });
                         emit(Event::Recognised { job, files: files.collect() });

@@ -10,7 +10,7 @@ use crate::workspace;
 
 /// Blocks.
 pub fn read(path: PathBuf) -> ReadTrustFile {
-    let result = workspace::read_import_file(&path, MAX_BUNDLE_BYTES).and_then(|bytes| {
+    let result = workspace::read_import_file(&path, MAX_BUNDLE_BYTES).map_err(Problem::from).and_then(|bytes| {
         let bundle = pki::read_bundle(&bytes)
             .map_err(|e| Problem::with_detail(ErrorCode::BadCertificate, format!("{}: {e}", path.display())))?;
         let file_name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned();

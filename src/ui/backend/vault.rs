@@ -34,9 +34,13 @@ impl VaultWork {
     pub(super) fn run(self, store: Option<&PasswordStore>) -> Option<Result<(), Problem>> {
         let Some(store) = store else { return Some(Err(ErrorCode::VaultMissing.into())) };
         match self {
-            Self::Create { passphrase, controllers } => Some(store.create_vault(&passphrase, &controllers).map(drop)),
-            Self::Open { passphrase } => Some(store.open_vault(&passphrase).map(drop)),
-            Self::ChangePassphrase { passphrase, new } => Some(store.change_passphrase(&passphrase, &new)),
+            Self::Create { passphrase, controllers } => {
+                Some(store.create_vault(&passphrase, &controllers).map(drop).map_err(Problem::from))
+            }
+            Self::Open { passphrase } => Some(store.open_vault(&passphrase).map(drop).map_err(Problem::from)),
+            Self::ChangePassphrase { passphrase, new } => {
+                Some(store.change_passphrase(&passphrase, &new).map_err(Problem::from))
+            }
             Self::Use(place) => {
                 store.use_place(place);
                 None

@@ -118,19 +118,19 @@ fn is_below(file: &Path, folder: &Path) -> bool {
 }
 
 fn read(path: &Path, passphrase: &SecretString) -> Result<Content, AuthorityError> {
-    let damaged = |reason: String| AuthorityError::BackupDamaged { path: path.to_owned(), reason };
+    let damaged = |source| AuthorityError::BackupDamaged { path: path.to_owned(), source };
     let bytes = read_bounded(path, MAX_BACKUP_BYTES)
         .map_err(|source| AuthorityError::Unreadable { path: path.to_owned(), source })?;
     if bytes.len() as u64 > MAX_BACKUP_BYTES {
-        return Err(damaged(format!("it has more than {MAX_BACKUP_BYTES} bytes")));
+        return Err(damaged(format!("it has more than {MAX_BACKUP_BYTES} bytes").into()));
     }
-    let text = text::decode(&bytes).map_err(|e| damaged(e.to_string()))?;
-    let backup: Backup = serde_json::from_str(&text).map_err(|e| damaged(e.to_string()))?;
+    let text = text::decode(&bytes).map_err(|e| damaged(e.into()))?;
+    let backup: Backup = serde_json::from_str(&text).map_err(|e| damaged(e.into()))?;
     if backup.format != FORMAT || backup.version != VERSION {
-        return Err(damaged(format!("it is \"{}\", version {}", backup.format, backup.version)));
+        return Err(damaged(format!("it is \"{}\", version {}", backup.format, backup.version).into()));
     }
     let context = backup.context();
-    let odd = |_| damaged("it is cut short".to_owned());
+    let odd = |_| damaged("it is cut short".into());
     let sealed = Sealed {
         salt: <[u8; SEAL_SALT_BYTES]>::try_from(backup.salt.0).map_err(odd)?,
         nonce: <[u8; SEAL_NONCE_BYTES]>::try_from(backup.nonce.0).map_err(odd)?,
@@ -138,10 +138,10 @@ fn read(path: &Path, passphrase: &SecretString) -> Result<Content, AuthorityErro
     };
     let plain = open(&sealed, context.as_bytes(), passphrase).map_err(|error| match error {
         SealError::NotOpened => AuthorityError::BackupPassphrase(path.to_owned()),
-        error => damaged(error.to_string()),
+        error => damaged(error.into()),
     })?;
-    let content: Content = serde_json::from_slice(&plain).map_err(|e| damaged(e.to_string()))?;
-    check(&content, passphrase).map_err(damaged)?;
+    let content: Content = serde_json::from_slice(&plain).map_err(|e| damaged(e.into()))?;
+    check(&content, passphrase).map_err(|reason| damaged(reason.into()))?;
     Ok(content)
 }
 

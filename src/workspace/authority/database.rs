@@ -136,7 +136,7 @@ impl Database {
 
     /// The content of the file at `path`, which only the error names.
     pub fn from_json(json: &[u8], path: &Path) -> Result<Self, AuthorityError> {
-        Self::parse(json).map_err(|reason| AuthorityError::Damaged { path: path.to_owned(), reason })
+        Self::parse(json).map_err(|reason| AuthorityError::Damaged { path: path.to_owned(), source: reason.into() })
     }
 
     fn parse(json: &[u8]) -> Result<Self, String> {

@@ -3,9 +3,11 @@ use std::path::PathBuf;
 use chrono::{DateTime, Utc};
 use thiserror::Error;
 
-use crate::model::{ErrorCode, Problem};
 use crate::pki::PkiError;
-use crate::workspace::WorkspaceError;
+use crate::workspace::{PassphraseError, WorkspaceError};
+
+/// The error of a reader, or a sentence in English.
+type Cause = Box<dyn std::error::Error + Send + Sync>;
 
 /// Why the small CA did not do what it was asked for. Holds no secret.
 #[derive(Debug, Error)]
@@ -15,12 +17,13 @@ pub enum AuthorityError {
     Missing(PathBuf),
     #[error("{} is there", .0.display())]
     Exists(PathBuf),
-    #[error("{}: {reason}", path.display())]
-    Damaged { path: PathBuf, reason: String },
+    /// A file of the CA cannot be read, or does not hold what it should.
+    #[error("{}: {source}", path.display())]
+    Damaged { path: PathBuf, source: Cause },
     #[error("the passphrase does not open {}", .0.display())]
     Passphrase(PathBuf),
-    #[error("a passphrase needs more characters")]
-    ShortPassphrase,
+    #[error(transparent)]
+    ShortPassphrase(#[from] PassphraseError),
     #[error("certificate {serial_number}, valid until {not_after}, is for the same key")]
     AlreadySigned { serial_number: String, not_after: DateTime<Utc> },
     #[error("\"{0}\"")]
@@ -29,8 +32,8 @@ pub enum AuthorityError {
     AlreadyRevoked { serial_number: String, at: DateTime<Utc> },
     #[error("the database has {0} certificates, which is the most it holds")]
     Full(usize),
-    #[error("{}: {reason}", path.display())]
-    BackupDamaged { path: PathBuf, reason: String },
+    #[error("{}: {source}", path.display())]
+    BackupDamaged { path: PathBuf, source: Cause },
     #[error("the passphrase does not open {}", .0.display())]
     BackupPassphrase(PathBuf),
     #[error("{}: {source}", path.display())]
@@ -39,29 +42,4 @@ pub enum AuthorityError {
     Workspace(#[from] WorkspaceError),
     #[error(transparent)]
     Pki(#[from] PkiError),
-}
-
-impl From<AuthorityError> for Problem {
-    fn from(error: AuthorityError) -> Self {
-        let code = match error {
-            AuthorityError::Workspace(WorkspaceError::Busy(path)) => {
-                return Self::with_detail(ErrorCode::AuthorityBusy, path.display());
-            }
-            AuthorityError::Workspace(error) => return error.into(),
-            AuthorityError::Pki(error) => return error.into(),
-            AuthorityError::Missing(_) => ErrorCode::NoAuthority,
-            AuthorityError::Exists(_) => ErrorCode::AuthorityExists,
-            AuthorityError::Damaged { .. } => ErrorCode::AuthorityDamaged,
-            AuthorityError::Passphrase(_) => ErrorCode::AuthorityPassphrase,
-            AuthorityError::ShortPassphrase => return ErrorCode::BadPassphrase.into(),
-            AuthorityError::AlreadySigned { .. } => ErrorCode::AlreadySigned,
-            AuthorityError::UnknownSerial(_) => ErrorCode::UnknownSerial,
-            AuthorityError::AlreadyRevoked { .. } => ErrorCode::AlreadyRevoked,
-            AuthorityError::Full(_) => ErrorCode::ListFull,
-            AuthorityError::BackupDamaged { .. } => ErrorCode::BackupDamaged,
-            AuthorityError::BackupPassphrase(_) => ErrorCode::BackupPassphrase,
-            AuthorityError::Unreadable { .. } => ErrorCode::FileUnreadable,
-        };
-        Self::with_detail(code, error)
-    }
 }

@@ -77,7 +77,7 @@ impl AuthorityFiles {
         passphrase: &SecretString,
         now: DateTime<Utc>,
     ) -> Result<Authority, AuthorityError> {
-        check_passphrase(passphrase).map_err(|_| AuthorityError::ShortPassphrase)?;
+        check_passphrase(passphrase)?;
         let lock = self.lock_absent()?;
         let path_length = u8::from(new.intermediate.is_some());
         let key = PrivateKey::generate(new.root.key_length)?;
@@ -125,8 +125,8 @@ impl AuthorityFiles {
     pub fn issued(&self, serial_number: &str) -> Result<Certificate, AuthorityError> {
         let path = self.issued_path(serial_number);
         let bytes = read_bounded(&path, crate::pki::MAX_CERTIFICATE_BYTES as u64)
-            .map_err(|e| AuthorityError::Damaged { path: path.clone(), reason: e.to_string() })?;
-        Certificate::from_der(&bytes).map_err(|e| AuthorityError::Damaged { path, reason: e.to_string() })
+            .map_err(|e| AuthorityError::Damaged { path: path.clone(), source: e.into() })?;
+        Certificate::from_der(&bytes).map_err(|e| AuthorityError::Damaged { path, source: e.into() })
     }
 
     /// The lock, if there is no CA yet.
@@ -145,11 +145,11 @@ impl AuthorityFiles {
         passphrase: &SecretString,
     ) -> Result<CertificateAuthority, AuthorityError> {
         let path = self.key_path(name);
-        let damaged = |e: &dyn std::fmt::Display| AuthorityError::Damaged { path: path.clone(), reason: e.to_string() };
-        let pem = read_bounded(&path, MAX_KEY_FILE_BYTES as u64).map_err(|e| damaged(&e))?;
+        let damaged = |source| AuthorityError::Damaged { path: path.clone(), source };
+        let pem = read_bounded(&path, MAX_KEY_FILE_BYTES as u64).map_err(|e| damaged(e.into()))?;
         unlock_pem(&pem, stored, passphrase).map_err(|error| match error {
             Unlock::Passphrase => AuthorityError::Passphrase(path.clone()),
-            Unlock::Damaged(error) => damaged(&error),
+            Unlock::Damaged(error) => damaged(error.into()),
         })
     }
 

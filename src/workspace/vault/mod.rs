@@ -26,8 +26,7 @@ use thiserror::Error;
 
 pub use entries::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS};
 
-use super::{WorkspaceError, atomic, check_passphrase, read_bounded, write_atomic};
-use crate::model::{ErrorCode, Problem};
+use super::{PassphraseError, WorkspaceError, atomic, check_passphrase, read_bounded, write_atomic};
 use crate::pki::{Fingerprint, SealCost, SealError, Sealed, SealingKey};
 use entries::Entries;
 use file::NotAVault;
@@ -54,30 +53,13 @@ pub enum VaultError {
     #[error("a password in a vault has at most {MAX_VAULT_PASSWORD_BYTES} bytes")]
     PasswordTooLong,
     /// A new passphrase that is too short.
+    #[error(transparent)]
+    Passphrase(#[from] PassphraseError),
+    /// A secret cannot be encrypted.
     #[error("{0}")]
-    Passphrase(Problem),
-    #[error("{0}")]
-    Seal(SealError),
+    Seal(#[source] SealError),
     #[error(transparent)]
     Workspace(#[from] WorkspaceError),
-}
-
-impl From<VaultError> for Problem {
-    fn from(error: VaultError) -> Self {
-        let code = match error {
-            VaultError::Missing(_) => ErrorCode::VaultMissing,
-            VaultError::Exists(_) => ErrorCode::VaultExists,
-            VaultError::Damaged { .. } => ErrorCode::VaultDamaged,
-            VaultError::Version { .. } => ErrorCode::VaultVersion,
-            VaultError::WrongPassphrase(_) => ErrorCode::VaultPassphrase,
-            VaultError::PassphraseChanged(_) => ErrorCode::VaultLocked,
-            VaultError::TooMany | VaultError::PasswordTooLong => ErrorCode::VaultFull,
-            VaultError::Passphrase(problem) => return problem,
-            VaultError::Seal(_) => ErrorCode::Internal,
-            VaultError::Workspace(error) => return error.into(),
-        };
-        Self::with_detail(code, error)
-    }
 }
 
 /// The vault of a workspace, whether there is one or not.
@@ -105,7 +87,7 @@ impl VaultFiles {
     /// Errors: a passphrase shorter than [`super::MIN_PASSPHRASE_CHARS`]; a vault that is there already, which is left
     /// as it is.
     pub fn create(&self, passphrase: &SecretString) -> Result<Vault, VaultError> {
-        check_passphrase(passphrase).map_err(VaultError::Passphrase)?;
+        check_passphrase(passphrase)?;
         let key = SealingKey::new(passphrase, SealCost::PC).map_err(VaultError::Seal)?;
         let _lock = self.lock()?;
         if self.exists() {
@@ -224,7 +206,7 @@ impl Vault {
     /// Seals the vault under another passphrase. Blocks for some hundred milliseconds. Older copies of the file still
     /// open with the old one.
     pub fn change_passphrase(&mut self, passphrase: &SecretString) -> Result<(), VaultError> {
-        check_passphrase(passphrase).map_err(VaultError::Passphrase)?;
+        check_passphrase(passphrase)?;
         let key = SealingKey::new(passphrase, SealCost::PC).map_err(VaultError::Seal)?;
         let _lock = self.files.lock()?;
         let entries = self.read()?;

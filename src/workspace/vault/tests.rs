@@ -1,6 +1,7 @@
 use secrecy::ExposeSecret as _;
 
 use super::*;
+use crate::model::{ErrorCode, Problem};
 
 const PASSPHRASE: &str = "correct horse";
 

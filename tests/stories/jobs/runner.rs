@@ -17,7 +17,7 @@ use opcua_configurator::model::{
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::session::{Connector, ControllerSession};
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
-use opcua_configurator::workspace::{MemoryPasswords, Passwords, Workspace};
+use opcua_configurator::workspace::{MemoryPasswords, PasswordError, Passwords, Workspace};
 use parking_lot::Mutex;
 use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
@@ -395,11 +395,11 @@ async fn the_next_turn_begins_before_the_last_goodbye_is_said() {
 struct LockedKeyring(Mutex<std::sync::mpsc::Receiver<()>>);
 
 impl Passwords for LockedKeyring {
-    fn get(&self, _: Fingerprint) -> Result<Option<SecretString>, Problem> {
+    fn get(&self, _: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
         let _gone = self.0.lock().recv();
         Ok(None)
     }
-    fn set(&self, _: Fingerprint, _: SecretString) -> Result<(), Problem> {
+    fn set(&self, _: Fingerprint, _: SecretString) -> Result<(), PasswordError> {
         unimplemented!()
     }
     fn forget(&self, _: Fingerprint) {}
