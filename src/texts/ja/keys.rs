@@ -636,7 +636,7 @@ fixed_texts! {
     KeyCancel: "ダイアログをキャンセル";
     KeyArrows: "上、下";
     KeySpace: "Space";
-    KeyShiftClick: "Shift＋クリック";
+    KeyShiftClick: "Shift+クリック";
     KeyEnter: "Enter";
     KeyEscape: "Esc";
 
