@@ -5,7 +5,7 @@ use super::{Certificate, KeyUsage};
 /// How many signatures are checked to find out whether a certificate issued another.
 const MAX_CHECKED: usize = 16;
 
-/// Whether a certificate is there to issue others; otherwise it is that of an application.
+/// Whether a certificate is that of an authority, which issues others; otherwise it is that of an application.
 ///
 /// An authority may issue certificates: CA:TRUE, and keyCertSign if the key usage is restricted (RFC 5280 §4.2.1.9,
 /// §4.2.1.3). A certificate without basic constraints counts as one only where it did issue another.

@@ -21,7 +21,7 @@ use super::{
 };
 use crate::model::Language;
 
-/// One thing inside a file.
+/// One item inside a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Description {
@@ -65,7 +65,7 @@ pub struct CertificateDescription {
     pub self_signed: bool,
     /// The SHA-1 thumbprint of the certificate in the same file whose key signed this one, itself aside.
     pub signed_by: Option<String>,
-    /// Why an OPC UA application must refuse it whoever signed it, if it must.
+    /// Why an OPC UA application must refuse it, independently of its issuer; `None`: it need not.
     pub not_understood: Option<String>,
     /// Upper-case hexadecimal: the thumbprint of OPC UA.
     pub sha1: String,
@@ -119,7 +119,7 @@ pub struct CsrDescription {
     pub extended_key_usages: Option<Vec<ExtendedKeyUsage>>,
     pub key: KeyDescription,
     pub signature_algorithm: String,
-    /// Whether whoever made it holds the key.
+    /// Whether its signature proves that the requester holds the private key.
     pub signature_is_right: bool,
     pub sha1: String,
 }
@@ -146,22 +146,22 @@ pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>
     let mut found = Found::default();
     for part in parts(bytes)? {
         found.part(part, password)?;
-        if found.things.len() > MAX_THINGS {
-            return Err(PkiError::TooMany(MAX_THINGS));
+        if found.items.len() > MAX_ITEMS {
+            return Err(PkiError::TooMany(MAX_ITEMS));
         }
     }
-    if found.things.is_empty() {
+    if found.items.is_empty() {
         return Err(PkiError::NoCertificate);
     }
     found.described()
 }
 
-const MAX_THINGS: usize = 1000;
-/// Whoever wrote the file decides how slow it is to open an encrypted key, and a file has room for thousands.
+const MAX_ITEMS: usize = 1000;
+/// A file decides itself how slow it is to open an encrypted key, and has room for thousands.
 const MAX_HASHED: usize = 16;
 
-/// A thing that was found; certificates and lists wait for their signers, which may come later in the file.
-enum Thing {
+/// One item of the file. Certificates and lists are described last: their signers may come later in the file.
+enum Item {
     Certificate(Certificate),
     Crl(Crl),
     Other(Description),
@@ -169,7 +169,7 @@ enum Thing {
 
 #[derive(Default)]
 struct Found {
-    things: Vec<Thing>,
+    items: Vec<Item>,
     /// Keys the password was hashed for.
     hashed: usize,
 }
@@ -212,28 +212,28 @@ impl Found {
     }
 
     fn other(&mut self, description: Description) {
-        self.things.push(Thing::Other(description));
+        self.items.push(Item::Other(description));
     }
 
     fn bundle(&mut self, bundle: Bundle) {
-        self.things.extend(bundle.certificates.into_iter().map(Thing::Certificate));
-        self.things.extend(bundle.crls.into_iter().map(Thing::Crl));
+        self.items.extend(bundle.certificates.into_iter().map(Item::Certificate));
+        self.items.extend(bundle.crls.into_iter().map(Item::Crl));
     }
 
     fn described(&self) -> Result<Vec<Description>, PkiError> {
-        let mut signers = Signers::new(self.things.iter().filter_map(|thing| match thing {
-            Thing::Certificate(certificate) => Some(certificate),
+        let mut signers = Signers::new(self.items.iter().filter_map(|item| match item {
+            Item::Certificate(certificate) => Some(certificate),
             _ => None,
         }));
-        self.things
+        self.items
             .iter()
-            .map(|thing| match thing {
-                Thing::Certificate(certificate) => {
+            .map(|item| match item {
+                Item::Certificate(certificate) => {
                     let signed = signers.of_certificate(certificate)?;
                     Ok(Description::Certificate(Box::new(certificate.describe(&signed))))
                 }
-                Thing::Crl(crl) => Ok(Description::Crl(Box::new(crl.describe(signers.of_crl(crl)?)))),
-                Thing::Other(description) => Ok(description.clone()),
+                Item::Crl(crl) => Ok(Description::Crl(Box::new(crl.describe(signers.of_crl(crl)?)))),
+                Item::Other(description) => Ok(description.clone()),
             })
             .collect()
     }

@@ -169,7 +169,7 @@ pub(super) struct Extensions {
     pub authority_key_id: Option<Vec<u8>>,
     /// Those that are critical, by their names.
     pub critical: Vec<String>,
-    /// Why nobody should act on this certificate, though it can be shown: an extension that is critical and not
+    /// Why this certificate must not be used, though it can be shown: an extension that is critical and not
     /// understood, or one that contradicts its own definition.
     pub not_understood: Option<CertificateFlaw>,
 }

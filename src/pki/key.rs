@@ -114,7 +114,7 @@ impl PrivateKey {
                     .map_err(|_| PkiError::Signing)?;
                 Ok(signature)
             }
-            // With random numbers it blinds the operation, which hides the key from whoever measures its time.
+            // With random numbers it blinds the operation, so that its duration tells nothing about the key.
             Material::Legacy(key) => key
                 .sign_with_rng(&mut OsRng, Pkcs1v15Sign::new::<Sha256>(), &Sha256::digest(message))
                 .map_err(|_| PkiError::Signing),

@@ -71,7 +71,7 @@ pub fn self_signed(
     Certificate::from_der(certificate.der())
 }
 
-/// How far the clock of whoever looks at a certificate may be behind.
+/// How far the clock of a client may be behind.
 pub(super) const CLOCK_SKEW: Duration = Duration::days(1);
 
 /// 126 random bits: positive, and always 16 bytes long.

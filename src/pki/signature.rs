@@ -31,7 +31,7 @@ enum Scheme {
 /// The algorithm a certificate or a revocation list is signed with.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct SignatureAlgorithm {
-    /// `None` if it is one that nobody here knows.
+    /// `None` if the algorithm is not supported.
     known: Option<(Scheme, Hash)>,
     /// As OpenSSL writes it, or its object identifier.
     name: String,

@@ -84,8 +84,8 @@ impl WindowState {
         (0.0..=Self::MAX_POINTS).contains(&points)
     }
 
-    /// Forgets what no window can have.
-    fn forget_nonsense(&mut self) {
+    /// Drops stored sizes that are not finite, negative, or larger than any screen.
+    fn drop_invalid(&mut self) {
         self.size = self.size.filter(|(width, height)| Self::is_length(*width) && Self::is_length(*height));
         self.columns.retain(|_, width| Self::is_length(*width));
     }
@@ -159,7 +159,7 @@ impl Configuration {
             return Err(format!("version {} is not one this program knows", configuration.version));
         }
         configuration.options.parallelism = configuration.options.parallelism.clamp(1, MAX_PARALLELISM);
-        configuration.options.window.forget_nonsense();
+        configuration.options.window.drop_invalid();
         Ok(configuration)
     }
 

@@ -37,7 +37,7 @@ pub fn read_import_file(path: &Path, max: usize) -> Result<Vec<u8>, FileError> {
 }
 
 /// The contents of the other certificate files in the folder of one, of at most 50. One that cannot be read
-/// is passed over: nobody asked for it. Blocks.
+/// is left out without an error. Blocks.
 pub fn certificate_files_beside(path: &Path) -> Vec<Vec<u8>> {
     let Some(folder) = path.parent() else { return Vec::new() };
     let files = certificate_files_in(folder).into_iter().filter(|file| file != path);

@@ -3,9 +3,9 @@
 //! ```text
 //! <workspace>/
 //!   epson_opcua_config.json          controllers and options
-//!   connections.csv                  a connection list to import, if somebody put one there (manual 2.5.3)
+//!   connections.csv                  a connection list to import, if there is one (manual 2.5.3)
 //!   Configurator/…                   the certificate this program shows to OPC UA servers, and its key
-//!   .lock                            held by whoever may write the configuration
+//!   .lock                            locked by the process that may write the configuration
 //!   .window                          where a second start asks the window to come to the front (Unix)
 //!   CA/…                             the small CA, see `authority`
 //!   Vault/…                          connection passwords sealed under a passphrase, see `vault`
@@ -18,7 +18,7 @@
 //! ```
 //!
 //! Every file is written under a temporary name, flushed and renamed, readable by its owner only: a reader sees the
-//! old content or the new one, whatever happens in between.
+//! old content or the new one, also after a crash.
 
 mod atomic;
 pub mod authority;
@@ -85,7 +85,7 @@ pub struct Workspace {
     root: PathBuf,
 }
 
-/// The right to write the configuration; given up when dropped, or when the process ends in whatever way.
+/// Permission to write the configuration. Released when dropped, or when the process ends.
 #[derive(Debug)]
 pub struct WorkspaceLock {
     _file: File,
@@ -104,7 +104,7 @@ fn read_bounded(path: &Path, max: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Makes the folder, if need be, and takes it for whoever keeps the lock.
+/// Creates the folder if it is missing, and locks it for as long as the result lives.
 fn lock_folder(folder: &Path) -> Result<WorkspaceLock, WorkspaceError> {
     let path = folder.join(LOCK);
     let file = atomic::open_lock_file(&path)?;
@@ -171,7 +171,7 @@ impl Workspace {
         if folder.starts_with(&self.root) { atomic::create_folder(folder) } else { Ok(()) }
     }
 
-    /// Removes temporary files that a program which was killed left here long ago. For whoever holds the workspace.
+    /// Removes temporary files that a killed process left here long ago. Only the process with the lock may call it.
     pub fn remove_leftovers(&self, _lock: &WorkspaceLock) {
         let removed = atomic::remove_leftovers(&self.root, std::time::SystemTime::now());
         if removed > 0 {
@@ -223,7 +223,7 @@ impl Workspace {
             .unwrap_or_else(|| self.root.join("epson_opcua_config.damaged.json"))
     }
 
-    /// Replaces the configuration. The lock proves that nobody else is doing the same.
+    /// Replaces the configuration. The lock proves that no other process does the same.
     ///
     /// One that could not be loaded again is refused, and the old one stays.
     pub fn save(&self, configuration: &Configuration, _lock: &WorkspaceLock) -> Result<(), WorkspaceError> {

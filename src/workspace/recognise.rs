@@ -1,4 +1,4 @@
-//! What a file that somebody hands over is, by its content.
+//! Recognises files by their content.
 
 use std::path::{Path, PathBuf};
 

@@ -41,7 +41,7 @@ impl SettingsFiles {
         Self { root, chosen: None }
     }
 
-    /// Loads this file, whatever its name; one that was exported by another controller is refused as ever.
+    /// Loads this file instead, under any name. An export of another controller is still refused.
     pub fn of_file(self, file: PathBuf) -> Self {
         Self { chosen: Some(file), ..self }
     }
@@ -84,7 +84,7 @@ fn read(path: &Path) -> io::Result<Vec<u8>> {
     read_bounded(path, MAX_EXPORT_BYTES as u64)
 }
 
-/// A file beside `path` that is an export under a name of somebody's own.
+/// A file beside `path` that is an export under another name.
 fn renamed(path: &Path) -> Option<PathBuf> {
     let files = fs::read_dir(path.parent()?).ok()?.filter_map(Result::ok).map(|entry| entry.path());
     files

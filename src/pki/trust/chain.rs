@@ -9,7 +9,7 @@ use crate::pki::{Certificate, CertificateFlaw};
 
 /// How many certificates a chain may have, from the application's to the root.
 const MAX_CHAIN: usize = 10;
-/// How many signatures are checked for one peer, whatever it sends.
+/// The most signatures that are checked for one peer.
 const MAX_SIGNATURES: usize = 64;
 /// How many steps up a chain are made for one peer: CAs that certified one another make more chains than certificates.
 const MAX_STEPS: usize = 256;
@@ -193,7 +193,8 @@ impl<'a, 'b> Search<'a, 'b> {
         Revocation { lists, presented, policy, other_keys }.check(chain)
     }
 
-    /// Whoever may have issued it, by name and key identifier: trusted ones first, what was sent last.
+    /// The certificates that may have issued this one, by name and key identifier: trusted ones first, those that the peer
+    /// sent last.
     fn issuers(&self, certificate: &Certificate) -> Vec<&'a Certificate> {
         let keys_fit = |issuer: &&Certificate| match (certificate.authority_key_id(), issuer.subject_key_id()) {
             (Some(wanted), Some(has)) => wanted == has,

@@ -10,7 +10,7 @@ use super::{Presented, Rejection, Role, TrustPolicy};
 use crate::pki::signature::SignatureCheck;
 use crate::pki::{Certificate, Crl};
 
-/// The certificates somebody trusts, the issuers that complete their chains, and revocation lists; parsed and indexed
+/// The trusted certificates, the issuers that complete their chains, and revocation lists; parsed and indexed
 /// once, and cheap to share.
 #[derive(Clone)]
 pub struct TrustLists(Arc<Inner>);

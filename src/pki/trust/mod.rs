@@ -17,14 +17,14 @@
 //!   send their intermediates and the standard lets them; but some member of the chain must be in the trust list itself.
 //!   What was merely sent is never trusted, and revocation lists are never taken from the peer.
 //! - **A chain ends** in a self-signed certificate. [`TrustPolicy::allow_incomplete_chain`] also lets it end in a
-//!   trusted certificate whose issuer nobody has.
+//!   trusted certificate whose issuer is missing.
 //! - **Several chains**: issuers are tried from the trust list first, then from the issuers, then from what was sent.
 //!   The first chain without a flaw wins. If there is none, the flaw of the chain that came furthest through the steps
 //!   is told, because it is the one to mend; among equals, that of the chain tried first.
 //! - **Application URI**: the first URI of the certificate must be the announced one. OPC 10000-6 §6.2.2 allows one
-//!   only, and the first is what lists show to whoever decides about trust.
-//! - **CA:TRUE** in an application certificate is accepted where it is self-signed: much software makes such
-//!   certificates, and it stands in the trust list by itself. A CA's certificate that another CA issued is refused.
+//!   only, and the first is what lists show to the person who decides about trust.
+//! - **CA:TRUE** in an application certificate is accepted where it is self-signed (OPC 10000-6 §6.2.2 allows it), because
+//!   it stands in the trust list by itself. A CA's certificate that another CA issued is refused.
 //! - **A certificate that is revoked** is told as such even where a list for another member is missing: a missing list
 //!   can be excused, a revocation cannot.
 //! - **Key identifiers** that differ are told apart from an issuer that is missing; such a chain is refused, as OpenSSL

@@ -46,7 +46,7 @@ pub struct AuthorityOverview {
 pub struct PublishedAuthority {
     pub certificate: Certificate,
     pub summary: CertificateSummary,
-    /// After its `next_update` nobody accepts certificates on its word.
+    /// After its `next_update` it proves nothing: certificates of the CA are refused until a newer one is installed.
     pub crl: Crl,
     pub crl_number: u64,
 }
@@ -105,7 +105,7 @@ impl AuthorityFiles {
         Ok(Authority::new(self.clone(), lock, database, signing, passphrase.clone()))
     }
 
-    /// Takes the CA up for signing. Nobody else can until what is returned is dropped. Blocks while the passphrase is
+    /// Opens the CA for signing and locks it until the result is dropped. Blocks while the passphrase is
     /// hashed.
     pub fn open(&self, passphrase: &SecretString) -> Result<Authority, AuthorityError> {
         self.read_database()?;

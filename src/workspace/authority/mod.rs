@@ -6,10 +6,10 @@
 //!   ca.key              key of the CA that signs, encrypted PKCS#8 in PEM under the passphrase
 //!   root.key            the same of the root, if an intermediate signs; may be kept elsewhere
 //!   issued/<serial>.der what was issued
-//!   ca.der, ca.crl      certificate and CRL of the CA that signs, for whoever needs them
+//!   ca.der, ca.crl      certificate and CRL of the CA that signs, to be handed out
 //!   root.der, root.crl  the same of the root, if an intermediate signs
 //!   ca.pem              both certificates, for tools that want PEM
-//!   .lock               held by whoever changes any of this
+//!   .lock               locked by the process that changes any of this
 //! ```
 //!
 //! The keys are ordinary encrypted PKCS#8, so that OpenSSL, XCA or a bigger CA can take over whenever the plant outgrows
