@@ -61,7 +61,7 @@ pub fn run(settled: &Settled, args: &ActivateArgs) -> Result<Ending, Problem> {
     };
     if let KeySource::File(file) = &keys {
         for mistake in file.mistakes() {
-            say(&mistake.to_string());
+            say(&crate::texts::line_mistake(settled.output.language(), mistake));
         }
     }
     settled.batch(&configuration, &chosen, Activate { keys }, &ACTIVATED)

@@ -10,15 +10,23 @@ pub enum Cell {
     Word(TextKey),
     /// A word, then a value.
     Both(TextKey, String),
+    /// Sentences, in the order of [`Language::ALL`].
+    Sentences(Vec<String>),
 }
 
 impl Cell {
+    /// What is said in each language.
+    pub fn said(text: impl Fn(Language) -> String) -> Self {
+        Self::Sentences(Language::ALL.into_iter().map(text).collect())
+    }
+
     /// The same with this behind it.
     pub fn followed_by(self, value: String) -> Self {
         match self {
             Self::Value(text) => Self::Value(text + &value),
             Self::Word(word) => Self::Both(word, value),
             Self::Both(word, text) => Self::Both(word, text + &value),
+            Self::Sentences(texts) => Self::Sentences(texts.into_iter().map(|text| text + &value).collect()),
         }
     }
 
@@ -27,6 +35,10 @@ impl Cell {
             Self::Value(value) => value.clone(),
             Self::Word(word) => word.text(language).to_owned(),
             Self::Both(word, value) => format!("{}{value}", word.text(language)),
+            Self::Sentences(texts) => {
+                let said = Language::ALL.into_iter().zip(texts).find(|(known, _)| *known == language);
+                said.map(|(_, text)| text.clone()).unwrap_or_default()
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 use std::path::Path;
 
+use chrono::{DateTime, Utc};
 use clap::{Args, Subcommand, ValueEnum};
 use serde_json::{Value, json};
 
@@ -11,7 +12,7 @@ use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, RemoveClients, TrustChange, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, Language, Problem};
 use crate::protocol::{ListedCertificate, RejectedClient};
-use crate::texts::TextKey;
+use crate::texts::{TextKey, cli as texts, client_list};
 
 #[derive(Debug, Subcommand)]
 pub enum ClientsCommand {
@@ -67,29 +68,36 @@ const REJECTED: Presentation<TrustSnapshot> =
     Presentation { header: &[TextKey::HeadingRejected], show: |held, _| shown(held, &[ClientList::Rejected]) };
 
 /// What a list holds in one cell.
-pub fn listing(lines: &[String]) -> String {
+pub fn listing(lines: impl Iterator<Item = String>) -> String {
+    let lines: Vec<String> = lines.collect();
     if lines.is_empty() { "-".to_owned() } else { lines.join("; ") }
 }
 
 fn shown(held: &TrustSnapshot, lists: &[ClientList]) -> Shown {
-    let mut words = Vec::new();
     let mut json = json!({ "revision": held.revision });
     for list in lists {
-        let (entries, lines) = listed(held, *list);
-        json[list.as_str()] = entries;
-        let label = if lists.len() > 1 { format!("{}: ", list.as_str()) } else { String::new() };
-        words.extend(lines.into_iter().map(|line| format!("{label}{line}")));
+        json[list.as_str()] = match list {
+            ClientList::Trusted => held.trusted.iter().map(entry).collect(),
+            ClientList::Issuers => held.issuers.iter().map(entry).collect(),
+            ClientList::Rejected => held.rejected.iter().map(refused).collect(),
+        };
     }
-    Shown { json, cells: vec![listing(&words).into()] }
+    let said = |language| {
+        listing(lists.iter().flat_map(|list| {
+            let lines = lines(held, *list, language);
+            let several = lists.len() > 1;
+            let named = move |line: String| texts::in_list(language, client_list(*list), &line);
+            lines.into_iter().map(move |line| if several { named(line) } else { line })
+        }))
+    };
+    Shown { json, cells: vec![Cell::said(said)] }
 }
 
-fn listed(held: &TrustSnapshot, list: ClientList) -> (Value, Vec<String>) {
+fn lines(held: &TrustSnapshot, list: ClientList, language: Language) -> Vec<String> {
     match list {
-        ClientList::Trusted => (held.trusted.iter().map(entry).collect(), held.trusted.iter().map(line).collect()),
-        ClientList::Issuers => (held.issuers.iter().map(entry).collect(), held.issuers.iter().map(line).collect()),
-        ClientList::Rejected => {
-            (held.rejected.iter().map(refused).collect(), held.rejected.iter().map(refused_line).collect())
-        }
+        ClientList::Trusted => held.trusted.iter().map(|listed| line(listed, language)).collect(),
+        ClientList::Issuers => held.issuers.iter().map(|listed| line(listed, language)).collect(),
+        ClientList::Rejected => held.rejected.iter().map(|rejected| refused_line(rejected, language)).collect(),
     }
 }
 
@@ -97,9 +105,10 @@ fn entry(listed: &ListedCertificate) -> Value {
     json!({ "file_name": listed.file_name, "certificate": listed.summary, "added": listed.added })
 }
 
-fn line(listed: &ListedCertificate) -> String {
+fn line(listed: &ListedCertificate, language: Language) -> String {
     let summary = &listed.summary;
-    format!("{} {} until {}", summary.thumbprint, summary.issued_to, summary.not_after.format("%Y-%m-%d"))
+    let until = summary.not_after.format("%Y-%m-%d").to_string();
+    texts::certificate_line(language, &summary.thumbprint, &summary.issued_to, &until)
 }
 
 fn refused(rejected: &RejectedClient) -> Value {
@@ -116,18 +125,15 @@ fn refused(rejected: &RejectedClient) -> Value {
     })
 }
 
-fn refused_line(rejected: &RejectedClient) -> String {
-    format!(
-        "{} {} from {}: {} ({}), {} times, first {}, last {}",
-        rejected.summary.thumbprint,
-        rejected.summary.issued_to,
-        if rejected.address.is_empty() { "-" } else { &rejected.address },
-        rejected.status.as_str(),
-        rejected.reason,
-        rejected.count,
-        rejected.first_seen.format("%Y-%m-%d %H:%M:%S"),
-        rejected.last_seen.format("%Y-%m-%d %H:%M:%S"),
-    )
+fn refused_line(rejected: &RejectedClient, language: Language) -> String {
+    let time = |at: &DateTime<Utc>| at.format("%Y-%m-%d %H:%M:%S").to_string();
+    let (first, last) = (time(&rejected.first_seen), time(&rejected.last_seen));
+    let times = match rejected.count {
+        0 => TextKey::TrustMovedHere.text(language).to_owned(),
+        count => crate::texts::refused_times(language, &rejected.address, count, &first, &last),
+    };
+    let why = format!("{} ({})", rejected.explain(language), rejected.status);
+    texts::refused_line(language, &rejected.summary.thumbprint, &rejected.summary.issued_to, &why, &times)
 }
 
 /// A change of lists or CRLs: how many there are now, and who was disconnected.

@@ -14,6 +14,7 @@ use super::passwords::passphrase;
 use super::secret_file::read_secret;
 use crate::model::{ControllerName, ErrorCode, Problem, text};
 use crate::pki::Fingerprint;
+use crate::texts::TextKey;
 use crate::workspace::{
     Configuration, MAX_PASSWORD_LIST_BYTES, PasswordError, PasswordList, PasswordPlace, PasswordStore, Passwords,
     SystemKeyring, VaultState,
@@ -101,13 +102,17 @@ impl Settled {
 
     /// From the file, or asked for on the terminal: twice where it is `chosen`.
     pub fn vault_passphrase(&self, chosen: bool) -> Result<SecretString, Problem> {
-        passphrase("Passphrase of the vault", self.vault_passphrase_file.as_deref(), chosen).map_err(|problem| {
-            match problem.code {
-                ErrorCode::NoPassphrase if problem.detail.is_none() => {
-                    Problem::with_detail(ErrorCode::NoPassphrase, "the file is named with --vault-passphrase-file")
-                }
-                _ => problem,
+        passphrase(
+            TextKey::CliAskVaultPassphrase,
+            self.vault_passphrase_file.as_deref(),
+            chosen,
+            self.output.language(),
+        )
+        .map_err(|problem| match problem.code {
+            ErrorCode::NoPassphrase if problem.detail.is_none() => {
+                Problem::with_detail(ErrorCode::NoPassphrase, "the file is named with --vault-passphrase-file")
             }
+            _ => problem,
         })
     }
 

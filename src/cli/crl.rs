@@ -4,15 +4,16 @@ use clap::Subcommand;
 use serde_json::json;
 
 use super::batch::{Presentation, Shown};
+use super::cell::Cell;
 use super::clients::{CHANGE, hexadecimal, listing};
 use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, RemoveCrls, TrustSnapshot};
-use crate::model::Problem;
-use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
+use crate::model::{Language, Problem};
+use crate::pki::CrlHealth;
 use crate::protocol::ListedCrl;
-use crate::texts::TextKey;
+use crate::texts::{TextKey, cli as texts, crl_flaws};
 
 #[derive(Debug, Subcommand)]
 pub enum CrlCommand {
@@ -33,28 +34,18 @@ const CRLS: Presentation<TrustSnapshot> = Presentation {
                 json!({ "file_name": crl.file_name, "crl": crl.summary, "added": crl.added, "health": health })
             })
             .collect();
-        let lines: Vec<String> = with_health().map(|(crl, health)| line(crl, health)).collect();
         let json = json!({ "revision": held.revision, "crls": json, "without_crl": held.health.without_crl });
-        Shown { json, cells: vec![listing(&lines).into()] }
+        Shown {
+            json,
+            cells: vec![Cell::said(|language| listing(with_health().map(|(crl, health)| line(crl, health, language))))],
+        }
     },
 };
 
-fn line(crl: &ListedCrl, health: &CrlHealth) -> String {
+fn line(crl: &ListedCrl, health: &CrlHealth, language: Language) -> String {
     let summary = &crl.summary;
-    let until = summary.next_update.map_or("-".to_owned(), |next| next.format("%Y-%m-%d").to_string());
-    let issuer = match health.issuer {
-        CrlIssuer::Held { .. } => "",
-        CrlIssuer::NotSignedBy { .. } => ", NOT SIGNED BY ITS ISSUER",
-        CrlIssuer::MayNotSign { .. } => ", ITS ISSUER MAY NOT SIGN IT",
-        CrlIssuer::Missing => ", ISSUER MISSING",
-    };
-    let dates = match health.dates {
-        CrlDates::Current => "",
-        CrlDates::Expired => ", EXPIRED",
-        CrlDates::NotYetValid => ", NOT YET VALID",
-        CrlDates::NoEnd => ", WITHOUT END",
-    };
-    format!("{} {}: {} revoked, next by {until}{issuer}{dates}", summary.id, summary.issuer, summary.entries)
+    let until = summary.next_update.map(|next| next.format("%Y-%m-%d").to_string());
+    texts::crl_line(language, &summary.id, &summary.issuer, summary.entries, until, &crl_flaws(health))
 }
 
 pub fn run(settled: &Settled, command: CrlCommand) -> Result<Ending, Problem> {

@@ -13,6 +13,11 @@ pub fn localised(command: Command, language: Language) -> Command {
     }
 }
 
+/// Whether clap's own words are used, with its colours.
+pub fn is_of_clap(language: Language) -> bool {
+    help(language).is_none()
+}
+
 fn translated(command: Command, path: &str, texts: &HelpTexts) -> Command {
     let command = match texts.of_command(path) {
         Some(about) => command.about(about).long_about(about),

@@ -2,12 +2,13 @@ use clap::Subcommand;
 use serde_json::json;
 
 use super::batch::{Presentation, STATE, Shown};
+use super::output::say;
 use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{LogPart, ReadLog, SetSettings, SettingsChange};
 use crate::model::{Problem, foreign_text};
 use crate::protocol::LogChunk;
-use crate::texts::TextKey;
+use crate::texts::{TextKey, cli as texts};
 
 #[derive(Debug, Subcommand)]
 pub enum LogCommand {
@@ -53,7 +54,7 @@ pub fn run(settled: &Settled, command: LogCommand) -> Result<Ending, Problem> {
                         && log.next < log.size
                     {
                         let read = log.next - log.from;
-                        eprintln!("{}: {read} of {} bytes of the log were read", entry.name, log.size);
+                        say(&texts::log_read(settled.output.language(), entry.name.as_str(), read, log.size));
                     }
                 }
             }

@@ -28,6 +28,7 @@ mod settings_transfer;
 mod start_failure;
 mod table;
 mod trust_files;
+mod usage_error;
 mod users;
 mod vault;
 mod verify;
@@ -201,8 +202,13 @@ pub fn main() -> ExitCode {
     let language = language_of(std::env::args_os()).unwrap_or_else(system_language);
     let parsed = help::localised(Cli::command(), language).try_get_matches();
     let cli = parsed.and_then(|matches| Cli::from_arg_matches(&matches)).unwrap_or_else(|error| {
-        start_failure::show_usage(&error);
-        error.exit()
+        let text = usage_error::explain(&error, language);
+        start_failure::show_usage(&text, language);
+        if !error.use_stderr() || help::is_of_clap(language) {
+            error.exit();
+        }
+        output::say(text.trim_end());
+        std::process::exit(error.exit_code())
     });
     init_log(cli.verbose);
     let output = Output::new(cli.json, language);

@@ -4,23 +4,29 @@ use std::path::Path;
 use secrecy::{ExposeSecret as _, SecretString};
 
 use super::secret_file::read_secret;
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Language, Problem};
+use crate::texts::TextKey;
 
 /// The passphrase of the small CA: from a file, or asked for on the terminal, twice where it is chosen.
-pub fn ca_passphrase(file: Option<&Path>, chosen: bool) -> Result<SecretString, Problem> {
-    passphrase("Passphrase of the CA", file, chosen)
+pub fn ca_passphrase(file: Option<&Path>, chosen: bool, language: Language) -> Result<SecretString, Problem> {
+    passphrase(TextKey::CliAskCaPassphrase, file, chosen, language)
 }
 
 /// A passphrase from a file, or asked for on the terminal: twice where it is `chosen`.
 ///
 /// Errors: those of [`read_secret`]; [`ErrorCode::NoPassphrase`] where there is no terminal, or the entries differ.
-pub fn passphrase(question: &str, file: Option<&Path>, chosen: bool) -> Result<SecretString, Problem> {
+pub fn passphrase(
+    question: TextKey,
+    file: Option<&Path>,
+    chosen: bool,
+    language: Language,
+) -> Result<SecretString, Problem> {
     if let Some(file) = file {
         return read_secret(file);
     }
-    let ask = |question: &str| ask_secret(question)?.ok_or(Problem::new(ErrorCode::NoPassphrase));
+    let ask = |question: TextKey| ask_secret(question.text(language))?.ok_or(Problem::new(ErrorCode::NoPassphrase));
     let passphrase = ask(question)?;
-    if chosen && ask("The same again")?.expose_secret() != passphrase.expose_secret() {
+    if chosen && ask(TextKey::CliAskAgain)?.expose_secret() != passphrase.expose_secret() {
         return Err(Problem::with_detail(ErrorCode::NoPassphrase, "the two entries differ"));
     }
     Ok(passphrase)

@@ -12,7 +12,7 @@ use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{ReadSettings, SetSettings, SettingsChange};
 use crate::model::{
-    ErrorCode, PortError, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
+    ErrorCode, Language, PortError, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
 };
 use crate::protocol::Revisioned;
 use crate::texts::TextKey;
@@ -63,10 +63,10 @@ pub fn on_off(text: &str) -> Result<bool, String> {
 
 /// What the manual makes a person type before the server log is switched on (2.6.1). A wrong one is refused before
 /// anything is sent.
-fn log_password(file: Option<&Path>) -> Result<String, Problem> {
+fn log_password(file: Option<&Path>, language: Language) -> Result<String, Problem> {
     let given = match file {
         Some(file) => read_secret(file)?,
-        None => ask_secret("Password for the server log (199532 in the manual)")?.ok_or(ErrorCode::LogPassword)?,
+        None => ask_secret(TextKey::CliAskLogPassword.text(language))?.ok_or(ErrorCode::LogPassword)?,
     };
     let given = given.expose_secret();
     if given != ServerSettings::LOG_PASSWORD {
@@ -128,7 +128,7 @@ pub fn run(settled: &Settled, command: SettingsCommand) -> Result<Ending, Proble
                 return Err(ErrorCode::NothingToChange.into());
             }
             let log_password = match server_log {
-                Some(true) => Some(log_password(log_password_file.as_deref())?),
+                Some(true) => Some(log_password(log_password_file.as_deref(), settled.output.language())?),
                 _ => None,
             };
             let operation = SetSettings { change, based_on: None, log_password };

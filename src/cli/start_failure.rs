@@ -29,9 +29,9 @@ fn show_notice(problem: &Problem, language: Language) {
 fn show_notice(_problem: &Problem, _language: Language) {}
 
 /// The same for a command line that cannot be read, or for its help.
-pub(super) fn show_usage(error: &clap::Error) {
+pub(super) fn show_usage(text: &str, language: Language) {
     if !console::has_error_stream() {
-        console::message_box(TextKey::AppName.text(Language::En), &error.to_string());
+        console::message_box(TextKey::AppName.text(language), text);
     }
 }
 
@@ -42,8 +42,9 @@ pub(super) fn show_panics() {
     std::panic::set_hook(Box::new(move |panic| {
         default(panic);
         if std::thread::current().id() == main && !console::has_error_stream() {
-            let text = format!("The program ends because of an error in it.\n\n{panic}");
-            console::message_box(TextKey::AppName.text(Language::En), &text);
+            let language = super::system_language();
+            let text = format!("{}\n\n{panic}", TextKey::CliProgramError.text(language));
+            console::message_box(TextKey::AppName.text(language), &text);
         }
     }));
 }

@@ -8,6 +8,7 @@ use super::passwords::passphrase;
 use super::{Ending, Settled};
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Fingerprint;
+use crate::texts::{TextKey, cli as texts};
 use crate::workspace::{Configuration, PasswordPlace, PasswordStore, VaultState};
 
 #[derive(Debug, Subcommand)]
@@ -67,7 +68,7 @@ fn init(settled: &Settled) -> Result<Ending, Problem> {
     let passwords = store.create_vault(&passphrase, &known)?;
     configuration.options.passwords = PasswordPlace::Vault;
     settled.workspace.save(&configuration, &lock)?;
-    let text = format!("Created {}; passwords taken over from the keyring: {passwords}", path(settled));
+    let text = texts::vault_created(settled.output.language(), &path(settled), passwords);
     settled.output.finished(&json!({ "vault": path(settled), "passwords": passwords }), &text);
     Ok(Ending::AllDone)
 }
@@ -82,17 +83,16 @@ fn status(settled: &Settled) -> Result<Ending, Problem> {
     let place = status.place;
     let exists = status.vault != VaultState::None;
     let mut result = json!({ "vault": path(settled), "exists": exists, "passwords_in": place });
+    let (language, path) = (settled.output.language(), path(settled));
     let mut text = match (exists, place) {
-        (false, _) => format!("There is no vault at {}", path(settled)),
-        (true, PasswordPlace::Vault) => format!("The vault {} is used", path(settled)),
-        (true, PasswordPlace::Keyring) => {
-            format!("The vault {} is used where there is no keyring; see \"vault on\"", path(settled))
-        }
+        (false, _) => texts::vault_missing(language, &path),
+        (true, PasswordPlace::Vault) => texts::vault_used(language, &path),
+        (true, PasswordPlace::Keyring) => texts::vault_used_without_keyring(language, &path),
     };
     if let Some(controllers) = store.in_vault() {
         let (names, unlisted) = named(&configuration, &controllers);
         let all = names.iter().chain(&unlisted).map(|name| format!("\n  {name}"));
-        text.push_str(&format!("\nPasswords: {}{}", controllers.len(), all.collect::<String>()));
+        text.push_str(&format!("\n{}{}", texts::vault_passwords(language, controllers.len()), all.collect::<String>()));
         result["controllers"] = json!(names);
         result["unlisted"] = json!(unlisted);
     }
@@ -123,7 +123,7 @@ fn import(settled: &Settled, file: &std::path::Path) -> Result<Ending, Problem> 
         .collect::<Result<_, Problem>>()?;
     let count = found.len();
     opened(settled, &configuration)?.put_into_vault(found)?;
-    settled.output.finished(&json!({ "passwords": count }), &format!("Passwords put into the vault: {count}"));
+    settled.output.finished(&json!({ "passwords": count }), &texts::vault_imported(settled.output.language(), count));
     Ok(Ending::AllDone)
 }
 
@@ -144,8 +144,8 @@ fn forget(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
         if settled.output.is_json() {
             settled.output.done(name, &json!({ "forgotten": forgotten }));
         } else {
-            let text = if forgotten { "Forgot the password of" } else { "The vault has no password of" };
-            settled.output.text(&format!("{text} {name}"));
+            let text = if forgotten { texts::vault_forgot } else { texts::vault_has_none };
+            settled.output.text(&text(settled.output.language(), name));
         }
     }
     Ok(Ending::AllDone)
@@ -156,9 +156,11 @@ fn change_passphrase(settled: &Settled, file: Option<PathBuf>) -> Result<Ending,
     let present = settled.vault_passphrase(false)?;
     // Not after the new one was entered twice.
     store.open_vault(&present)?;
-    let new = passphrase("New passphrase of the vault", file.as_deref(), true)?;
+    let new = passphrase(TextKey::CliAskNewVaultPassphrase, file.as_deref(), true, settled.output.language())?;
     store.change_passphrase(&present, &new)?;
-    settled.output.finished(&json!({ "vault": path(settled) }), "The passphrase of the vault is changed");
+    settled
+        .output
+        .finished(&json!({ "vault": path(settled) }), TextKey::VaultPassphraseChanged.text(settled.output.language()));
     Ok(Ending::AllDone)
 }
 

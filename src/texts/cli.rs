@@ -24,8 +24,27 @@ in_every_language! {
     fn over_plan(controllers: TextKey, plan: &str) -> String;
     /// The certificate to trust so that a server lets this program in.
     fn own_certificate(file: &str) -> String;
+    /// A CRL of a list in one line. `until`: when the next one is due. `states`: what is wrong with it.
+    fn crl_line(id: &str, issuer: &str, revoked: usize, until: Option<String>, states: &[TextKey]) -> String;
+    /// A certificate of a list in one line.
+    fn certificate_line(thumbprint: &str, issued_to: &str, until: &str) -> String;
+    /// A refused client in one line. `times`: when, from where and how often.
+    fn refused_line(thumbprint: &str, issued_to: &str, why: &str, times: &str) -> String;
+    /// An entry with the name of the list that it is in.
+    fn in_list(list: TextKey, entry: &str) -> String;
+    /// When only a part of the server log was read. In bytes.
+    fn log_read(name: &str, read: u64, size: u64) -> String;
+    /// `passwords`: how many were taken over from the keyring.
+    fn vault_created(path: &str, passwords: usize) -> String;
+    fn vault_missing(path: &str) -> String;
+    fn vault_used(path: &str) -> String;
+    /// The keyring is chosen, and there is a vault.
+    fn vault_used_without_keyring(path: &str) -> String;
+    fn vault_passwords(count: usize) -> String;
+    fn vault_imported(count: usize) -> String;
+    fn vault_forgot(name: &str) -> String;
+    fn vault_has_none(name: &str) -> String;
 }
-
 /// Over what is done to the controllers of a generation.
 pub const fn controllers_with(generation: FirmwareGeneration) -> TextKey {
     match generation {

@@ -13,10 +13,30 @@ pub struct HelpTexts {
     pub default_value: &'static str,
     pub environment_variable: &'static str,
     pub list_separator: &'static str,
+    pub usage_errors: UsageErrorTexts,
     /// Path of a command, such as `cert export`, and its text. The program itself has the empty path.
     pub commands: &'static [(&'static str, &'static str)],
     /// Path of a command, id of an argument, text. Those with the empty path are shared by several commands.
     pub arguments: &'static [(&'static str, &'static str, &'static str)],
+}
+
+/// Why a command line cannot be understood. `{}` stands for an argument, a command or their list.
+#[derive(Debug, Clone, Copy)]
+pub struct UsageErrorTexts {
+    pub error_heading: &'static str,
+    pub unknown_argument: &'static str,
+    pub unknown_command: &'static str,
+    pub missing_command: &'static str,
+    pub missing_arguments: &'static str,
+    pub missing_value: &'static str,
+    /// `{argument}` and `{value}` stand for those.
+    pub wrong_value: &'static str,
+    pub too_many_values: &'static str,
+    pub used_twice: &'static str,
+    /// `{argument}` and `{other}` stand for two that exclude each other.
+    pub conflict: &'static str,
+    pub did_you_mean: &'static str,
+    pub more_help: &'static str,
 }
 
 /// `None`: clap's own words and the doc comments of the arguments, which are English.

@@ -787,4 +787,10 @@ keys! {
     CliWarning,
     CliCertificateAccepted,
     CliWindowBroughtToFront,
+    CliAskCaPassphrase,
+    CliAskVaultPassphrase,
+    CliAskNewVaultPassphrase,
+    CliAskAgain,
+    CliAskLogPassword,
+    CliProgramError,
 }

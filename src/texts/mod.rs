@@ -85,7 +85,7 @@ pub use authority::*;
 pub use certificates::explain_refusal;
 pub use errors::Explanation;
 pub use files::*;
-pub use help::{HelpTexts, help};
+pub use help::{HelpTexts, UsageErrorTexts, help};
 pub use key::TextKey;
 pub use sentences::*;
 pub use trust::*;

@@ -6,7 +6,7 @@ use chrono::Duration;
 
 use super::TextKey as T;
 use crate::jobs::{Note, SkipReason};
-use crate::model::{CertificateStatus, ErrorCode, Language};
+use crate::model::{CertificateStatus, ClientList, ErrorCode, Language};
 use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
 
 pub const fn skipped_thing(reason: SkipReason) -> T {
@@ -18,17 +18,35 @@ pub const fn skipped_thing(reason: SkipReason) -> T {
     }
 }
 
-/// The worst that can be said of a CRL.
-pub const fn crl_health(health: &CrlHealth) -> T {
-    match (&health.issuer, health.dates) {
-        (CrlIssuer::NotSignedBy { .. }, _) => T::CrlWrongKey,
-        (CrlIssuer::MayNotSign { .. }, _) => T::CrlMayNotSign,
-        (CrlIssuer::Missing, _) => T::CrlNoIssuer,
-        (CrlIssuer::Held { .. }, CrlDates::Expired) => T::CrlExpired,
-        (CrlIssuer::Held { .. }, CrlDates::NotYetValid) => T::CrlNotYet,
-        (CrlIssuer::Held { .. }, CrlDates::NoEnd) => T::CrlNoEnd,
-        (CrlIssuer::Held { .. }, CrlDates::Current) => T::CrlGood,
+/// Everything that is wrong with a CRL.
+pub fn crl_flaws(health: &CrlHealth) -> Vec<T> {
+    let issuer = match health.issuer {
+        CrlIssuer::Held { .. } => None,
+        CrlIssuer::NotSignedBy { .. } => Some(T::CrlWrongKey),
+        CrlIssuer::MayNotSign { .. } => Some(T::CrlMayNotSign),
+        CrlIssuer::Missing => Some(T::CrlNoIssuer),
+    };
+    let dates = match health.dates {
+        CrlDates::Current => None,
+        CrlDates::Expired => Some(T::CrlExpired),
+        CrlDates::NotYetValid => Some(T::CrlNotYet),
+        CrlDates::NoEnd => Some(T::CrlNoEnd),
+    };
+    issuer.into_iter().chain(dates).collect()
+}
+
+/// The name of a list of client certificates.
+pub const fn client_list(list: ClientList) -> T {
+    match list {
+        ClientList::Trusted => T::TrustTrusted,
+        ClientList::Issuers => T::TrustIssuers,
+        ClientList::Rejected => T::TrustRejected,
     }
+}
+
+/// The worst that can be said of a CRL.
+pub fn crl_health(health: &CrlHealth) -> T {
+    crl_flaws(health).first().copied().unwrap_or(T::CrlGood)
 }
 
 in_every_language! {

@@ -80,7 +80,7 @@ pub fn run(settled: &Settled, args: InitArgs) -> Result<Ending, Problem> {
     let new = NewAuthority { root: args.request(args.cn.clone(), args.years)?, intermediate, crl_days: args.crl_days };
     let files = settled.workspace.authority();
     files.check_absent()?;
-    let passphrase = ca_passphrase(args.passphrase.passphrase_file.as_deref(), true)?;
+    let passphrase = ca_passphrase(args.passphrase.passphrase_file.as_deref(), true, settled.output.language())?;
     check_passphrase(&passphrase)?;
     let overview = files.create(&new, &passphrase, clock::now())?.overview()?;
     settled.output.finished(&show::json(&overview), &show::text(&overview, settled.output.language()));

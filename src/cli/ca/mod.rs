@@ -88,7 +88,7 @@ impl PassphraseArgs {
     fn shared(&self, settled: &Settled) -> Result<SharedAuthority, Problem> {
         let files = settled.workspace.authority();
         files.overview()?;
-        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false)?;
+        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false, settled.output.language())?;
         files.open(&passphrase)?;
         Ok(SharedAuthority::new(files, passphrase))
     }
@@ -97,7 +97,7 @@ impl PassphraseArgs {
     fn open(&self, settled: &Settled) -> Result<Authority, Problem> {
         let files = settled.workspace.authority();
         files.overview()?;
-        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false)?;
+        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false, settled.output.language())?;
         Ok(files.open(&passphrase)?)
     }
 }
@@ -118,7 +118,7 @@ pub fn run(settled: &Settled, command: CaCommand) -> Result<Ending, Problem> {
         CaCommand::Restore { file, passphrase } => {
             let files = settled.workspace.authority();
             files.check_absent()?;
-            let passphrase = ca_passphrase(passphrase.passphrase_file.as_deref(), false)?;
+            let passphrase = ca_passphrase(passphrase.passphrase_file.as_deref(), false, settled.output.language())?;
             let overview = files.restore(&file, &passphrase)?;
             settled.output.finished(&show::json(&overview), &show::text(&overview, settled.output.language()));
             Ok(Ending::AllDone)

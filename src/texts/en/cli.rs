@@ -64,3 +64,56 @@ pub fn over_plan(controllers: TextKey, plan: &str) -> String {
 pub fn own_certificate(file: &str) -> String {
     format!("The certificate of this configurator is {file}; --trust-me puts it into Trusted")
 }
+
+pub fn crl_line(id: &str, issuer: &str, revoked: usize, until: Option<String>, states: &[TextKey]) -> String {
+    let states: String = states.iter().map(|state| format!(", {}", state.text(LANGUAGE))).collect();
+    format!("{id} {issuer}: {revoked} revoked, next by {}{states}", until.as_deref().unwrap_or("—"))
+}
+
+pub fn certificate_line(thumbprint: &str, issued_to: &str, until: &str) -> String {
+    format!("{thumbprint} {issued_to} until {until}")
+}
+
+pub fn refused_line(thumbprint: &str, issued_to: &str, why: &str, times: &str) -> String {
+    format!("{thumbprint} {issued_to}: {why} {times}")
+}
+
+pub fn in_list(list: TextKey, entry: &str) -> String {
+    format!("{}: {entry}", list.text(LANGUAGE))
+}
+
+pub fn log_read(name: &str, read: u64, size: u64) -> String {
+    format!("{name}: {read} of {size} bytes of the log were read")
+}
+
+pub fn vault_created(path: &str, passwords: usize) -> String {
+    format!("Created {path}; passwords taken over from the keyring: {passwords}")
+}
+
+pub fn vault_missing(path: &str) -> String {
+    format!("There is no vault at {path}")
+}
+
+pub fn vault_used(path: &str) -> String {
+    format!("The vault {path} is used")
+}
+
+pub fn vault_used_without_keyring(path: &str) -> String {
+    format!("The vault {path} is used where there is no keyring; see \"vault on\"")
+}
+
+pub fn vault_passwords(count: usize) -> String {
+    format!("Passwords: {count}")
+}
+
+pub fn vault_imported(count: usize) -> String {
+    format!("Passwords put into the vault: {count}")
+}
+
+pub fn vault_forgot(name: &str) -> String {
+    format!("Deleted the password of {name} from the vault")
+}
+
+pub fn vault_has_none(name: &str) -> String {
+    format!("The vault has no password of {name}")
+}

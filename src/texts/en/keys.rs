@@ -770,4 +770,10 @@ fixed_texts! {
     CliWarning: "warning";
     CliCertificateAccepted: "A careful client accepts the server's certificate";
     CliWindowBroughtToFront: "The workspace is open already; its window was brought to the front.";
+    CliAskCaPassphrase: "Passphrase of the CA";
+    CliAskVaultPassphrase: "Passphrase of the vault";
+    CliAskNewVaultPassphrase: "New passphrase of the vault";
+    CliAskAgain: "The same again";
+    CliAskLogPassword: "Password for the server log (199532 in the manual)";
+    CliProgramError: "The program ends because of an error in it";
 }

@@ -67,3 +67,56 @@ pub fn over_plan(controllers: TextKey, plan: &str) -> String {
 pub fn own_certificate(file: &str) -> String {
     format!("本ツールの証明書は{file}です。--trust-meを使用すると、信頼リストに追加できます")
 }
+
+pub fn crl_line(id: &str, issuer: &str, revoked: usize, until: Option<String>, states: &[TextKey]) -> String {
+    let states: String = states.iter().map(|state| format!("、{}", state.text(LANGUAGE))).collect();
+    format!("{id} {issuer}：失効{revoked}件、次回更新{}{states}", until.as_deref().unwrap_or("—"))
+}
+
+pub fn certificate_line(thumbprint: &str, issued_to: &str, until: &str) -> String {
+    format!("{thumbprint} {issued_to}、有効期限{until}")
+}
+
+pub fn refused_line(thumbprint: &str, issued_to: &str, why: &str, times: &str) -> String {
+    format!("{thumbprint} {issued_to}：{why}{times}")
+}
+
+pub fn in_list(list: TextKey, entry: &str) -> String {
+    format!("{}：{entry}", list.text(LANGUAGE))
+}
+
+pub fn log_read(name: &str, read: u64, size: u64) -> String {
+    format!("{name}：ログ{size}バイトのうち{read}バイトを読み込みました")
+}
+
+pub fn vault_created(path: &str, passwords: usize) -> String {
+    format!("{path}を作成しました。キーリングから引き継いだパスワード：{passwords}件")
+}
+
+pub fn vault_missing(path: &str) -> String {
+    format!("{path}に保管庫はありません")
+}
+
+pub fn vault_used(path: &str) -> String {
+    format!("保管庫{path}を使用しています")
+}
+
+pub fn vault_used_without_keyring(path: &str) -> String {
+    format!("キーリングがない場合に保管庫{path}を使用します。vault onを参照してください")
+}
+
+pub fn vault_passwords(count: usize) -> String {
+    format!("パスワード：{count}件")
+}
+
+pub fn vault_imported(count: usize) -> String {
+    format!("保管庫に入れたパスワード：{count}件")
+}
+
+pub fn vault_forgot(name: &str) -> String {
+    format!("{name}のパスワードを保管庫から削除しました")
+}
+
+pub fn vault_has_none(name: &str) -> String {
+    format!("保管庫に{name}のパスワードはありません")
+}

@@ -1,6 +1,6 @@
 //! The help of the command line in Japanese.
 
-use crate::texts::HelpTexts;
+use crate::texts::{HelpTexts, UsageErrorTexts};
 
 pub const fn texts() -> Option<HelpTexts> {
     Some(HelpTexts {
@@ -12,6 +12,20 @@ pub const fn texts() -> Option<HelpTexts> {
         default_value: " [デフォルト：{}]",
         environment_variable: " [環境変数：{}]",
         list_separator: "、",
+        usage_errors: UsageErrorTexts {
+            error_heading: "エラー：",
+            unknown_argument: "引数{}は使用できません",
+            unknown_command: "コマンド{}は存在しません",
+            missing_command: "コマンドを指定してください",
+            missing_arguments: "必要な引数がありません：{}",
+            missing_value: "引数{}の値がありません",
+            wrong_value: "引数{argument}の値「{value}」は無効です",
+            too_many_values: "引数{}の値が多すぎます",
+            used_twice: "引数{}は複数回使用できません",
+            conflict: "引数{argument}と{other}は同時に使用できません",
+            did_you_mean: "次の候補があります：{}",
+            more_help: "詳細は--helpを参照してください。",
+        },
         commands: COMMANDS,
         arguments: ARGUMENTS,
     })

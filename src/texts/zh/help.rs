@@ -1,6 +1,6 @@
 //! The help of the command line in Chinese.
 
-use crate::texts::HelpTexts;
+use crate::texts::{HelpTexts, UsageErrorTexts};
 
 pub const fn texts() -> Option<HelpTexts> {
     Some(HelpTexts {
@@ -12,6 +12,20 @@ pub const fn texts() -> Option<HelpTexts> {
         default_value: " [默认：{}]",
         environment_variable: " [环境变量：{}]",
         list_separator: "、",
+        usage_errors: UsageErrorTexts {
+            error_heading: "错误：",
+            unknown_argument: "未知参数 {}",
+            unknown_command: "未知命令 {}",
+            missing_command: "缺少命令",
+            missing_arguments: "缺少必需的参数：{}",
+            missing_value: "参数 {} 缺少值",
+            wrong_value: "参数 {argument} 的值“{value}”无效",
+            too_many_values: "参数 {} 的值过多",
+            used_twice: "参数 {} 不能重复使用",
+            conflict: "参数 {argument} 不能与 {other} 一起使用",
+            did_you_mean: "您是否要使用：{}",
+            more_help: "请使用 --help 查看帮助。",
+        },
         commands: COMMANDS,
         arguments: ARGUMENTS,
     })

@@ -767,4 +767,10 @@ fixed_texts! {
     CliWarning: "警告";
     CliCertificateAccepted: "客户端可接受服务器证书";
     CliWindowBroughtToFront: "该工作区已打开，已将其窗口置于最前。";
+    CliAskCaPassphrase: "CA 的口令";
+    CliAskVaultPassphrase: "密码库口令";
+    CliAskNewVaultPassphrase: "密码库的新口令";
+    CliAskAgain: "请再次输入";
+    CliAskLogPassword: "服务器日志的密码（手册中为 199532）";
+    CliProgramError: "程序因内部错误而结束";
 }

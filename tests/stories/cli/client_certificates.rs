@@ -140,7 +140,7 @@ fn crls_are_added_replaced_listed_with_their_health_and_removed() {
     let (_, lines) = desk.json(&["crl", "list", "weld"]);
     let crl = &lines[0]["result"]["crls"][0];
     assert_eq!((&crl["health"]["issuer"], &crl["health"]["dates"]), (&json!("missing"), &json!("current")));
-    assert!(desk.run(&["crl", "list", "weld"]).stdout.contains("ISSUER MISSING"));
+    assert!(desk.run(&["crl", "list", "weld"]).stdout.contains("its issuer is in no list"));
     assert_eq!(desk.json(&["clients", "add", "--list", "issuers", &ca_file, "weld"]).0, Some(0));
 
     let (code, _) = desk.json(&["crl", "add", &second_file, "weld", "--yes"]);
@@ -249,7 +249,9 @@ fn a_refused_client_is_remembered_by_a_killed_controller_and_can_be_trusted() {
     let desk = Desk::with(1, &["--seed", "3", "--firmware", "current", "--data", &folder]);
     assert_eq!(desk.add(0, "weld").0, Some(0));
     let table = desk.run(&["clients", "list", "--list", "rejected", "weld"]);
-    assert!(table.stdout.contains("stranger from 127.0.0.1: BadCertificateUntrusted"), "{}", table.stdout);
+    for said in ["stranger: ", "(BadCertificateUntrusted)", "From 127.0.0.1"] {
+        assert!(table.stdout.contains(said), "no {said} in {}", table.stdout);
+    }
     // One that is of no use even when it is trusted is trusted only by who agrees.
     let weak = Identity::sign_only("weak");
     let endpoint = desk.ready[0]["opcua"].as_str().unwrap().to_owned();
