@@ -160,7 +160,7 @@ pub fn flaw_remedy(flaw: &F) -> String {
         }
         F::RevocationUnknown { crl, .. } => return revocation_lists::remedy(crl),
         F::Revoked { .. } => "do not use it any more; ask for a new certificate",
-        F::NotThatOfTheChannel => "mend the client; it shows two certificates",
+        F::NotThatOfTheChannel => "correct the client: it presents two different certificates",
     }
     .to_owned()
 }

@@ -96,7 +96,9 @@ pub fn unusable(reason: &CrlUnusable) -> String {
         CrlUnusable::Delta => "it is a delta list, which says only what changed since another list",
         CrlUnusable::Indirect => "it is an indirect list, which speaks for other authorities",
         CrlUnusable::OnlyAttributeCertificates => "it is only about attribute certificates",
-        CrlUnusable::AboutNothing => "it is only about applications and only about authorities, which is about nothing",
+        CrlUnusable::AboutNothing => {
+            "it is limited to applications and to authorities at once, so it covers no certificate"
+        }
         CrlUnusable::OnlySomeReasons => "it is a partitioned list, only about some reasons",
         CrlUnusable::CriticalExtension(oid) => return format!("its extension {oid} is critical and not supported"),
         CrlUnusable::CriticalEntryExtension(oid) => {

@@ -11,10 +11,9 @@ pub fn refusal(refusal: &Refusal) -> String {
         Refusal::NotReachable(why) => {
             format!("Nothing answers there ({why}); check the port, the firewall and the cable")
         }
-        Refusal::TimedOut => "There is no answer in time; check the network, or start the server again".to_owned(),
-        Refusal::NotOpcUa(why) => format!("What answers is not a sound OPC UA server: {why}"),
-        Refusal::Closed => "The server closes the connection without a word; its log may say why, and after many \
-                     refusals it says nothing for a minute"
+        Refusal::TimedOut => "The server does not answer in time; check the network, or start the server again".to_owned(),
+        Refusal::NotOpcUa(why) => format!("The answer is not that of an OPC UA server: {why}"),
+        Refusal::Closed => "The server closes the connection without a reason; look into its log. After many refusals it gives no reason for a minute"
             .to_owned(),
         Refusal::OwnCertificate(None) => "The server refuses the certificate of this configurator and does not say \
                                    why; most often it is not trusted yet"
@@ -32,12 +31,12 @@ pub fn refusal(refusal: &Refusal) -> String {
             "The server answers with another certificate than the one of the endpoint; no password was sent".to_owned()
         }
         Refusal::Password => "User name or password is wrong, or the user is locked out for a minute".to_owned(),
-        Refusal::Anonymous => "Nobody is let in without a user name, although it is offered".to_owned(),
+        Refusal::Anonymous => "The server offers login without a user name, but refuses it".to_owned(),
         Refusal::Busy(name) => {
             format!("The server has no room for another client ({name}); close some, then verify again")
         }
         Refusal::State(state) => {
-            format!("A client gets in, but the server says it is in state {state} instead of Running")
+            format!("A client can log in, but the server reports the state {state} instead of Running")
         }
         Refusal::Status { name, reason } if reason.is_empty() => format!("The server refuses it: {name}"),
         Refusal::Status { name, reason } => format!("The server refuses it: {name}, {reason}"),
