@@ -86,7 +86,7 @@ mod tests {
         ];
         for arguments in wrong {
             let english = said(Language::En, arguments);
-            assert!(english.starts_with("error: ") || english.starts_with("Configure"), "{english}");
+            assert!(english.starts_with("error: ") || english.starts_with("Make, request"), "{english}");
             for language in Language::ALL.into_iter().filter(|language| help(*language).is_some()) {
                 let said = said(language, arguments);
                 for word in ["error:", "Usage:", "unexpected", "required", "For more"] {

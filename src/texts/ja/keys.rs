@@ -771,6 +771,6 @@ fixed_texts! {
     CliAskVaultPassphrase: "保管庫のパスフレーズ";
     CliAskNewVaultPassphrase: "保管庫の新しいパスフレーズ";
     CliAskAgain: "もう一度入力";
-    CliAskLogPassword: "サーバーログのパスワード（マニュアルでは199532）";
+    CliAskLogPassword: "サーバーログのパスワード (マニュアルでは199532)";
     CliProgramError: "プログラム内部のエラーのため終了します";
 }
