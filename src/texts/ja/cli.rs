@@ -70,11 +70,11 @@ pub fn own_certificate(file: &str) -> String {
 
 pub fn crl_line(id: &str, issuer: &str, revoked: usize, until: Option<String>, states: &[TextKey]) -> String {
     let states: String = states.iter().map(|state| format!("、{}", state.text(LANGUAGE))).collect();
-    format!("{id} {issuer}：失効{revoked}件、次回更新{}{states}", until.as_deref().unwrap_or("—"))
+    format!("{id} {issuer}：失効{revoked}件、次回更新：{}{states}", until.as_deref().unwrap_or("—"))
 }
 
 pub fn certificate_line(thumbprint: &str, issued_to: &str, until: &str) -> String {
-    format!("{thumbprint} {issued_to}、有効期限{until}")
+    format!("{thumbprint} {issued_to}、有効期限：{until}")
 }
 
 pub fn refused_line(thumbprint: &str, issued_to: &str, why: &str, times: &str) -> String {
@@ -94,15 +94,15 @@ pub fn vault_created(path: &str, passwords: usize) -> String {
 }
 
 pub fn vault_missing(path: &str) -> String {
-    format!("{path}に保管庫はありません")
+    format!("{path}にパスワード保管庫はありません")
 }
 
 pub fn vault_used(path: &str) -> String {
-    format!("保管庫{path}を使用しています")
+    format!("パスワード保管庫{path}を使用しています")
 }
 
 pub fn vault_used_without_keyring(path: &str) -> String {
-    format!("キーリングがない場合に保管庫{path}を使用します。vault onを参照してください")
+    format!("キーリングがない場合にのみ、パスワード保管庫{path}を使用します (vault onで切り替え)")
 }
 
 pub fn vault_passwords(count: usize) -> String {
@@ -110,13 +110,13 @@ pub fn vault_passwords(count: usize) -> String {
 }
 
 pub fn vault_imported(count: usize) -> String {
-    format!("保管庫に入れたパスワード：{count}件")
+    format!("パスワード保管庫に保存したパスワード：{count}件")
 }
 
 pub fn vault_forgot(name: &str) -> String {
-    format!("{name}のパスワードを保管庫から削除しました")
+    format!("{name}のパスワードをパスワード保管庫から削除しました")
 }
 
 pub fn vault_has_none(name: &str) -> String {
-    format!("保管庫に{name}のパスワードはありません")
+    format!("パスワード保管庫に{name}のパスワードはありません")
 }

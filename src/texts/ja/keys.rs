@@ -768,9 +768,9 @@ fixed_texts! {
     CliCertificateAccepted: "サーバー証明書は、厳密なクライアントで受け入れ可能です";
     CliWindowBroughtToFront: "このワークスペースはすでに開かれているため、そのウィンドウを前面に表示しました。";
     CliAskCaPassphrase: "CAのパスフレーズ";
-    CliAskVaultPassphrase: "保管庫のパスフレーズ";
-    CliAskNewVaultPassphrase: "保管庫の新しいパスフレーズ";
+    CliAskVaultPassphrase: "パスワード保管庫のパスフレーズ";
+    CliAskNewVaultPassphrase: "パスワード保管庫の新しいパスフレーズ";
     CliAskAgain: "もう一度入力";
-    CliAskLogPassword: "サーバーログのパスワード (マニュアルでは199532)";
-    CliProgramError: "プログラム内部のエラーのため終了します";
+    CliAskLogPassword: "サーバーログ用のパスワード (マニュアルでは199532)";
+    CliProgramError: "内部エラーのため、本ツールを終了します";
 }
