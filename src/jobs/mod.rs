@@ -8,6 +8,7 @@
 //! | `get_info` | read everything a row shows |
 //! | `server_control` | start and stop the OPC UA server |
 //! | `settings` | read and change the basic settings |
+//! | `overview` | settings and the length of the lists, for a look at one controller |
 //! | `users` | list, add, remove users |
 //! | `self_signed` | make and install a self-signed certificate |
 //! | `create_csr` | make a key and its certificate signing request |
@@ -35,6 +36,7 @@ mod get_info;
 mod import_ca;
 mod import_user;
 mod operation;
+mod overview;
 mod preflight;
 mod push_authority;
 mod restore_certificate;
@@ -59,6 +61,7 @@ pub use get_info::GetInfo;
 pub use import_ca::{CaCertificateSource, CheckCaCertificate, ImportCaCertificate};
 pub use import_user::{CheckUserCertificate, ImportUserCertificate, UserCertificateFiles};
 pub use operation::{Confirmation, Done, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
+pub use overview::{Overview, ReadOverview};
 pub use preflight::{CertificateChecked, CertificateImported};
 pub use push_authority::PushAuthority;
 pub use restore_certificate::{CertificateRestored, CheckCertificateBackup, RestoreCertificate};

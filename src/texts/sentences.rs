@@ -101,6 +101,10 @@ in_every_language! {
     fn controllers(count: usize) -> String;
     fn shown_of(shown: usize, all: usize) -> String;
     fn ticked(count: usize, hidden: usize) -> String;
+    /// Over the menu of a row that is not ticked.
+    fn menu_for_one(name: &str) -> String;
+    /// Over the menu of a ticked row.
+    fn menu_for_ticked(count: usize) -> String;
     fn expired(count: usize) -> String;
     fn expiring(count: usize) -> String;
     fn days_left(days: i64) -> String;

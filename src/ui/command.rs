@@ -2,7 +2,8 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::model::Model;
+use super::model::{Model, Targets};
+use crate::model::Language;
 use crate::texts::TextKey as T;
 
 /// An action of the main window.
@@ -39,10 +40,12 @@ pub enum UiCommand {
     About,
     TickAll,
     Search,
+    RowDetails,
+    CommandPalette,
 }
 
 impl UiCommand {
-    pub const ALL: [Self; 31] = [
+    pub const ALL: [Self; 33] = [
         Self::AddController,
         Self::DeleteControllers,
         Self::ConnectionList,
@@ -74,6 +77,8 @@ impl UiCommand {
         Self::About,
         Self::TickAll,
         Self::Search,
+        Self::RowDetails,
+        Self::CommandPalette,
     ];
 
     pub const fn text(self) -> T {
@@ -117,7 +122,45 @@ impl UiCommand {
             Self::About => (T::About, T::AboutTip),
             Self::TickAll => (T::TickAll, T::TickAllTip),
             Self::Search => (T::Search, T::SearchTip),
+            Self::RowDetails => (T::RowDetails, T::RowDetailsTip),
+            Self::CommandPalette => (T::CommandPalette, T::CommandPaletteTip),
         }
+    }
+
+    /// The menu it is in; `None` for what is not in a menu.
+    pub const fn menu(self) -> Option<T> {
+        Some(match self {
+            Self::AddController
+            | Self::DeleteControllers
+            | Self::ConnectionList
+            | Self::ConfirmIdentity
+            | Self::RowDetails
+            | Self::Quit => T::MenuController,
+            Self::SelfSigned
+            | Self::UserSpecified
+            | Self::CaSigned
+            | Self::ExportSelfSigned
+            | Self::TypeSelect
+            | Self::RestoreBackup
+            | Self::ClientLists
+            | Self::Crl => T::MenuCertificate,
+            Self::BasicSettings
+            | Self::Users
+            | Self::ServerLog
+            | Self::Activation
+            | Self::ExportSettings
+            | Self::ImportSettings => T::MenuServer,
+            Self::Backup | Self::Options => T::MenuOptions,
+            Self::CertificateAuthority | Self::Verify => T::MenuTools,
+            Self::Shortcuts | Self::Licences | Self::About | Self::CommandPalette => T::MenuHelp,
+            Self::Start | Self::Stop | Self::GetInfo | Self::TickAll | Self::Search => return None,
+        })
+    }
+
+    /// Its name with the menu it is in: "Server settings: Users…".
+    pub fn full_name(self, language: Language) -> String {
+        let name = self.text().text(language);
+        self.menu().map_or_else(|| name.to_owned(), |menu| format!("{}: {name}", menu.text(language)))
     }
 
     pub const fn shortcut(self) -> Option<KeyboardShortcut> {
@@ -131,13 +174,21 @@ impl UiCommand {
             Self::Shortcuts => (Modifiers::NONE, Key::F1),
             Self::TickAll => (Modifiers::COMMAND, Key::A),
             Self::Search => (Modifiers::COMMAND, Key::F),
+            Self::RowDetails => (Modifiers::COMMAND, Key::D),
+            Self::CommandPalette => (Modifiers::COMMAND, Key::K),
             _ => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))
     }
 
-    /// Why it cannot be done now; what a disabled item says on hover.
+    /// Why it cannot be done to the ticked controllers now; what a disabled item says on hover.
     pub fn why_disabled(self, model: &Model) -> Option<T> {
+        self.why_disabled_for(model, Targets::Ticked)
+    }
+
+    /// Why it cannot be done to these controllers now.
+    pub fn why_disabled_for(self, model: &Model, targets: Targets) -> Option<T> {
+        let count = model.target_count(targets);
         match self {
             Self::DeleteControllers
             | Self::Start
@@ -151,26 +202,26 @@ impl UiCommand {
             | Self::TypeSelect
             | Self::ClientLists
             | Self::Crl
-            | Self::Verify => (model.rows.ticked_count() == 0).then_some(T::WhyTick),
-            Self::UserSpecified => match model.rows.ticked()[..] {
-                [] => Some(T::WhyTick),
-                [row] => model.any_current(&[row]).then_some(T::WhyUserLegacy),
+            | Self::Verify => (count == 0).then_some(T::WhyTick),
+            Self::UserSpecified => match count {
+                0 => Some(T::WhyTick),
+                1 => model.any_target_is_current(targets).then_some(T::WhyUserLegacy),
                 _ => Some(T::WhyUserOne),
             },
-            Self::ConfirmIdentity if model.rows.ticked_count() == 0 => Some(T::WhyTick),
-            Self::ConfirmIdentity => model.ticked_unconfirmed().next().is_none().then_some(T::WhyConfirmed),
-            Self::Activation if model.rows.ticked_count() == 0 => Some(T::WhyTick),
-            Self::Activation => model.ticked_has_current_firmware().then_some(T::WhyActivationOption),
-            Self::ExportSettings | Self::ImportSettings | Self::RestoreBackup => match model.rows.ticked_count() {
+            Self::ConfirmIdentity if count == 0 => Some(T::WhyTick),
+            Self::ConfirmIdentity => model.all_targets_are_confirmed(targets).then_some(T::WhyConfirmed),
+            Self::Activation if count == 0 => Some(T::WhyTick),
+            Self::Activation => model.any_target_is_current(targets).then_some(T::WhyActivationOption),
+            Self::ExportSettings | Self::ImportSettings | Self::RestoreBackup => match count {
                 0 => Some(T::WhyTick),
-                _ => model.rows.any_ticked_is_current().then_some(T::WhyLegacyOnly),
+                _ => model.any_target_is_current(targets).then_some(T::WhyLegacyOnly),
             },
-            Self::ServerLog => match model.rows.ticked_count() {
+            Self::ServerLog => match count {
                 0 => Some(T::WhyTick),
                 1 => None,
                 _ => Some(T::WhyOne),
             },
-            Self::TickAll | Self::Search => model.rows.is_empty().then_some(T::WhyEmpty),
+            Self::TickAll | Self::Search | Self::RowDetails => model.rows.is_empty().then_some(T::WhyEmpty),
             Self::AddController
             | Self::ConnectionList
             | Self::Quit
@@ -179,7 +230,8 @@ impl UiCommand {
             | Self::CertificateAuthority
             | Self::Shortcuts
             | Self::Licences
-            | Self::About => None,
+            | Self::About
+            | Self::CommandPalette => None,
         }
     }
 }

@@ -10,7 +10,8 @@ use super::views;
 const PAGE: isize = 15;
 
 pub fn read(ctx: &Context, model: &Model, messages: &mut Vec<Message>) {
-    if model.closing.is_some() || !model.dialogs.is_empty() || egui::Popup::is_any_open(ctx) {
+    let over_the_table = model.row_menu.is_some() || model.command_palette.is_some();
+    if model.closing.is_some() || over_the_table || !model.dialogs.is_empty() || egui::Popup::is_any_open(ctx) {
         return;
     }
     let typing = ctx.text_edit_focused();
@@ -36,6 +37,16 @@ pub fn read(ctx: &Context, model: &Model, messages: &mut Vec<Message>) {
     // A focused button or tick box takes Space and Enter itself.
     if ctx.memory(|memory| memory.focused()).is_some() {
         return;
+    }
+    let menu_key = ctx.input_mut(|input| {
+        input.consume_key(Modifiers::NONE, Key::Menu) || input.consume_key(Modifiers::SHIFT, Key::F10)
+    });
+    if menu_key {
+        messages.push(Message::OpenRowMenu(None));
+    }
+    if let Some(row) = model.rows.at_cursor().filter(|_| ctx.input_mut(|i| i.consume_key(Modifiers::NONE, Key::Enter)))
+    {
+        messages.push(Message::OpenDetails(row.id));
     }
     let mut key = |key, message: Message| {
         if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {

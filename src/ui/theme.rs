@@ -80,6 +80,8 @@ pub const DEFAULT_WINDOW: [f32; 2] = [1280.0, 800.0];
 
 pub const ROW_HEIGHT: f32 = 32.0;
 pub const HEADER_HEIGHT: f32 = 34.0;
+/// Half the gap between two columns.
+pub const COLUMN_EDGE: f32 = 5.0;
 pub const TICK_COLUMN: f32 = 34.0;
 pub const MIN_COLUMN: f32 = 60.0;
 /// Initial widths of the columns, in their order.
@@ -110,6 +112,15 @@ pub const DIALOG_AUTHORITY: f32 = 960.0;
 pub const LABEL_WIDTH: f32 = 150.0;
 pub const LIST_HEIGHT: f32 = 10.0 * LIST_ROW;
 pub const LIST_ROW: f32 = 26.0;
+
+/// The details pane: its width at first, its least width, and what it leaves of the window to the table.
+pub const DETAILS: f32 = 320.0;
+pub const DETAILS_MIN: f32 = 220.0;
+pub const DETAILS_LEAVES: f32 = 420.0;
+pub const DETAILS_SPACING: f32 = 2.0;
+/// The command palette: its width, and its distance from the upper edge of the window.
+pub const PALETTE: f32 = 620.0;
+pub const PALETTE_TOP: f32 = 60.0;
 
 pub const SPACE: f32 = 8.0;
 pub const SPACE_LARGE: f32 = 14.0;

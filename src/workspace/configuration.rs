@@ -72,6 +72,13 @@ pub struct WindowState {
     /// Column widths in points, by the column's key.
     #[serde(serialize_with = "real_widths")]
     pub columns: BTreeMap<String, f32>,
+    /// The columns' keys from left to right. Default: the built-in order.
+    pub column_order: Vec<String>,
+    /// Whether the details pane is open. Default: closed.
+    pub details: bool,
+    /// The width of the details pane in points, once it was changed.
+    #[serde(serialize_with = "real_length")]
+    pub details_width: Option<f32>,
     /// The column sorted by, and whether ascending.
     pub sort: Option<(String, bool)>,
 }
@@ -79,6 +86,9 @@ pub struct WindowState {
 impl WindowState {
     /// No screen is that large, in points: what goes beyond it, or is no number, was not measured on one.
     const MAX_POINTS: f32 = 32_768.0;
+
+    /// More columns than the table has, so that none of a later version is lost.
+    const MAX_COLUMNS: usize = 64;
 
     fn is_length(points: f32) -> bool {
         (0.0..=Self::MAX_POINTS).contains(&points)
@@ -88,6 +98,8 @@ impl WindowState {
     fn drop_invalid(&mut self) {
         self.size = self.size.filter(|(width, height)| Self::is_length(*width) && Self::is_length(*height));
         self.columns.retain(|_, width| Self::is_length(*width));
+        self.details_width = self.details_width.filter(|width| Self::is_length(*width));
+        self.column_order.truncate(Self::MAX_COLUMNS);
     }
 }
 
@@ -95,6 +107,10 @@ impl WindowState {
 fn real_size<S: Serializer>(size: &Option<(f32, f32)>, serializer: S) -> Result<S::Ok, S::Error> {
     let is_length = WindowState::is_length;
     size.filter(|(width, height)| is_length(*width) && is_length(*height)).serialize(serializer)
+}
+
+fn real_length<S: Serializer>(length: &Option<f32>, serializer: S) -> Result<S::Ok, S::Error> {
+    length.filter(|points| WindowState::is_length(*points)).serialize(serializer)
 }
 
 fn real_widths<S: Serializer>(values: &BTreeMap<String, f32>, serializer: S) -> Result<S::Ok, S::Error> {
@@ -220,8 +236,9 @@ mod tests {
         let window = &mut configuration.options.window;
         window.size = Some((f32::NAN, 600.0));
         window.columns = BTreeMap::from([("name".to_owned(), 80.0), ("status".to_owned(), f32::INFINITY)]);
+        window.details_width = Some(f32::NAN);
         let read = Configuration::from_json(&configuration.to_json().unwrap()).unwrap();
-        assert_eq!(read.options.window.size, None);
+        assert_eq!((read.options.window.size, read.options.window.details_width), (None, None));
         assert_eq!(read.options.window.columns, BTreeMap::from([("name".to_owned(), 80.0)]));
         assert_eq!(read.controllers, configuration.controllers);
     }

@@ -1,4 +1,5 @@
-//! How long a frame takes with 10,000 controllers: drawing and tessellation, without a GPU.
+//! How long a frame takes with 10,000 controllers: drawing and tessellation, without a GPU. The same rows in a bare egui
+//! table, in the same run, show how much of it is the table's own.
 
 #[path = "../common/samples.rs"]
 mod samples;
@@ -9,14 +10,15 @@ mod trust_samples;
 use std::time::{Duration, Instant};
 
 use chrono::{DateTime, Utc};
-use egui::{Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
+use egui::{Label, Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
+use egui_extras::TableBuilder;
 use opcua_configurator::jobs::{Report, Summary, TrustSnapshot};
 use opcua_configurator::model::{CertificateStatus, FirmwareGeneration, Language};
 use opcua_configurator::ui::App;
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
 use opcua_configurator::ui::command::UiCommand;
-use opcua_configurator::ui::model::{Column, Message, Model, reduce};
-use opcua_configurator::workspace::Workspace;
+use opcua_configurator::ui::model::{Column, Message, Model, Row, reduce};
+use opcua_configurator::workspace::{Configuration, Workspace};
 use trust_samples::{listed, refused};
 
 const ROWS: usize = 10_000;
@@ -28,8 +30,16 @@ const TARGET: Duration = Duration::from_millis(1);
 fn main() {
     let now: DateTime<Utc> = "2026-06-01T08:30:00Z".parse().unwrap_or_default();
     let model = || Model::new(samples::configuration(ROWS, now), Workspace::new("/nowhere"), Language::En, now);
-    for (what, scrolling) in [("frame, still", false), ("frame, scrolling", true)] {
-        report(what, median(frames(model(), scrolling)));
+    for (what, scrolling) in [("still", false), ("scrolling", true)] {
+        let window = median(frames(model(), scrolling));
+        report(&format!("frame, {what}"), window);
+        let bare = median(bare_table(&model(), scrolling));
+        let ratio = window.as_secs_f64() / bare.as_secs_f64();
+        println!(
+            "{:24} {:8.3} ms   the window takes {ratio:.2} × as long",
+            format!("bare table, {what}"),
+            bare.as_secs_f64() * 1e3
+        );
     }
     for (what, scrolling) in [("trust, still", false), ("trust, scrolling", true)] {
         report(what, median(frames(trust(model(), now), scrolling)));
@@ -78,6 +88,53 @@ fn median(mut times: Vec<Duration>) -> Duration {
 fn frames(model: Model, scrolling: bool) -> Vec<Duration> {
     let ctx = egui::Context::default();
     let mut app = App::new(&ctx, model, RecordingBackend::default());
+    time_frames(&ctx, scrolling, |ui| app.frame(ui))
+}
+
+/// The same texts in as many columns of `egui_extras`, with nothing around them, in the window's fonts and theme.
+fn bare_table(model: &Model, scrolling: bool) -> Vec<Duration> {
+    const HEIGHT: f32 = 32.0;
+    let ctx = egui::Context::default();
+    let model_for_theme = Model::new(Configuration::default(), Workspace::new("/nowhere"), Language::En, model.now);
+    drop(App::new(&ctx, model_for_theme, RecordingBackend::default()));
+    let text = |row: &Row| {
+        let info = row.info();
+        let of = |text: Option<String>| text.unwrap_or_else(|| "—".to_owned());
+        [
+            row.entry.name.to_string(),
+            row.entry.series.as_str().to_owned(),
+            row.address.clone(),
+            of(info.map(|info| info.serial.to_string())),
+            of(info.map(|info| format!("{:?}", info.status))),
+            of(row.not_after().map(|end| model.zone.date(end))),
+            of(row.certificate_type().map(|kind| format!("{kind:?}"))),
+            of(info.map(|info| if info.activated { "Yes" } else { "No" }.to_owned())),
+            of(row.entry.last.as_ref().map(|last| model.zone.date_time(last.at))),
+        ]
+    };
+    let rows: Vec<[String; 9]> = model.rows.all().iter().map(text).collect();
+    time_frames(&ctx, scrolling, |ui| {
+        egui::CentralPanel::default().show(ui, |ui| {
+            let table = TableBuilder::new(ui).striped(true).resizable(true).auto_shrink(false);
+            let table = table.columns(egui_extras::Column::initial(125.0).clip(true), 9);
+            table
+                .header(HEIGHT, |mut header| {
+                    for column in Column::ALL {
+                        header.col(|ui| drop(ui.label(column.key())));
+                    }
+                })
+                .body(|body| {
+                    body.rows(HEIGHT, rows.len(), |mut row| {
+                        for text in &rows[row.index()] {
+                            row.col(|ui| drop(ui.add(Label::new(text).truncate())));
+                        }
+                    });
+                });
+        });
+    })
+}
+
+fn time_frames(ctx: &egui::Context, scrolling: bool, mut draw: impl FnMut(&mut egui::Ui)) -> Vec<Duration> {
     let mut times = Vec::new();
     for frame in 0..WARM_UP + FRAMES {
         let mut input = RawInput {
@@ -96,7 +153,7 @@ fn frames(model: Model, scrolling: bool) -> Vec<Duration> {
             });
         }
         let start = Instant::now();
-        let mut output = ctx.run_ui(input, |ui| app.frame(ui));
+        let mut output = ctx.run_ui(input, |ui| draw(ui));
         let shapes = std::mem::take(&mut output.shapes);
         std::hint::black_box(ctx.tessellate(shapes, output.pixels_per_point));
         if frame >= WARM_UP {

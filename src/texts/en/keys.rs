@@ -77,6 +77,28 @@ fixed_texts! {
     TickAllTip: "Tick every controller shown";
     Search: "Search";
     SearchTip: "Search name, address, serial number and type";
+    CommandPalette: "Find command…";
+    CommandPaletteTip: "Find any command by a part of its name";
+    RowDetails: "Details";
+    RowDetailsTip: "Show or hide the details of the controller under the cursor";
+    DragColumnTip: "Drag to move the column";
+    PaletteHint: "A part of the command's name";
+    PaletteNone: "No command has this name";
+    DetailsChoose: "Choose a controller: click its row or use the arrow keys";
+    DetailsServer: "OPC UA server";
+    DetailsFirmware: "Firmware";
+    DetailsLastResult: "Last result";
+    DetailsNoResult: "No job since the window was opened";
+    DetailsLists: "Settings and lists";
+    DetailsRead: "Read settings and lists";
+    DetailsNotRead: "Not read since the window was opened";
+    DetailsNoCertificate: "No certificate";
+    DetailsNone: "None";
+    DetailsApplicationUri: "Application URI";
+    KeyDetails: "Show the details of the row";
+    KeyRowMenu: "Menu of the row";
+    KeyMenu: "Menu key or Shift+F10";
+    KeyEnterRow: "Enter or double click";
     TryVirtual: "Try it with virtual controllers";
     TryVirtualTip: "Start a few simulated controllers on this computer and add them to the list";
 

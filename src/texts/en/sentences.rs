@@ -24,6 +24,17 @@ pub fn ticked(count: usize, hidden: usize) -> String {
     }
 }
 
+pub fn menu_for_one(name: &str) -> String {
+    format!("Only {name}")
+}
+
+pub fn menu_for_ticked(count: usize) -> String {
+    match count {
+        1 => "The ticked controller".to_owned(),
+        _ => format!("All {count} ticked controllers"),
+    }
+}
+
 pub fn expired(count: usize) -> String {
     format!("{count} certificate{} expired", s(count))
 }

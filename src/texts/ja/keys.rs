@@ -74,6 +74,28 @@ fixed_texts! {
     TickAllTip: "表示中のすべてのコントローラーにチェックを付けます";
     Search: "検索";
     SearchTip: "名前、アドレス、番号、タイプで検索";
+    CommandPalette: "コマンドを検索…";
+    CommandPaletteTip: "名前の一部からコマンドを検索します";
+    RowDetails: "詳細";
+    RowDetailsTip: "カーソル位置のコントローラーの詳細を表示または非表示にします";
+    PaletteHint: "コマンド名の一部";
+    PaletteNone: "この名前のコマンドはありません";
+    DetailsChoose: "コントローラーを選択してください：行をクリックするか、方向キーを使います";
+    DetailsServer: "OPC UA サーバー";
+    DetailsFirmware: "ファームウェア";
+    DetailsLastResult: "前回の結果";
+    DetailsNoResult: "ウィンドウを開いてからジョブは実行されていません";
+    DetailsLists: "設定とリスト";
+    DetailsRead: "設定とリストを読み取る";
+    DetailsNotRead: "ウィンドウを開いてから読み取っていません";
+    DetailsNoCertificate: "証明書なし";
+    DetailsNone: "なし";
+    DetailsApplicationUri: "アプリケーション URI";
+    KeyDetails: "行の詳細を表示";
+    KeyRowMenu: "行のメニュー";
+    KeyMenu: "メニューキーまたは Shift+F10";
+    KeyEnterRow: "Enter またはダブルクリック";
+    DragColumnTip: "ドラッグすると列を移動できます";
     TryVirtual: "仮想コントローラーで試す";
     TryVirtualTip: "仮想コントローラーをこのPCで数台起動し、リストに追加します";
 

@@ -20,6 +20,14 @@ pub fn ticked(count: usize, hidden: usize) -> String {
     }
 }
 
+pub fn menu_for_one(name: &str) -> String {
+    format!("{name}のみ")
+}
+
+pub fn menu_for_ticked(count: usize) -> String {
+    format!("チェックを付けた{count}台すべて")
+}
+
 pub fn expired(count: usize) -> String {
     format!("期限切れの証明書{count}件")
 }

@@ -74,6 +74,28 @@ fixed_texts! {
     TickAllTip: "勾选所有显示的控制器";
     Search: "搜索";
     SearchTip: "按名称、地址、序列号和类型搜索";
+    CommandPalette: "查找命令…";
+    CommandPaletteTip: "按名称的一部分查找任意命令";
+    RowDetails: "详细信息";
+    RowDetailsTip: "显示或隐藏光标所在控制器的详细信息";
+    DragColumnTip: "拖动可移动此列";
+    PaletteHint: "命令名称的一部分";
+    PaletteNone: "没有此名称的命令";
+    DetailsChoose: "请选择控制器：单击其所在行或使用方向键";
+    DetailsServer: "OPC UA 服务器";
+    DetailsFirmware: "固件";
+    DetailsLastResult: "上次结果";
+    DetailsNoResult: "打开窗口以来没有执行过作业";
+    DetailsLists: "设置和列表";
+    DetailsRead: "读取设置和列表";
+    DetailsNotRead: "打开窗口以来未读取";
+    DetailsNoCertificate: "无证书";
+    DetailsNone: "无";
+    DetailsApplicationUri: "应用程序 URI";
+    KeyDetails: "显示该行的详细信息";
+    KeyRowMenu: "该行的菜单";
+    KeyMenu: "菜单键或 Shift+F10";
+    KeyEnterRow: "Enter 或双击";
     TryVirtual: "使用虚拟控制器试用";
     TryVirtualTip: "在本机启动几台模拟控制器并添加到列表";
 

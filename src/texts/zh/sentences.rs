@@ -20,6 +20,14 @@ pub fn ticked(count: usize, hidden: usize) -> String {
     }
 }
 
+pub fn menu_for_one(name: &str) -> String {
+    format!("仅 {name}")
+}
+
+pub fn menu_for_ticked(count: usize) -> String {
+    format!("全部已勾选的 {count} 台控制器")
+}
+
 pub fn expired(count: usize) -> String {
     format!("{count} 个证书已过期")
 }

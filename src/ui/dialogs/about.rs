@@ -47,6 +47,8 @@ pub fn shortcuts(ui: &Ui, model: &Model) -> Answer {
                 (T::KeyArrows, T::KeyMove),
                 (T::KeySpace, T::KeyTick),
                 (T::KeyShiftClick, T::KeyRange),
+                (T::KeyEnterRow, T::KeyDetails),
+                (T::KeyMenu, T::KeyRowMenu),
                 (T::KeySideways, T::KeyPanes),
                 (T::KeyEnter, T::KeyConfirm),
                 (T::KeyEscape, T::KeyCancel),

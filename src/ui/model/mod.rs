@@ -3,7 +3,10 @@
 mod activation;
 mod authority;
 mod certificates;
+mod columns;
+mod command_palette;
 mod connections;
+mod details;
 mod dialog;
 mod dropped;
 mod files;
@@ -14,6 +17,7 @@ mod job;
 mod licences;
 mod reduce;
 mod reduce_dialogs;
+mod row_menu;
 mod rows;
 mod server_log;
 mod task;
@@ -35,7 +39,9 @@ pub use authority::{
     AuthorityAction, AuthorityForm, AuthorityView, CreateAuthorityForm, SignControllersForm, SignFileForm,
 };
 pub use certificates::{ExportForm, Held, TypeSelectForm};
+pub use command_palette::{CommandPalette, PaletteAction};
 pub use connections::{ConnectionListForm, FoundConnection, LeftOut};
+pub use details::{LastResult, OverviewRead};
 pub use dialog::{
     AddController, AddStage, AddUserForm, Dialog, Identity, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm,
     Typed, UsersForm,
@@ -46,6 +52,7 @@ pub use import::{CaSignedForm, Checks, ImportReview, ImportSource, RestoreForm, 
 pub use job::{CancelState, Job, JobId, JobRow, RowState};
 pub use licences::LicencesView;
 pub use reduce::reduce;
+pub use row_menu::{RowMenu, Targets};
 pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
 pub use server_log::{LogView, SaveLogForm};
 pub use task::{Task, TaskEvent, TaskFacts, TaskReport};
@@ -75,6 +82,9 @@ pub struct Model {
     pub dialogs: Vec<Dialog>,
     /// The job that runs, or the one whose summary is shown.
     pub job: Option<Job>,
+    /// The context menu of a row.
+    pub row_menu: Option<RowMenu>,
+    pub command_palette: Option<CommandPalette>,
     /// The window is to be closed while work goes on.
     pub closing: Option<Closing>,
     /// What the status bar says until the next thing happens.
@@ -127,6 +137,26 @@ pub enum Message {
     Revealed,
     Widths(BTreeMap<String, f32>),
     Resized((f32, f32)),
+    /// Put a column before the one at this position.
+    MoveColumn {
+        column: Column,
+        position: usize,
+    },
+    /// Open the context menu; `None`: of the row under the cursor.
+    OpenRowMenu(Option<RowMenu>),
+    CloseRowMenu,
+    /// A command of the context menu of this row.
+    InvokeFor {
+        command: UiCommand,
+        row: RowId,
+    },
+    /// Show the details of this row.
+    OpenDetails(RowId),
+    CloseDetails,
+    DetailsWidth(f32),
+    /// Read settings and lists of this row's controller for its details.
+    ReadOverview(RowId),
+    Palette(PaletteAction),
     // dialogs
     /// The main button of the dialog on top.
     Submit,
@@ -202,6 +232,8 @@ impl Model {
             workspace,
             dialogs: Vec::new(),
             job: None,
+            row_menu: None,
+            command_palette: None,
             closing: None,
             status: None,
             hover: None,

@@ -2,8 +2,9 @@
 
 use super::trust::Shows;
 use super::{
-    ActivationForm, AddController, CancelState, Column, Dialog, ExportForm, Job, JobId, JobRow, LicencesView, Message,
-    Model, PasswordForm, ProcessingView, RowId, RowState, Task, TaskEvent, Transfer, Typed,
+    ActivationForm, AddController, CancelState, Column, CommandPalette, Dialog, ExportForm, Job, JobId, JobRow,
+    LastResult, LicencesView, Message, Model, PaletteAction, PasswordForm, ProcessingView, RowId, RowState, Task,
+    TaskEvent, Transfer, Typed,
 };
 use crate::jobs::{self, JobController, Summary};
 use crate::model::{ErrorCode, FileFormat};
@@ -31,6 +32,31 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::Resized(size) => {
             model.options.window.size = Some(size);
             model.unsaved = true;
+        }
+        Message::MoveColumn { column, position } => model.move_column(column, position),
+        Message::OpenRowMenu(Some(menu)) => {
+            model.rows.set_cursor(menu.row);
+            model.row_menu = Some(menu);
+        }
+        Message::OpenRowMenu(None) => model.open_menu_at_cursor(),
+        Message::CloseRowMenu => model.row_menu = None,
+        Message::InvokeFor { command, row } => commands = model.invoke_for(command, row),
+        Message::OpenDetails(row) => {
+            model.rows.set_cursor(row);
+            model.show_details(true);
+        }
+        Message::CloseDetails => model.show_details(false),
+        Message::DetailsWidth(width) => {
+            model.options.window.details_width = Some(width);
+            model.unsaved = true;
+        }
+        Message::ReadOverview(row) => commands = model.read_overview(row),
+        Message::Palette(PaletteAction::Close) => model.command_palette = None,
+        Message::Palette(action) => {
+            let language = model.language;
+            if let Some(palette) = &mut model.command_palette {
+                palette.apply(action, language);
+            }
         }
         Message::Submit => commands = model.submit(),
         Message::Close => commands = model.close(),
@@ -136,6 +162,14 @@ impl Model {
             UiCommand::ServerLog => return ticked.first().map(|row| self.open_log(*row)).unwrap_or_default(),
             UiCommand::Verify => return self.verify(ticked),
             UiCommand::CertificateAuthority => return self.open_authority(),
+            UiCommand::CommandPalette => {
+                self.command_palette = Some(CommandPalette::default());
+                return vec![];
+            }
+            UiCommand::RowDetails => {
+                self.show_details(!self.options.window.details);
+                return vec![];
+            }
             UiCommand::Quit => return vec![Command::Quit],
             UiCommand::TickAll => {
                 self.rows.tick_shown(!self.rows.all_shown_ticked());
@@ -289,6 +323,8 @@ impl Model {
                 job.finished += 1;
                 job.failed += usize::from(state.problem().is_some());
                 if is_shown {
+                    let result = LastResult { title: job.task.title, at: self.now, state: state.clone() };
+                    self.rows.set_result(row, result);
                     self.rows.set_live(row, Some(state));
                 }
                 if let Some(info) = report.info.clone() {

@@ -1,9 +1,10 @@
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 
 use chrono::{DateTime, Duration, Utc};
 
 use crate::model::{CertificateType, ControllerInfo, FirmwareGeneration};
-use crate::ui::model::RowState;
+use crate::ui::model::{LastResult, OverviewRead, RowState};
 use crate::workspace::{ControllerEntry, Retrieved};
 
 /// A certificate that expires within this time is pointed out.
@@ -87,6 +88,10 @@ pub struct Row {
     pub ticked: bool,
     /// Where the running job is with it.
     pub live: Option<RowState>,
+    /// Of the jobs since the window was opened.
+    pub last_result: Option<LastResult>,
+    /// What the details pane read.
+    pub overview: Option<OverviewRead>,
     /// Of the server certificate; `None` without one.
     pub expiry: Option<Expiry>,
     /// Lower case: what the search looks through.
@@ -103,6 +108,8 @@ impl Row {
             entry,
             ticked: false,
             live: None,
+            last_result: None,
+            overview: None,
             expiry: None,
             haystack: String::new(),
         };
@@ -351,6 +358,18 @@ impl Rows {
         }
     }
 
+    pub fn set_result(&mut self, id: RowId, result: LastResult) {
+        if let Some(row) = self.get_mut(id) {
+            row.last_result = Some(result);
+        }
+    }
+
+    pub fn set_overview(&mut self, id: RowId, overview: OverviewRead) {
+        if let Some(row) = self.get_mut(id) {
+            row.overview = Some(overview);
+        }
+    }
+
     pub fn clear_live(&mut self) {
         for row in &mut self.list {
             row.live = None;
@@ -382,6 +401,36 @@ impl Rows {
             row.ticked = true;
         }
         self.count();
+    }
+
+    /// Ticks this row and no other. Returns what was ticked before, for [`Rows::restore_ticks`].
+    pub(super) fn tick_only(&mut self, id: RowId) -> Vec<RowId> {
+        let before = self.ticked();
+        for row in &mut self.list {
+            row.ticked = row.id == id;
+        }
+        self.count();
+        before
+    }
+
+    pub(super) fn restore_ticks(&mut self, ids: &[RowId]) {
+        let ids: BTreeSet<&RowId> = ids.iter().collect();
+        for row in &mut self.list {
+            row.ticked = ids.contains(&row.id);
+        }
+        self.count();
+    }
+
+    /// Puts the cursor on a row that is shown.
+    pub fn set_cursor(&mut self, id: RowId) {
+        if let Some(position) = self.view.iter().position(|i| self.list[*i].id == id) {
+            self.cursor = Some(position);
+        }
+    }
+
+    /// The row under the cursor.
+    pub fn at_cursor(&self) -> Option<&Row> {
+        self.cursor.and_then(|at| self.at(at))
     }
 
     /// Ticks or unticks what the search shows; what it hides keeps its tick.

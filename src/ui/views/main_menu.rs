@@ -7,6 +7,13 @@ use crate::ui::model::{Message, Model};
 use crate::ui::widgets::command_item;
 use crate::workspace::ThemeChoice;
 
+/// Below "Create and save" in the menu of certificates.
+pub(super) const CREATE: &[C] = &[C::SelfSigned, C::UserSpecified, C::CaSigned];
+pub(super) const CERTIFICATE: &[C] = &[C::ExportSelfSigned, C::TypeSelect, C::RestoreBackup];
+pub(super) const CLIENT_LISTS: &[C] = &[C::ClientLists, C::Crl];
+pub(super) const SERVER: &[C] = &[C::BasicSettings, C::Users, C::ServerLog, C::Activation];
+pub(super) const SERVER_FILES: &[C] = &[C::ExportSettings, C::ImportSettings];
+
 pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
     let menu = |ui: &mut Ui, title: T, groups: &[&[C]], messages: &mut Vec<Message>| {
@@ -16,29 +23,24 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
         menu(
             ui,
             T::MenuController,
-            &[&[C::AddController, C::ConnectionList], &[C::ConfirmIdentity, C::DeleteControllers], &[C::Quit]],
+            &[
+                &[C::AddController, C::ConnectionList],
+                &[C::ConfirmIdentity, C::DeleteControllers],
+                &[C::RowDetails],
+                &[C::Quit],
+            ],
             messages,
         );
         ui.menu_button(text(T::MenuCertificate), |ui| {
             ui.menu_button(text(T::MenuCreate), |ui| {
-                items(ui, &[&[C::SelfSigned, C::UserSpecified, C::CaSigned]], model, messages);
+                items(ui, &[CREATE], model, messages);
             });
-            items(
-                ui,
-                &[&[C::ExportSelfSigned, C::TypeSelect, C::RestoreBackup], &[C::ClientLists, C::Crl]],
-                model,
-                messages,
-            );
+            items(ui, &[CERTIFICATE, CLIENT_LISTS], model, messages);
         });
-        menu(
-            ui,
-            T::MenuServer,
-            &[&[C::BasicSettings, C::Users, C::ServerLog, C::Activation], &[C::ExportSettings, C::ImportSettings]],
-            messages,
-        );
+        menu(ui, T::MenuServer, &[SERVER, SERVER_FILES], messages);
         ui.menu_button(text(T::MenuOptions), |ui| options(ui, model, messages));
         menu(ui, T::MenuTools, &[&[C::CertificateAuthority, C::Verify]], messages);
-        menu(ui, T::MenuHelp, &[&[C::Shortcuts, C::Licences, C::About]], messages);
+        menu(ui, T::MenuHelp, &[&[C::CommandPalette], &[C::Shortcuts, C::Licences, C::About]], messages);
     });
 }
 

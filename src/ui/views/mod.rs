@@ -1,6 +1,9 @@
 //! The main window.
 
+mod command_palette;
+mod details;
 mod main_menu;
+mod row_menu;
 mod status_bar;
 mod table;
 mod toolbar;
@@ -19,6 +22,9 @@ pub fn window(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     Panel::top("menu").frame(bar(theme::MENU_MARGIN)).show(ui, |ui| main_menu::show(ui, model, messages));
     Panel::top("toolbar").frame(bar(theme::TOOLBAR_MARGIN)).show(ui, |ui| toolbar::show(ui, model, messages));
     Panel::bottom("status").frame(bar(theme::STATUS_MARGIN)).show(ui, |ui| status_bar::show(ui, model, messages));
+    if model.options.window.details && !model.rows.is_empty() {
+        details::show(ui, model, messages);
+    }
     CentralPanel::default().frame(Frame::new().fill(palette.background)).show(ui, |ui| {
         if model.rows.is_empty() {
             welcome::show(ui, model, messages);
@@ -26,4 +32,6 @@ pub fn window(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
             table::show(ui, model, messages);
         }
     });
+    row_menu::show(ui, model, messages);
+    command_palette::show(ui, model, messages);
 }

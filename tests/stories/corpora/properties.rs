@@ -270,6 +270,8 @@ proptest! {
         parallelism in 1_usize..=64,
         size in prop::option::of((points(), points())),
         columns in prop::collection::btree_map("[a-z]{1,8}", points(), 0..4),
+        column_order in prop::collection::vec("[a-z]{1,8}", 0..12),
+        (details, details_width) in (any::<bool>(), prop::option::of(points())),
         (chinese, verify_after_changes, vault) in any::<(bool, bool, bool)>(),
     ) {
         let mut configuration = Configuration::default();
@@ -287,7 +289,7 @@ proptest! {
             passwords: if vault { PasswordPlace::Vault } else { PasswordPlace::Keyring },
             language: chinese.then_some(Language::Zh),
             theme: ThemeChoice::Dark,
-            window: WindowState { size, columns, sort: None },
+            window: WindowState { size, columns, column_order, details, details_width, sort: None },
         };
         let folder = tempfile::tempdir().expect("a temporary folder");
         let workspace = Workspace::new(folder.path());
@@ -297,6 +299,7 @@ proptest! {
         // What no screen has was not measured on one.
         let is_length = |points: f32| (0.0..=32_768.0).contains(&points);
         let window = &mut configuration.options.window;
+        window.details_width = window.details_width.filter(|width| is_length(*width));
         window.size = window.size.filter(|(width, height)| is_length(*width) && is_length(*height));
         window.columns.retain(|_, width| is_length(*width));
         prop_assert_eq!(loaded.configuration, configuration);

@@ -11,5 +11,6 @@ mod main_job;
 mod server_certificates;
 mod settings_transfer;
 mod start;
+mod table;
 mod vault;
 mod verify;

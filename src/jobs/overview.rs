@@ -1,0 +1,53 @@
+use async_trait::async_trait;
+
+use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
+use crate::model::{ClientList, FirmwareGeneration, Problem, ServerSettings};
+
+/// Reads what [`ControllerInfo`](crate::model::ControllerInfo) does not hold, for a look at one controller. Changes
+/// nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct ReadOverview;
+
+/// Settings of a controller, and how long its lists are.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Overview {
+    pub settings: ServerSettings,
+    pub users: usize,
+    pub trusted: usize,
+    pub rejected: usize,
+    /// `None` on legacy firmware, which has no such list.
+    pub issuers: Option<usize>,
+    pub crls: usize,
+}
+
+impl OperationOutput for Overview {
+    fn facts(&self) -> OutputFacts<'_> {
+        OutputFacts::NONE
+    }
+}
+
+#[async_trait]
+impl Operation for ReadOverview {
+    type Output = Overview;
+
+    fn confirmation(&self) -> Option<Confirmation> {
+        None
+    }
+
+    async fn run(&self, run: &mut Run<'_>) -> Result<Overview, Problem> {
+        run.begin(Step::Read)?;
+        let session = &mut *run.session;
+        let issuers = match session.info().await?.generation() {
+            FirmwareGeneration::Legacy => None,
+            FirmwareGeneration::Current => Some(session.clients(ClientList::Issuers).await?.value.len()),
+        };
+        Ok(Overview {
+            settings: session.settings().await?.value,
+            users: session.users().await?.value.len(),
+            trusted: session.clients(ClientList::Trusted).await?.value.len(),
+            rejected: session.rejected_clients().await?.value.len(),
+            issuers,
+            crls: session.crls().await?.value.len(),
+        })
+    }
+}

@@ -1,0 +1,48 @@
+//! What the details pane knows about a controller beyond its row.
+
+use chrono::{DateTime, Utc};
+
+use super::{Model, RowId, RowState, Task};
+use crate::jobs::{Overview, ReadOverview};
+use crate::texts::TextKey;
+use crate::ui::backend::Command;
+
+/// How the last job ended for a controller since the window was opened.
+#[derive(Debug, Clone)]
+pub struct LastResult {
+    /// The job's name.
+    pub title: TextKey,
+    pub at: DateTime<Utc>,
+    pub state: RowState,
+}
+
+/// What was read for the pane, and when.
+#[derive(Debug, Clone)]
+pub struct OverviewRead {
+    pub at: DateTime<Utc>,
+    pub overview: Overview,
+}
+
+impl Model {
+    pub(super) fn show_details(&mut self, shown: bool) {
+        if self.options.window.details != shown {
+            self.options.window.details = shown;
+            self.unsaved = true;
+        }
+    }
+
+    /// Reads settings and lists of one controller for the pane.
+    pub(super) fn read_overview(&mut self, row: RowId) -> Vec<Command> {
+        if self.job.is_some() {
+            return vec![];
+        }
+        let task = Task::with_results(TextKey::RowDetails, ReadOverview, |model, row, result| {
+            if let Ok(overview) = result {
+                let at = model.now;
+                model.rows.set_overview(row, OverviewRead { at, overview });
+            }
+            vec![]
+        });
+        self.start(task.for_dialog(), vec![row], None)
+    }
+}

@@ -1,0 +1,74 @@
+//! The context menu of a row, and for which controllers a command is.
+
+use super::{Model, RowId, reduce};
+use crate::ui::backend::Command;
+use crate::ui::command::UiCommand;
+use crate::ui::model::Message;
+
+/// A context menu that is open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RowMenu {
+    pub row: RowId,
+    /// Where it was asked for, in points; `None` with the keyboard: it opens at the row.
+    pub at: Option<(f32, f32)>,
+}
+
+/// The controllers a command is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Targets {
+    Ticked,
+    /// This one alone, whatever is ticked.
+    Row(RowId),
+}
+
+impl Model {
+    /// What the menu of a row acts on: all ticked controllers if it is one of them, else itself alone.
+    pub fn targets_of(&self, row: RowId) -> Targets {
+        match self.rows.get(row) {
+            Some(found) if found.ticked => Targets::Ticked,
+            _ => Targets::Row(row),
+        }
+    }
+
+    pub fn target_count(&self, targets: Targets) -> usize {
+        match targets {
+            Targets::Ticked => self.rows.ticked_count(),
+            Targets::Row(row) => usize::from(self.rows.get(row).is_some()),
+        }
+    }
+
+    /// One of the controllers is known to have firmware 8.0.0 or later.
+    pub fn any_target_is_current(&self, targets: Targets) -> bool {
+        match targets {
+            Targets::Ticked => self.rows.any_ticked_is_current(),
+            Targets::Row(row) => self.any_current(&[row]),
+        }
+    }
+
+    /// The identity of every one of the controllers is confirmed.
+    pub fn all_targets_are_confirmed(&self, targets: Targets) -> bool {
+        match targets {
+            Targets::Ticked => self.ticked_unconfirmed().next().is_none(),
+            Targets::Row(row) => self.rows.get(row).is_some_and(|row| row.entry.fingerprint.is_some()),
+        }
+    }
+
+    /// Does a command for the row's menu. The ticks are as before afterwards.
+    pub(super) fn invoke_for(&mut self, command: UiCommand, row: RowId) -> Vec<Command> {
+        match self.targets_of(row) {
+            Targets::Ticked => reduce(self, Message::Invoke(command)),
+            Targets::Row(row) => {
+                let ticked = self.rows.tick_only(row);
+                let commands = reduce(self, Message::Invoke(command));
+                self.rows.restore_ticks(&ticked);
+                commands
+            }
+        }
+    }
+
+    /// Opens the menu of the row under the cursor.
+    pub(super) fn open_menu_at_cursor(&mut self) {
+        let row = self.rows.at_cursor().map(|row| row.id);
+        self.row_menu = row.map(|row| RowMenu { row, at: None });
+    }
+}
