@@ -19,6 +19,7 @@ mod server_certificates;
 mod settings_transfer;
 #[path = "../common/soft_renderer.rs"]
 mod soft_renderer;
+mod table;
 mod trust_samples;
 mod vault;
 mod verify;

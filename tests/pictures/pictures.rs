@@ -1,6 +1,14 @@
 //! Pictures of the window over a backend that only plays back what it is told.
-#![allow(dead_code, reason = "not every story needs everything")]
 
+use std::fs::File;
+use std::io::BufWriter;
+use std::path::Path;
+
+use egui::{Context, LayerId, Order, Pos2, Rect, vec2};
+use egui_kittest::kittest::Queryable as _;
+use egui_kittest::{SnapshotOptions, image_snapshot};
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{RgbaImage, imageops};
 use opcua_configurator::jobs::{OperationOutput, Report, Step, Summary};
 use opcua_configurator::model::{ControllerInfo, Language, Problem};
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
@@ -10,13 +18,54 @@ use crate::harness::{Window, click, settle};
 
 pub type W = Window<RecordingBackend>;
 
-/// Compares the window with the picture of this name.
+/// Compares what is on top in the window with the picture of this name: the dialog, else the open menus, else all of it.
 pub fn picture(window: &mut W, name: &str) {
     window.remove_cursor();
     // A blinking cursor would make every other picture different.
     window.ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
     settle(window);
-    window.snapshot(name);
+    let image = window.render().expect("the window can be drawn");
+    let part = on_top(&window.ctx).unwrap_or(window.ctx.content_rect());
+    image_snapshot(&cropped(&image, part.expand(MARGIN)), name);
+    if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
+        squeeze(&SnapshotOptions::default().output_path.join(format!("{name}.png")));
+    }
+}
+
+/// Of the window around a dialog, in pixels.
+const MARGIN: f32 = 8.0;
+
+/// The dialog on top with its lists, or the open menus; `None` if nothing is open over the window.
+fn on_top(ctx: &Context) -> Option<Rect> {
+    ctx.memory(|memory| {
+        let modal = memory.top_modal_layer();
+        let open = memory
+            .areas()
+            .visible_layer_ids()
+            .into_iter()
+            .filter(|layer| matches!(layer.order, Order::Foreground | Order::Tooltip));
+        let shown = |layer: &LayerId| modal.is_none_or(|modal| *layer == modal || memory.is_above_modal_layer(*layer));
+        open.filter(shown).filter_map(|layer| memory.area_rect(layer.id)).reduce(Rect::union)
+    })
+}
+
+fn cropped(image: &RgbaImage, part: Rect) -> RgbaImage {
+    let part = part.intersect(Rect::from_min_size(Pos2::ZERO, vec2(image.width() as f32, image.height() as f32)));
+    let (min, size) = (part.min.floor(), part.size().ceil());
+    imageops::crop_imm(image, min.x as u32, min.y as u32, size.x as u32, size.y as u32).to_image()
+}
+
+/// Writes a picture again without its alpha channel, which is opaque, and as small as the encoder can.
+fn squeeze(path: &Path) {
+    let image = image::open(path).expect("the picture just taken").to_rgb8();
+    let file = File::create(path).expect("the picture's file");
+    let encoder = PngEncoder::new_with_quality(BufWriter::new(file), CompressionType::Best, FilterType::Adaptive);
+    image.write_with_encoder(encoder).expect("the picture's file");
+}
+
+/// What needs no picture of its own: the window has these words on it.
+pub fn assert_shows(window: &W, words: &str) {
+    assert!(window.query_all_by_label_contains(words).next().is_some(), "the window does not show {words:?}");
 }
 
 pub fn tick(window: &mut W, names: &[&str]) {

@@ -6,7 +6,7 @@ use opcua_configurator::ui::model::{Message, VaultRequest};
 use opcua_configurator::workspace::{PasswordPlace, StoreStatus, VaultState};
 
 use crate::harness::{SIZE, choose, click, now, type_into, window};
-use crate::pictures::{W, chinese, job, picture, say, tell};
+use crate::pictures::{W, assert_shows, chinese, job, picture, say, tell};
 use crate::samples::configuration;
 
 fn open(place: PasswordPlace, vault: VaultState) -> W {
@@ -22,14 +22,14 @@ fn open(place: PasswordPlace, vault: VaultState) -> W {
 fn options() {
     let mut window = open(PasswordPlace::Vault, VaultState::Open { passwords: 4 });
     choose(&mut window, &["Options", "Options…"]);
-    picture(&mut window, "options_vault");
+    assert_shows(&window, "The vault is open and holds 4 passwords.");
 }
 
 #[test]
 fn create() {
     let mut window = open(PasswordPlace::Keyring, VaultState::None);
     tell(&mut window, Event::PasswordNotKept(ErrorCode::KeyringUnavailable.into()));
-    picture(&mut window, "passwords_not_kept");
+    assert_shows(&window, "Passwords are not kept");
     click(&mut window, "Passwords are not kept");
     type_into(&mut window, "Passphrase", "short");
     type_into(&mut window, "Passphrase again", "longer");
@@ -51,7 +51,7 @@ fn wrong_passphrase() {
 fn change() {
     let mut window = open(PasswordPlace::Vault, VaultState::Open { passwords: 4 });
     say(&mut window, Message::Vault(VaultRequest::ChangePassphrase));
-    picture(&mut window, "vault_change");
+    assert_shows(&window, "Copies of the vault that were made before still open with the old passphrase.");
 }
 
 #[test]
@@ -64,5 +64,5 @@ fn unreachable() {
     let probe = job(&window);
     let unreachable = Problem::with_detail(ErrorCode::Unreachable, "connection refused (os error 111)");
     tell(&mut window, Event::Probed { job: probe, result: Err(unreachable) });
-    picture(&mut window, "add_controller_unreachable");
+    assert_shows(&window, "Add without confirming its identity");
 }
