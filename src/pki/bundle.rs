@@ -1,7 +1,7 @@
 //! Files with certificates and revocation lists, however they were written.
 
-use super::certificate::check_size;
 use super::parts::{Part, parts};
+use super::size::check_size;
 use super::{Certificate, Crl, FileContent, MAX_CRL_BYTES, PkiError, Wanted, tlv};
 
 /// The largest file that is read for certificates and revocation lists: a revocation list of the largest size in PEM,

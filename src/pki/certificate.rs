@@ -6,11 +6,12 @@ use chrono::{DateTime, Utc};
 use sha1::{Digest as _, Sha1};
 use x509_parser::prelude::{FromDer, X509Certificate};
 
-use super::facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, Facts, KeyUsage};
-use super::parts::{Part, parts};
-use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
+use super::facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, Facts};
+use super::key_usage::KeyUsage;
+use super::pem;
 use super::signature::{PublicKey, SignatureCheck};
-use super::{Bundle, FileContent, PkiError, Wanted, tlv};
+use super::size::check_size;
+use super::{PkiError, tlv};
 use crate::model::CertificateSummary;
 
 /// The largest certificate that is read, in bytes of DER.
@@ -37,21 +38,6 @@ impl Certificate {
         }
         let facts = Arc::new(Facts::of(der, &parsed)?);
         if tlv::is_signed_object(der) { Ok(Self { der: der.into(), facts }) } else { Err(PkiError::NotACertificate) }
-    }
-
-    /// From a file of at most [`MAX_CERTIFICATE_FILE_BYTES`] that holds exactly one certificate: in DER, PEM, base64, or
-    /// a PKCS#7.
-    ///
-    /// In PEM, other text may stand around it. A file that also holds a private key is refused: certificates are handed
-    /// around, keys are not.
-    pub fn from_any(bytes: &[u8]) -> Result<Self, PkiError> {
-        check_size(bytes, MAX_CERTIFICATE_FILE_BYTES)?;
-        let mut certificates = certificates_in(parts(bytes)?)?;
-        match certificates.len() {
-            1 => Ok(certificates.remove(0)),
-            0 => Err(PkiError::NoCertificate),
-            several => Err(PkiError::SeveralCertificates(several)),
-        }
     }
 
     /// The certificate itself, as it was read.
@@ -216,36 +202,10 @@ impl fmt::Debug for Certificate {
     }
 }
 
-/// Every certificate; other public things are passed over, unless there is nothing else.
-fn certificates_in(parts: Vec<Part>) -> Result<Vec<Certificate>, PkiError> {
-    let mut certificates = Vec::new();
-    let mut other = None;
-    for part in parts {
-        match part.content {
-            content if content.is_private_key() => return Err(PkiError::PrivateKeyInside),
-            FileContent::Certificate => certificates.push(Certificate::from_der(&part.der)?),
-            FileContent::Pkcs7 => certificates.extend(Bundle::of_pkcs7(&part.der)?.certificates),
-            FileContent::Unknown => return Certificate::from_der(&part.der).map(|certificate| vec![certificate]),
-            found => other = other.or(Some(found)),
-        }
-    }
-    match other {
-        Some(found) if certificates.is_empty() => Err(PkiError::OtherContent { found, wanted: Wanted::Certificate }),
-        _ => Ok(certificates),
-    }
-}
-
-pub(super) fn check_size(bytes: &[u8], max: usize) -> Result<(), PkiError> {
-    match bytes.len() {
-        0 => Err(PkiError::Empty),
-        bytes if bytes > max => Err(PkiError::TooLarge { bytes, max }),
-        _ => Ok(()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::pki::MAX_CERTIFICATE_FILE_BYTES;
     use crate::pki::{Fingerprint, samples};
 
     #[test]

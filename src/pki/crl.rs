@@ -4,18 +4,17 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use chrono::{DateTime, SecondsFormat, Utc};
-use serde::{Deserialize, Serialize};
 use sha1::{Digest as _, Sha1};
 use x509_parser::prelude::{
-    CertificateRevocationList, FromDer, ParsedExtension, ReasonCode, RevokedCertificate, X509Extension, X509Name,
+    CertificateRevocationList, FromDer, ParsedExtension, RevokedCertificate, X509Extension, X509Name,
 };
 
-use super::certificate::check_size;
-use super::distribution_point::{OutOfScope, Reasons, Scope};
+use super::distribution_point::{Reasons, Scope};
 use super::facts::{date, range_within, significant};
-use super::flaw::quoted;
+use super::name::quoted;
 use super::signature::{SignatureAlgorithm, SignatureCheck};
-use super::{Certificate, CrlUnusable, PkiError, name, pem, tlv};
+use super::size::check_size;
+use super::{Certificate, CrlUnusable, OutOfScope, PkiError, RevocationReason, name, pem, tlv};
 use crate::model::CrlSummary;
 
 /// The largest revocation list that is read, in bytes of DER: room for 150,000 entries with long serial numbers.
@@ -65,26 +64,6 @@ struct RevokedEntry {
 pub struct Revoked {
     pub date: DateTime<Utc>,
     pub reason: RevocationReason,
-}
-
-/// Why a certificate was revoked (RFC 5280 §5.3.1), by the names of that document.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "camelCase")]
-pub enum RevocationReason {
-    Unspecified,
-    KeyCompromise,
-    #[serde(rename = "cACompromise")]
-    CaCompromise,
-    AffiliationChanged,
-    Superseded,
-    CessationOfOperation,
-    CertificateHold,
-    /// Only in a delta list: it is not revoked any more.
-    #[serde(rename = "removeFromCRL")]
-    RemoveFromCrl,
-    PrivilegeWithdrawn,
-    #[serde(rename = "aACompromise")]
-    AaCompromise,
 }
 
 impl Crl {
@@ -180,7 +159,9 @@ impl Crl {
     /// The reasons for which it would name the certificate if it were revoked for them; or why it would not. Says
     /// nothing about dates and signatures.
     pub(super) fn covers(&self, certificate: &Certificate) -> Result<Reasons, OutOfScope> {
-        self.facts.scope.covers(certificate)
+        let is_ca = certificate.basic_constraints().is_some_and(|constraints| constraints.ca);
+        let facts = certificate.facts();
+        self.facts.scope.covers(is_ca, &facts.issuer_folded, &facts.distribution_points)
     }
 
     /// Why nothing in it counts as a full list, even together with others.
@@ -404,40 +385,6 @@ impl Facts {
 
     fn unusable(&mut self, why: CrlUnusable) {
         self.unusable.get_or_insert(why);
-    }
-}
-
-impl RevocationReason {
-    fn of(code: ReasonCode) -> Option<Self> {
-        Some(match code.0 {
-            0 => Self::Unspecified,
-            1 => Self::KeyCompromise,
-            2 => Self::CaCompromise,
-            3 => Self::AffiliationChanged,
-            4 => Self::Superseded,
-            5 => Self::CessationOfOperation,
-            6 => Self::CertificateHold,
-            8 => Self::RemoveFromCrl,
-            9 => Self::PrivilegeWithdrawn,
-            10 => Self::AaCompromise,
-            _ => return None,
-        })
-    }
-
-    /// As RFC 5280 writes it.
-    pub const fn as_str(self) -> &'static str {
-        match self {
-            Self::Unspecified => "unspecified",
-            Self::KeyCompromise => "keyCompromise",
-            Self::CaCompromise => "cACompromise",
-            Self::AffiliationChanged => "affiliationChanged",
-            Self::Superseded => "superseded",
-            Self::CessationOfOperation => "cessationOfOperation",
-            Self::CertificateHold => "certificateHold",
-            Self::RemoveFromCrl => "removeFromCRL",
-            Self::PrivilegeWithdrawn => "privilegeWithdrawn",
-            Self::AaCompromise => "aACompromise",
-        }
     }
 }
 

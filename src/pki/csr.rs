@@ -6,11 +6,11 @@ use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::cri_attributes::ExtensionRequest;
 use x509_parser::prelude::{FromDer, X509Extension};
 
-use super::certificate::check_size;
 use super::parts::{Part, parts};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
 use super::self_signed::{alternative_names, distinguished_name};
 use super::signature::{PublicKey, SignatureAlgorithm, SignatureCheck};
+use super::size::check_size;
 use super::{Certificate, FileContent, MAX_CERTIFICATE_BYTES, PkiError, PrivateKey, ServerNames, Wanted, name, tlv};
 use crate::model::CsrRequest;
 

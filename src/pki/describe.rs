@@ -8,13 +8,13 @@ use sha1::{Digest as _, Sha1};
 use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::prelude::{FromDer as _, SubjectPublicKeyInfo};
 
-use super::certificate::check_size;
 use super::csr::requested_extensions;
 use super::facts::Extensions;
 use super::general_name::{NameConstraints, Subtree};
 use super::parts::{Part, parts};
 use super::signature::{Curve, PublicKey, SignatureAlgorithm, SignatureCheck};
 use super::signers::{Signed, Signers};
+use super::size::check_size;
 use super::{
     AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, FileContent, KeyUsage,
     MAX_BUNDLE_BYTES, PkiError, RevocationReason, Wanted, key_file, name, pkcs12, tlv,

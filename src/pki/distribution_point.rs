@@ -3,12 +3,11 @@
 
 use std::collections::BTreeSet;
 
-use serde::{Deserialize, Serialize};
 use x509_parser::prelude::{FromDer, GeneralName, X509Name};
 
-use super::flaw::quoted;
+use super::name::quoted;
 use super::tlv::{self, SEQUENCE};
-use super::{Certificate, CrlUnusable, RevocationReason, name};
+use super::{CrlUnusable, OutOfScope, RevocationReason, name};
 
 /// A set of reasons for a revocation, those of ReasonFlags.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -116,20 +115,6 @@ impl Default for Scope {
     }
 }
 
-/// Which certificates a list leaves out.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum OutOfScope {
-    /// It is only about certificates of applications; this one is an authority's.
-    OnlyApplications,
-    /// It is only about certificates of authorities; this one is not.
-    OnlyAuthorities,
-    /// It is only about attribute certificates.
-    OnlyAttributeCertificates,
-    /// It is only about certificates with this distribution point; this one has another or none.
-    OtherDistributionPoint(String),
-}
-
 impl Scope {
     /// `issuer`: of the list. `None` if the extension is damaged.
     pub fn read(extension: &[u8], issuer: &X509Name<'_>) -> Option<Self> {
@@ -164,9 +149,15 @@ impl Scope {
         }
     }
 
-    /// Which reasons the list would name if the certificate were revoked for them (RFC 5280 §6.3.3 (b)(2), (d)).
-    pub fn covers(&self, certificate: &Certificate) -> Result<Reasons, OutOfScope> {
-        let is_ca = certificate.basic_constraints().is_some_and(|constraints| constraints.ca);
+    /// Which reasons the list would name if a certificate were revoked for them (RFC 5280 §6.3.3 (b)(2), (d)).
+    ///
+    /// `is_ca`, `issuer` (folded) and `distribution_points` are those of the certificate.
+    pub fn covers(
+        &self,
+        is_ca: bool,
+        issuer: &[u8],
+        distribution_points: &[DistributionPoint],
+    ) -> Result<Reasons, OutOfScope> {
         if self.only_users && is_ca {
             return Err(OutOfScope::OnlyApplications);
         }
@@ -177,11 +168,9 @@ impl Scope {
             return Err(OutOfScope::OnlyAttributeCertificates);
         }
         let Some(points) = &self.points else { return Ok(self.reasons) };
-        let facts = certificate.facts();
         // A list that was not taken from a distribution point counts as that of a point with the name of the issuer.
-        let by_issuer = points.contains(&directory_name(&facts.issuer_folded));
-        let at_points = facts
-            .distribution_points
+        let by_issuer = points.contains(&directory_name(issuer));
+        let at_points = distribution_points
             .iter()
             .filter(|point| point.names.iter().any(|name| points.contains(name)))
             .fold(Reasons::NONE, |reasons, point| reasons.or(point.reasons));

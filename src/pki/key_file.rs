@@ -5,9 +5,9 @@ use rsa::pkcs8::der::Encode as _;
 use rsa::pkcs8::{AlgorithmIdentifierRef, PrivateKeyInfo};
 use zeroize::Zeroizing;
 
-use super::certificate::check_size;
 use super::parts::{Part, parts};
 use super::password_encryption::{self, DecryptError, Password};
+use super::size::check_size;
 use super::{Certificate, FileContent, PkiError, PrivateKey, Wanted, read_bundle, tlv};
 
 /// The largest file a private key is looked for in. Certificates may stand around its PEM.

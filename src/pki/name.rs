@@ -99,6 +99,16 @@ fn decoded(attribute: &AttributeTypeAndValue<'_>) -> String {
     }
 }
 
+/// A text of a certificate or a peer, without control characters and cut to 200 characters, for a [`CertificateFlaw`](super::CertificateFlaw).
+pub(super) fn quoted(text: &str) -> String {
+    const MOST: usize = 200;
+    let mut quoted: String = printable(text).chars().take(MOST).collect();
+    if quoted.len() < text.len() && text.chars().nth(MOST).is_some() {
+        quoted.push('…');
+    }
+    quoted
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

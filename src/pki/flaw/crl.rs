@@ -2,7 +2,6 @@ use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
 use super::CertificateFlaw;
-use crate::pki::OutOfScope;
 
 /// Why a revocation list does not say whether a certificate was revoked.
 ///
@@ -96,4 +95,18 @@ impl CrlFlaw {
             Self::SomeReasons => 12,
         }
     }
+}
+
+/// Which certificates a list leaves out.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum OutOfScope {
+    /// It is only about certificates of applications; this one is an authority's.
+    OnlyApplications,
+    /// It is only about certificates of authorities; this one is not.
+    OnlyAuthorities,
+    /// It is only about attribute certificates.
+    OnlyAttributeCertificates,
+    /// It is only about certificates with this distribution point; this one has another or none.
+    OtherDistributionPoint(String),
 }

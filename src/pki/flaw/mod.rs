@@ -2,12 +2,13 @@
 
 mod crl;
 
-pub use crl::{CrlFlaw, CrlUnusable};
+pub use crl::{CrlFlaw, CrlUnusable, OutOfScope};
 
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Deserializer, Serialize};
 
-use super::{KeyUsage, RevocationReason, Role, name};
+use super::name::quoted;
+use super::{KeyUsage, RevocationReason, Role};
 use crate::model::CertificateStatus as Status;
 
 /// One thing that is wrong with a certificate.
@@ -268,16 +269,6 @@ impl RefusalCause {
         let value = serde_json::Value::deserialize(from)?;
         Ok(serde_json::from_value(value).ok())
     }
-}
-
-/// A text of a certificate or a peer, made fit for a [`CertificateFlaw`].
-pub(super) fn quoted(text: &str) -> String {
-    const MOST: usize = 200;
-    let mut quoted: String = name::printable(text).chars().take(MOST).collect();
-    if quoted.len() < text.len() && text.chars().nth(MOST).is_some() {
-        quoted.push('…');
-    }
-    quoted
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-use crate::pki::flaw::quoted;
+use crate::pki::name::quoted;
 use crate::pki::{AlternativeName, Certificate, CertificateFlaw};
 
 /// How many names of a certificate a message lists.

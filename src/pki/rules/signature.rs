@@ -1,4 +1,4 @@
-use crate::pki::flaw::quoted;
+use crate::pki::name::quoted;
 use crate::pki::signature::SignatureCheck;
 use crate::pki::{Certificate, CertificateFlaw};
 

@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use crate::model::{SecurityPolicy, offered_key_lengths};
-use crate::pki::flaw::quoted;
+use crate::pki::name::quoted;
 use crate::pki::signature::{Hash, PublicKey, SignatureAlgorithm};
 use crate::pki::{Certificate, CertificateFlaw};
 

@@ -3,7 +3,7 @@ use std::collections::HashMap;
 use super::checks::{self, Step, StepFailure};
 use super::revocation::{OtherKeys, Revocation};
 use super::{Presented, Rejection, TrustLists, TrustPolicy};
-use crate::pki::flaw::quoted;
+use crate::pki::name::quoted;
 use crate::pki::signature::SignatureCheck;
 use crate::pki::{Certificate, CertificateFlaw};
 

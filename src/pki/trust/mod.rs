@@ -49,11 +49,13 @@ mod policies;
 mod policy;
 mod rejection;
 mod revocation;
+mod role;
 #[cfg(test)]
 mod tests;
 
 pub use checks::check_application_uri;
 pub use lists::TrustLists;
 pub use never::never_accepted;
-pub use policy::{Presented, Role, TrustPolicy};
+pub use policy::{Presented, TrustPolicy};
 pub use rejection::Rejection;
+pub use role::Role;

@@ -1,6 +1,6 @@
 use super::Rejection;
-use crate::pki::flaw::quoted;
 use crate::pki::general_name::{GeneralName, NotAllowed};
+use crate::pki::name::quoted;
 use crate::pki::{Certificate, CertificateFlaw};
 
 /// The most comparisons of names with constraints for one certificate and one authority.

@@ -1,6 +1,6 @@
 use chrono::{DateTime, Utc};
-use serde::{Deserialize, Serialize};
 
+use super::Role;
 use crate::model::SecurityPolicy;
 use crate::pki::{Certificate, CertificateFlaw, KeyUsage};
 
@@ -18,18 +18,6 @@ pub struct Presented<'a> {
     pub host: Option<&'a str>,
     /// The one of the secure channel; without one, what today's policies want.
     pub security_policy: Option<SecurityPolicy>,
-}
-
-/// What the owner of a certificate is to us.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Role {
-    /// It connects to us: extended key usages, if any, must allow client authentication.
-    Client,
-    /// We connect to it: extended key usages, if any, must allow server authentication.
-    Server,
-    /// Not known yet: either of both is enough.
-    Either,
 }
 
 /// What is let pass although OPC 10000-4 §6.1.3 advises against it. Nothing is, by default.

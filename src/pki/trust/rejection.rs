@@ -1,7 +1,7 @@
 use std::fmt;
 
 use crate::model::{CertificateStatus, Language};
-use crate::pki::flaw::quoted;
+use crate::pki::name::quoted;
 use crate::pki::{Certificate, CertificateFlaw, RefusalCause};
 
 /// Why a certificate is not trusted.

@@ -3,7 +3,7 @@ use super::checks::{Step, StepFailure};
 use super::{Presented, Rejection, TrustLists, TrustPolicy};
 use crate::pki::crl::Revoked;
 use crate::pki::distribution_point::Reasons;
-use crate::pki::flaw::quoted;
+use crate::pki::name::quoted;
 use crate::pki::signature::{PublicKey, SignatureCheck};
 use crate::pki::{Certificate, CertificateFlaw, Crl, CrlFlaw, rules};
 
