@@ -3,28 +3,9 @@
 use std::path::{Path, PathBuf};
 use std::{fs, io};
 
-use super::{CertificateFiles, FileError, read_bounded};
-use crate::model::SerialNumber;
+use super::{FileError, read_bounded};
 use crate::model::file_names::is_reserved;
 use crate::pki::MAX_CERTIFICATE_FILE_BYTES;
-
-impl CertificateFiles {
-    /// The only `.der` in `CASigned`.
-    pub fn find_ca_signed(&self, serial: &SerialNumber) -> Result<PathBuf, FileError> {
-        single(&self.ca_signed_folder(serial), "der")
-    }
-
-    /// The only `.pfx` in `UserSpecified`.
-    pub fn find_user_pfx(&self, serial: &SerialNumber) -> Result<PathBuf, FileError> {
-        single(&self.user_specified_folder(serial), "pfx")
-    }
-
-    /// The only `.der` and the only `.key` in `UserSpecified`.
-    pub fn find_user_pair(&self, serial: &SerialNumber) -> Result<(PathBuf, PathBuf), FileError> {
-        let folder = self.user_specified_folder(serial);
-        Ok((single(&folder, "der")?, single(&folder, "key")?))
-    }
-}
 
 /// Reads a file of at most `max` bytes that was chosen by a person. Blocks.
 ///
@@ -63,7 +44,7 @@ const MAX_BESIDE: usize = 50;
 const MAX_LISTED: usize = 10_000;
 
 /// The only file with this extension in a folder, with a name as the manual wants it (6.2). Other files do not matter.
-fn single(folder: &Path, extension: &'static str) -> Result<PathBuf, FileError> {
+pub(super) fn single(folder: &Path, extension: &'static str) -> Result<PathBuf, FileError> {
     let missing = || FileError::NoneOfKind { folder: folder.to_owned(), extension };
     let unreadable = |source: io::Error| match FileError::reading(folder, source) {
         FileError::Missing { .. } => missing(),
@@ -94,6 +75,7 @@ fn has_plain_name(path: &Path) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::model::SerialNumber;
     use crate::model::{ErrorCode, Problem};
     use crate::workspace::Workspace;
 

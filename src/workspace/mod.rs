@@ -23,6 +23,7 @@
 mod atomic;
 pub mod authority;
 mod certificate_files;
+mod certificate_import;
 mod configuration;
 mod connection_list;
 mod error;
@@ -31,6 +32,7 @@ mod import_files;
 mod key_backups;
 mod keyring;
 mod own_identity;
+mod passphrase;
 mod password_list;
 mod password_store;
 mod passwords;
@@ -58,12 +60,10 @@ pub use import_files::{certificate_files_beside, read_import_file};
 pub use key_backups::{BackupKind, KeyBackup, KeyBackupError, KeyBackupSource};
 pub use keyring::{Keyring, KeyringError, NoKeyring, SystemKeyring};
 pub use own_identity::{KeyFile, OwnIdentity, OwnIdentityError, OwnIdentityFiles};
+pub use passphrase::{MIN_PASSPHRASE_CHARS, PassphraseError, check_passphrase, check_protects_files};
 pub use password_list::{MAX_PASSWORD_LIST_BYTES, PasswordList, PasswordListError};
 pub use password_store::{PasswordPlace, PasswordStore, StoreStatus, VaultState};
-pub use passwords::{
-    MIN_PASSPHRASE_CHARS, MemoryPasswords, PassphraseError, PasswordError, Passwords, check_passphrase,
-    check_protects_files,
-};
+pub use passwords::{MemoryPasswords, PasswordError, Passwords};
 pub use recognise::{MAX_RECOGNISED_BYTES, RecogniseError, Recognised, recognise, recognise_file};
 pub use running_window::{Shown, StartRequests, show_running_window};
 pub use settings_files::{SettingsFileError, SettingsFiles};

@@ -4,44 +4,26 @@
 //! the workspace's path; both are for this account only. A request is one line, and so is the answer. Anything else is
 //! dropped; one exchange takes at most 2 s and 32 bytes.
 
+mod exchange;
 #[cfg(windows)]
 mod pipe;
 #[cfg(unix)]
 mod socket;
 
-use std::io::{self, Read, Write};
+use std::io;
 use std::path::Path;
-use std::sync::{Arc, mpsc};
+use std::sync::mpsc;
 use std::thread;
 use std::time::Duration;
-
-use tokio::io::{AsyncRead, AsyncReadExt as _, AsyncWrite, AsyncWriteExt as _};
-use tokio::time::timeout;
 
 #[cfg(windows)]
 use pipe as system;
 #[cfg(unix)]
 use socket as system;
 
+pub use exchange::Shown;
+use exchange::ask;
 pub use system::StartRequests;
-
-/// What becomes of a request to show the window.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shown {
-    /// The window comes to the front.
-    InFront,
-    /// The window asks for attention; the desktop does not let programs bring windows to the front (Wayland).
-    Marked,
-}
-
-impl Shown {
-    fn as_line(self) -> &'static [u8] {
-        match self {
-            Self::InFront => b"in front\n",
-            Self::Marked => b"marked\n",
-        }
-    }
-}
 
 /// Asks the program that has the workspace open to show its window. Blocks up to 3 s.
 ///
@@ -57,44 +39,15 @@ pub fn show_running_window(root: &Path) -> io::Result<Shown> {
     answer.recv_timeout(PATIENCE).unwrap_or_else(|_| Err(io::ErrorKind::TimedOut.into()))
 }
 
-fn ask(mut stream: impl Read + Write) -> io::Result<Shown> {
-    stream.write_all(REQUEST)?;
-    let mut answer = Vec::new();
-    while !answer.ends_with(b"\n") && answer.len() < MAX_LINE {
-        let mut byte = [0];
-        stream.read_exact(&mut byte)?;
-        answer.extend(byte);
-    }
-    let known = [Shown::InFront, Shown::Marked].into_iter().find(|shown| shown.as_line() == answer);
-    known.ok_or_else(|| io::ErrorKind::InvalidData.into())
-}
-
-/// Answers one request, and tells `on_request` before.
-async fn answer(mut stream: impl AsyncRead + AsyncWrite + Unpin, shown: Shown, on_request: Arc<impl Fn()>) {
-    let exchange = async {
-        let mut request = [0; REQUEST.len()];
-        stream.read_exact(&mut request).await?;
-        if request != *REQUEST {
-            return Err(io::Error::from(io::ErrorKind::InvalidData));
-        }
-        on_request();
-        stream.write_all(shown.as_line()).await?;
-        stream.flush().await?;
-        // The other side closes first: a pipe forgets what was not read.
-        stream.read(&mut [0]).await
-    };
-    let _ = timeout(EXCHANGE, exchange).await;
-}
-
-const REQUEST: &[u8; 23] = b"show the window please\n";
-const MAX_LINE: usize = 32;
-const EXCHANGE: Duration = Duration::from_secs(2);
 const PATIENCE: Duration = Duration::from_secs(3);
 
 #[cfg(test)]
 mod tests {
+    use std::io::Write as _;
+    use std::sync::Arc;
     use std::sync::atomic::{AtomicUsize, Ordering};
 
+    use super::exchange::REQUEST;
     use super::*;
     use crate::workspace::Workspace;
 

@@ -14,7 +14,7 @@ use windows_sys::Win32::Storage::FileSystem::SECURITY_IDENTIFICATION;
 use windows_sys::Win32::System::Pipes::GetNamedPipeServerProcessId;
 use windows_sys::Win32::UI::WindowsAndMessaging::AllowSetForegroundWindow;
 
-use super::{Shown, answer};
+use super::exchange::{Shown, answer};
 use crate::platform::windows::access::Descriptor;
 use crate::workspace::WorkspaceLock;
 

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Shown, answer};
+use super::exchange::{Shown, answer};
 use crate::workspace::WorkspaceLock;
 
 /// Waits for other starts on the workspace; its socket is removed when this is dropped.

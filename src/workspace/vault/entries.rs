@@ -3,14 +3,9 @@ use std::collections::BTreeMap;
 use secrecy::{ExposeSecret as _, SecretString};
 use zeroize::Zeroizing;
 
-use super::VaultError;
+use super::error::VaultError;
+use super::limits::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS};
 use crate::pki::Fingerprint;
-
-/// The most passwords a vault holds: twice as many as a connection list has controllers.
-pub const MAX_VAULT_PASSWORDS: usize = 20_000;
-
-/// The longest password a vault takes, in bytes of UTF-8.
-pub const MAX_VAULT_PASSWORD_BYTES: usize = 1024;
 
 /// The connection passwords in a vault, by the identity of their controller. An empty password is a password: the
 /// controller has none.

@@ -12,7 +12,9 @@
 //! that one entry and writes it whole, so no change of another process is lost.
 
 mod entries;
+mod error;
 mod file;
+mod limits;
 
 #[cfg(test)]
 mod tests;
@@ -22,45 +24,14 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use secrecy::SecretString;
-use thiserror::Error;
 
-pub use entries::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS};
+pub use error::VaultError;
+pub use limits::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS};
 
-use super::{PassphraseError, WorkspaceError, atomic, check_passphrase, read_bounded, write_atomic};
+use super::{WorkspaceError, atomic, check_passphrase, read_bounded, write_atomic};
 use crate::pki::{Fingerprint, SealCost, SealError, Sealed, SealingKey};
 use entries::Entries;
 use file::NotAVault;
-
-/// Why a vault cannot be used. Nothing of what is in the file is lost with any of these.
-#[derive(Debug, Error)]
-#[non_exhaustive]
-pub enum VaultError {
-    #[error("{} is not there", .0.display())]
-    Missing(PathBuf),
-    #[error("{} is there already", .0.display())]
-    Exists(PathBuf),
-    #[error("{}: {reason}", path.display())]
-    Damaged { path: PathBuf, reason: String },
-    #[error("{}: version {version}; this program knows version {}", path.display(), file::VERSION)]
-    Version { path: PathBuf, version: u32 },
-    #[error("the passphrase does not open {}", .0.display())]
-    WrongPassphrase(PathBuf),
-    /// Another process has changed the passphrase since the vault was opened.
-    #[error("the passphrase of {} was changed meanwhile", .0.display())]
-    PassphraseChanged(PathBuf),
-    #[error("a vault holds at most {MAX_VAULT_PASSWORDS} passwords")]
-    TooMany,
-    #[error("a password in a vault has at most {MAX_VAULT_PASSWORD_BYTES} bytes")]
-    PasswordTooLong,
-    /// A new passphrase that is too short.
-    #[error(transparent)]
-    Passphrase(#[from] PassphraseError),
-    /// A secret cannot be encrypted.
-    #[error("{0}")]
-    Seal(#[source] SealError),
-    #[error(transparent)]
-    Workspace(#[from] WorkspaceError),
-}
 
 /// The vault of a workspace, whether there is one or not.
 #[derive(Debug, Clone, PartialEq, Eq)]
