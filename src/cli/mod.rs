@@ -58,8 +58,8 @@ pub struct Cli {
     #[arg(long, value_name = "DIR", global = true)]
     workspace: Option<PathBuf>,
 
-    /// Language of messages: en, zh or ja [default: the system's]
-    #[arg(long, value_name = "LANG", global = true, value_parser = parse_language)]
+    /// Language of messages [default: the system's]
+    #[arg(long, value_name = "LANG", global = true, ignore_case = true, value_parser = languages())]
     lang: Option<Language>,
 
     /// One line of JSON per controller on standard output
@@ -169,11 +169,15 @@ enum Command {
     Completions { shell: clap_complete::Shell },
 }
 
-fn parse_language(text: &str) -> Result<Language, String> {
-    Language::ALL.into_iter().find(|language| language.code().eq_ignore_ascii_case(text)).ok_or_else(|| {
-        let known = Language::ALL.map(Language::code).join(", ");
-        format!("\"{text}\" is not a language; known are {known}")
-    })
+/// The values of `--lang`.
+fn languages() -> impl clap::builder::TypedValueParser<Value = Language> {
+    use clap::builder::{PossibleValuesParser, TypedValueParser as _};
+    PossibleValuesParser::new(Language::ALL.map(Language::code))
+        .try_map(|code| parse_language(&code).ok_or("it is not the code of a language"))
+}
+
+fn parse_language(code: &str) -> Option<Language> {
+    Language::ALL.into_iter().find(|language| language.code().eq_ignore_ascii_case(code))
 }
 
 /// What every subcommand needs to know.
@@ -271,7 +275,7 @@ fn language_of(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> Optio
         "--lang" => Some(None),
         _ => argument.strip_prefix("--lang=").map(|value| Some(value.to_owned())),
     })?;
-    parse_language(&value.or_else(|| arguments.next())?).ok()
+    parse_language(&value.or_else(|| arguments.next())?)
 }
 
 fn system_language() -> Language {

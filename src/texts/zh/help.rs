@@ -127,7 +127,7 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
         "workspace",
         "保存控制器列表及其全部文件的文件夹 [默认：主目录中的 EpsonRC80/OPCUA，Windows 上为 C:\\EpsonRC80\\OPCUA]",
     ),
-    ("", "lang", "消息的语言：en、zh 或 ja [默认：系统语言]"),
+    ("", "lang", "消息的语言 [默认：系统语言]"),
     ("", "json", "在标准输出中每台控制器输出一行 JSON"),
     ("", "yes", "停止、替换或删除之前不询问；没有终端时必须指定"),
     (
