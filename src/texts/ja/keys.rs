@@ -81,7 +81,7 @@ fixed_texts! {
     PaletteHint: "コマンド名の一部";
     PaletteNone: "この名前のコマンドはありません";
     DetailsChoose: "コントローラーを選択してください：行をクリックするか、方向キーを使います";
-    DetailsServer: "OPC UA サーバー";
+    DetailsServer: "OPC UAサーバー";
     DetailsFirmware: "ファームウェア";
     DetailsLastResult: "前回の結果";
     DetailsNoResult: "ウィンドウを開いてからジョブは実行されていません";
@@ -90,11 +90,11 @@ fixed_texts! {
     DetailsNotRead: "ウィンドウを開いてから読み取っていません";
     DetailsNoCertificate: "証明書なし";
     DetailsNone: "なし";
-    DetailsApplicationUri: "アプリケーション URI";
+    DetailsApplicationUri: "アプリケーションURI";
     KeyDetails: "行の詳細を表示";
     KeyRowMenu: "行のメニュー";
-    KeyMenu: "メニューキーまたは Shift+F10";
-    KeyEnterRow: "Enter またはダブルクリック";
+    KeyMenu: "メニューキーまたはShift+F10";
+    KeyEnterRow: "Enterまたはダブルクリック";
     DragColumnTip: "ドラッグすると列を移動できます";
     TryVirtual: "仮想コントローラーで試す";
     TryVirtualTip: "仮想コントローラーをこのPCで数台起動し、リストに追加します";
