@@ -20,7 +20,7 @@ use crate::jobs::{
 use crate::model::{ControllerInfo, ErrorCode, Problem, clock};
 use crate::pki::Severity;
 use crate::platform::stop_signal::StopSignals;
-use crate::session::ManagementConnector;
+use crate::session::Connectors;
 use crate::texts::{TextKey, cli as texts};
 use crate::workspace::{Configuration, ControllerEntry, Retrieved, WorkspaceLock};
 
@@ -69,7 +69,7 @@ impl Settled {
     }
 
     pub fn context(&self, parallelism: usize) -> Result<JobContext, Problem> {
-        Ok(JobContext::new(Arc::new(ManagementConnector::default()), self.passwords()?, parallelism))
+        Ok(JobContext::new(Connectors::standard(), self.passwords()?, parallelism))
     }
 
     /// Runs an operation on the chosen controllers, after asking where it must be asked.

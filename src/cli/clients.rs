@@ -10,8 +10,8 @@ use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_move, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, RemoveClients, TrustChange, TrustSnapshot};
-use crate::model::{ClientList, ErrorCode, Language, Problem};
-use crate::protocol::{ListedCertificate, RejectedClient};
+use crate::model::{ClientList, ErrorCode, Language, ListedCertificate, Problem};
+use crate::pki::RejectedClient;
 use crate::texts::{TextKey, cli as texts, client_list};
 
 #[derive(Debug, Subcommand)]

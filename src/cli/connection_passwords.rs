@@ -12,7 +12,7 @@ use zeroize::Zeroizing;
 use super::Settled;
 use super::passwords::passphrase;
 use super::secret_file::read_secret;
-use crate::model::{ControllerName, ErrorCode, Problem, text};
+use crate::model::{ControllerName, Credentials, ErrorCode, Problem, text};
 use crate::pki::Fingerprint;
 use crate::texts::TextKey;
 use crate::workspace::{
@@ -30,15 +30,15 @@ struct CommandPasswords {
 }
 
 impl Passwords for CommandPasswords {
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
+    fn get(&self, controller: Fingerprint) -> Result<Option<Credentials>, PasswordError> {
         match self.listed.get(&controller).or(self.given.as_ref()) {
-            Some(password) => Ok(Some(password.clone())),
+            Some(password) => Ok(Some(password.clone().into())),
             None => self.store.get(controller),
         }
     }
 
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), PasswordError> {
-        self.store.set(controller, password)
+    fn set(&self, controller: Fingerprint, credentials: Credentials) -> Result<(), PasswordError> {
+        self.store.set(controller, credentials)
     }
 
     fn forget(&self, controller: Fingerprint) {

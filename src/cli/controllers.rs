@@ -8,7 +8,7 @@ use super::output::say;
 use super::table::table;
 use super::{Ending, Settled, runtime};
 use crate::jobs::{self, Enrolled};
-use crate::model::{Address, ControllerName, ControllerSeries, ErrorCode, Problem, clock};
+use crate::model::{Address, ConnectionKind, ControllerName, ControllerSeries, ErrorCode, Problem, clock};
 use crate::pki::Fingerprint;
 use crate::texts::{TextKey, cli as texts};
 use crate::workspace::{
@@ -154,8 +154,13 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
         }
         let text = texts::added(language, &name, format!("{} {} {fingerprint}", info.series, info.serial));
         let shown = json!({ "fingerprint": fingerprint, "info": info });
+        let connection = ConnectionKind::default();
         let (series, last) = (info.series, Some(Retrieved { at: clock::now(), info }));
-        (ControllerEntry { name: name.clone(), address, series, fingerprint: Some(fingerprint), last }, shown, text)
+        (
+            ControllerEntry { name: name.clone(), address, series, connection, fingerprint: Some(fingerprint), last },
+            shown,
+            text,
+        )
     };
     configuration.controllers.push(entry);
     settled.workspace.save(&configuration, &lock)?;
@@ -176,13 +181,13 @@ fn meet(
     given: Option<Fingerprint>,
     password: SecretString,
 ) -> Result<Result<Enrolled, ErrorCode>, Problem> {
-    let context = settled.context(1)?;
+    let (context, connection) = (settled.context(1)?, ConnectionKind::default());
     let enrolled = runtime()?.block_on(async {
         let fingerprint = match given {
             Some(fingerprint) => fingerprint,
-            None => jobs::probe(address, &context).await?,
+            None => jobs::probe(connection, address, &context).await?,
         };
-        jobs::enroll(address, fingerprint, password, &context).await
+        jobs::enroll(connection, address, fingerprint, password.into(), &context).await
     });
     match enrolled {
         Ok(enrolled) => {

@@ -10,9 +10,8 @@ use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, RemoveCrls, TrustSnapshot};
-use crate::model::{Language, Problem};
+use crate::model::{Language, Problem, ListedCrl};
 use crate::pki::CrlHealth;
-use crate::protocol::ListedCrl;
 use crate::texts::{TextKey, cli as texts, crl_flaws};
 
 #[derive(Debug, Subcommand)]

@@ -89,6 +89,7 @@ mod tests {
                 name: name.parse().unwrap(),
                 address: format!("10.0.0.{}", i + 1).parse().unwrap(),
                 series: crate::model::ControllerSeries::Rc800,
+                connection: crate::model::ConnectionKind::Management,
                 fingerprint: None,
                 last: None,
             });

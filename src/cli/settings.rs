@@ -12,9 +12,9 @@ use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{ReadSettings, SetSettings, SettingsChange};
 use crate::model::{
-    ErrorCode, Language, PortError, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
+    ErrorCode, Language, PortError, Problem, Revisioned, SecurityPolicy, ServerPort, ServerSettings, StartupMode,
+    UserTokenPolicy,
 };
-use crate::protocol::Revisioned;
 use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]

@@ -7,8 +7,9 @@ use super::output::say;
 use super::table::table;
 use super::{Settled, read_bounded};
 use crate::jobs::{Destination, Fate, Note, Target, Thing, TrustFile, TrustPlan, TrustSnapshot};
-use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Language, ListLimits, Problem, clock};
+use crate::model::{Capabilities, ClientList, ErrorCode, Feature, Language, ListLimits, MissingReason, Problem, clock};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
+use crate::session;
 use crate::texts::{TextKey, cli as texts};
 use crate::workspace::ControllerEntry;
 
@@ -35,7 +36,8 @@ pub fn read_trust_files<'a>(
 
 /// Says what goes where, and asks if there is anything a person should think about.
 ///
-/// One plan for each firmware generation among the chosen controllers; what they already hold is found out later.
+/// One plan for the chosen controllers with an issuers list and one for those without; what the controllers already hold is
+/// found out later.
 pub fn show_plan(
     settled: &Settled,
     files: &[TrustFile],
@@ -45,20 +47,25 @@ pub fn show_plan(
     let now = clock::now();
     let mut unclear = false;
     let language = settled.output.language();
-    for generation in [FirmwareGeneration::Current, FirmwareGeneration::Legacy] {
+    let without = Capabilities::all().without(&[Feature::IssuersList], MissingReason::FirmwareTooOld);
+    for (capabilities, limits) in [(Capabilities::all(), ListLimits::LARGEST), (without, ListLimits::WITHOUT_ISSUERS)] {
+        let has_issuers_list = capabilities.offers(Feature::IssuersList);
         let concerned = chosen.iter().any(|entry| {
-            // One that was never read may be either.
-            entry.last.as_ref().is_none_or(|last| last.info.generation() == generation)
+            // A controller that was never read may have one or not.
+            entry.last.as_ref().is_none_or(|last| {
+                session::capabilities(entry.connection, Some(&last.info)).offers(Feature::IssuersList)
+                    == has_issuers_list
+            })
         });
         if !concerned {
             continue;
         }
-        let plan = TrustPlan::new(files, destination, generation, ListLimits::of(generation), now, None);
+        let plan = TrustPlan::new(files, destination, &capabilities, limits, now, None);
         unclear |= plan.needs_a_look();
         if plan.needs_a_look() && !settled.output.is_json() {
             let headings = [TextKey::HeadingFile, TextKey::HeadingWhat, TextKey::HeadingGoesTo, TextKey::HeadingNote];
             let plan = table(&headings.map(|heading| heading.text(language)), &rows(&plan, language));
-            say(&texts::over_plan(language, texts::controllers_with(generation), &plan));
+            say(&texts::over_plan(language, texts::controllers_with(has_issuers_list), &plan));
         }
     }
     if unclear { agreed(settled) } else { Ok(()) }

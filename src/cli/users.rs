@@ -9,8 +9,7 @@ use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
 use super::{Ending, Settled};
 use crate::jobs::{AddUser, ListUsers, RemoveUsers};
-use crate::model::{Credential, CredentialError, ErrorCode, Problem, UserName, UserPassword};
-use crate::protocol::Revisioned;
+use crate::model::{Credential, CredentialError, ErrorCode, Problem, Revisioned, UserName, UserPassword};
 use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]

@@ -9,7 +9,7 @@ use parking_lot::Mutex;
 use tokio::runtime::{Handle, Runtime};
 
 use super::runtime;
-use crate::model::{ErrorCode, Problem, clock};
+use crate::model::{ConnectionKind, ErrorCode, Problem, clock};
 use crate::pki::Fingerprint;
 use crate::ui::backend::{NewVirtual, VirtualFleetStarter};
 use crate::virtual_controller::{DEMO_COUNT, DemoEntry, DemoFleet, demo_fleet};
@@ -57,7 +57,7 @@ impl VirtualPlant {
         for NewVirtual { entry, password } in self.runtime.block_on(self.stage.start())? {
             if let Some(fingerprint) = entry.fingerprint {
                 // Worth nothing to anybody but this process: not for the keyring's failures to be reported.
-                let _kept = passwords.set(fingerprint, password);
+                let _kept = passwords.set(fingerprint, password.into());
             }
             match configuration.controllers.iter_mut().find(|known| known.fingerprint == entry.fingerprint) {
                 Some(known) => known.address = entry.address,
@@ -100,6 +100,7 @@ fn listed(entry: &DemoEntry, fleet: &DemoFleet) -> NewVirtual {
             name: entry.name.clone(),
             address: entry.address.clone(),
             series: entry.series,
+            connection: ConnectionKind::Management,
             fingerprint: Some(fingerprint),
             last: running.map(|controller| Retrieved { at: clock::now(), info: controller.info() }),
         },

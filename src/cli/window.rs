@@ -7,7 +7,7 @@ use super::virtual_plant::VirtualPlant;
 use super::{Ending, Settled, system_language};
 use crate::model::{Language, Problem};
 use crate::platform::console;
-use crate::session::ManagementConnector;
+use crate::session::Connectors;
 use crate::texts::TextKey;
 use crate::ui::{self, WindowOptions};
 use crate::workspace::{
@@ -77,7 +77,7 @@ pub fn open(
         lock,
         configuration,
         passwords,
-        connector: Arc::new(ManagementConnector::default()),
+        connectors: Connectors::standard(),
         starter: Some(plant.starter()),
         language: system_language(),
         notice,

@@ -4,8 +4,7 @@ use async_trait::async_trait;
 
 use super::{Confirmation, Done, JobController, Operation, Run, ServerEffect, Step};
 use crate::model::activation::{ActivationFile, ActivationKeys, Entry};
-use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem, SerialNumber};
-use crate::protocol;
+use crate::model::{ErrorCode, Feature, Problem, SerialNumber};
 
 /// Activates legacy controllers by their keys (manual 2.6.3). A controller without keys fails alone, and nothing is
 /// sent to it.
@@ -38,13 +37,6 @@ impl KeySource {
     }
 }
 
-fn legacy(firmware: FirmwareVersion) -> Result<(), Problem> {
-    match firmware.generation() {
-        FirmwareGeneration::Legacy => Ok(()),
-        FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
-    }
-}
-
 #[async_trait]
 impl Operation for Activate {
     type Output = Done;
@@ -55,17 +47,17 @@ impl Operation for Activate {
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
         let Some(known) = &controller.known else { return Ok(()) };
-        legacy(known.firmware)?;
+        controller.capabilities().require(Feature::ActivationKeys)?;
         self.keys.keys(&known.serial).map(|_| ())
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
-        legacy(info.firmware)?;
-        let ActivationKeys { licence, activation } = self.keys.keys(&info.serial)?.clone();
+        run.require(Feature::ActivationKeys).await?;
+        let keys = self.keys.keys(&info.serial)?.clone();
         run.begin(Step::Apply)?;
-        run.session.activate(protocol::Activate { revision: info.revision, licence, activation }).await?;
+        run.session.activate(info.revision, keys).await?;
         Ok(Done)
     }
 }

@@ -3,9 +3,9 @@ use secrecy::ExposeSecret as _;
 
 use super::self_signed::{bad_request, server_names, transfer_password};
 use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, Step};
-use crate::model::{ControllerInfo, CsrRequest, FileFormat, FirmwareGeneration, KeyLength, Problem, Subject};
+use crate::model::{ControllerInfo, CsrRequest, Feature, FileFormat, KeyLength, Problem, Subject};
 use crate::pki::{self, Csr, PkiError, PrivateKey};
-use crate::protocol::{Base64Bytes, CsrMade, ImportCsr, MakeCsr, WireSecret};
+use crate::session::{CsrImport, SealedKey, StoredCsr};
 use crate::workspace::{CertificateFiles, SavedCsr};
 
 /// The fields of the CSR dialog (manual 2.7.1.5).
@@ -95,18 +95,18 @@ impl CreateCsr {
         let settings = run.session.settings().await?;
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
-        let legacy = info.generation() == FirmwareGeneration::Legacy;
+        let made_on_pc = !run.session.capabilities().await?.offers(Feature::KeysMadeInController);
         let (files, serial) = (self.files.clone(), info.serial.clone());
-        let key_password = (self.backup && legacy).then(|| run.password.clone());
+        let key_password = (self.backup && made_on_pc).then(|| run.password.clone());
         run.off_thread(move || files.check_csr_writable(&serial, key_password.as_ref()).map_err(Problem::from)).await?;
-        let (made, key) = if legacy {
+        let (made, key) = if made_on_pc {
             let (made, key) = make_and_send(run, info, request).await?;
             (made, Some(key))
         } else {
             run.begin(Step::Apply)?;
-            (run.session.make_csr(MakeCsr { revision: info.revision, request }).await?, None)
+            (run.session.make_csr(info.revision, request).await?, None)
         };
-        let csr = Csr::from_der(&made.csr.0)?;
+        let csr = Csr::from_der(&made.csr)?;
         // Saved also after a cancel: the controller holds it by now.
         (run.on_step)(Step::SaveBackup);
         let (files, serial, password) = (self.files.clone(), info.serial.clone(), run.password.clone());
@@ -120,7 +120,7 @@ async fn make_and_send(
     run: &mut Run<'_>,
     info: &ControllerInfo,
     request: CsrRequest,
-) -> Result<(CsrMade, PrivateKey), Problem> {
+) -> Result<(StoredCsr, PrivateKey), Problem> {
     run.begin(Step::MakeKey)?;
     let names = server_names(info, run.controller);
     let password = transfer_password()?;
@@ -134,12 +134,7 @@ async fn make_and_send(
         })
         .await??;
     run.begin(Step::Apply)?;
-    let change = ImportCsr {
-        revision: info.revision,
-        csr: Base64Bytes(csr.der().to_vec()),
-        pkcs12: Base64Bytes(pkcs12),
-        password: WireSecret(password),
-        certificate: None,
-    };
-    Ok((run.session.import_csr(change).await?, key))
+    let key_transfer = SealedKey { pkcs12, password };
+    let import = CsrImport { csr: csr.der().to_vec(), key: key_transfer, certificate: None };
+    Ok((run.session.import_csr(info.revision, import).await?, key))
 }

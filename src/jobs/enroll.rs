@@ -1,7 +1,5 @@
-use secrecy::SecretString;
-
 use super::JobContext;
-use crate::model::{Address, ControllerInfo, Problem};
+use crate::model::{Address, ConnectionKind, ControllerInfo, Credentials, Problem};
 use crate::pki::Fingerprint;
 
 /// A controller that was met for the first time.
@@ -13,26 +11,31 @@ pub struct Enrolled {
     pub password_not_kept: Option<Problem>,
 }
 
-/// The fingerprint of whatever controller answers at an address, to be compared by a person.
-pub async fn probe(address: &Address, context: &JobContext) -> Result<Fingerprint, Problem> {
-    context.connector.probe(address).await
+/// The fingerprint of the controller that answers at an address, to be compared by a person.
+pub async fn probe(
+    connection: ConnectionKind,
+    address: &Address,
+    context: &JobContext,
+) -> Result<Fingerprint, Problem> {
+    context.connectors.get(connection)?.probe(address).await
 }
 
-/// Logs in to a controller whose fingerprint was accepted, reads its information and remembers the password.
+/// Logs in to a controller whose fingerprint was accepted, reads its information and remembers the credentials.
 pub async fn enroll(
+    connection: ConnectionKind,
     address: &Address,
     fingerprint: Fingerprint,
-    password: SecretString,
+    credentials: Credentials,
     context: &JobContext,
 ) -> Result<Enrolled, Problem> {
-    let mut session = context.connector.connect(address, fingerprint, &password).await?;
+    let mut session = context.connectors.get(connection)?.connect(address, fingerprint, &credentials).await?;
     let info = session.info().await;
     session.close().await;
     let info = info?;
     info.series.check_firmware(info.firmware)?;
     let passwords = context.passwords.clone();
     let password_not_kept =
-        tokio::task::spawn_blocking(move || passwords.set(fingerprint, password).err().map(Problem::from))
+        tokio::task::spawn_blocking(move || passwords.set(fingerprint, credentials).err().map(Problem::from))
             .await
             .map_err(|e| Problem::with_detail(crate::model::ErrorCode::Internal, e))?;
     Ok(Enrolled { fingerprint, info, password_not_kept })

@@ -7,7 +7,6 @@ use super::{
 };
 use crate::model::{ControllerInfo, ErrorCode, Problem, SerialNumber};
 use crate::pki::{Certificate, Csr, Issuers, MAX_CERTIFICATE_FILE_BYTES, issuers_of, read_bundle};
-use crate::protocol::{Base64Bytes, ImportCaSigned};
 use crate::workspace::{CertificateFiles, certificate_files_beside, read_import_file};
 
 /// Where the certificate from the CA is.
@@ -108,8 +107,7 @@ impl Operation for ImportCaCertificate {
         let (certificate, _) = read_for_csr(&self.source, run, &info).await?;
         let findings = preflight::admit(run, &info, &certificate, self.accept_warnings).await?;
         run.begin(Step::Apply)?;
-        let change = ImportCaSigned { revision: info.revision, certificate: Base64Bytes(certificate.der().to_vec()) };
-        run.session.import_ca_signed(change).await?;
+        run.session.import_ca_signed(info.revision, certificate.der().to_vec()).await?;
         Ok(CertificateImported { summary: certificate.summary(), findings, moved_aside: Vec::new() })
     }
 }

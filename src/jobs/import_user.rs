@@ -7,12 +7,12 @@ use super::self_signed::transfer_password;
 use super::{
     CertificateChecked, CertificateImported, Confirmation, JobController, Operation, Run, ServerEffect, Step, preflight,
 };
-use crate::model::{CertificateType, ErrorCode, FirmwareGeneration, Problem, SerialNumber};
+use crate::model::{CertificateType, ErrorCode, Feature, Problem, SerialNumber};
 use crate::pki::{
     Certificate, MAX_CERTIFICATE_FILE_BYTES, MAX_KEY_FILE_BYTES, MAX_PKCS12_BYTES, PkiError, PrivateKey, pkcs12_read,
     pkcs12_write, read_bundle, read_key_file,
 };
-use crate::protocol::{Base64Bytes, ImportCertificate, WireSecret};
+use crate::session::SealedKey;
 use crate::workspace::{CertificateFiles, read_import_file};
 
 /// The files of a certificate made with another tool (manual 2.7.1.4).
@@ -100,10 +100,7 @@ impl Operation for ImportUserCertificate {
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
-        match &controller.known {
-            Some(known) if known.generation() == FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
-            _ => Ok(()),
-        }
+        controller.capabilities().require(Feature::UserSpecifiedCertificate)
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<CertificateImported, Problem> {
@@ -111,9 +108,7 @@ impl Operation for ImportUserCertificate {
         let (files, password) = (self.files.clone(), self.password.clone());
         let (key, certificate) = run.on_a_core(move || files.read(password.as_ref())).await??;
         let info = run.session.info().await?;
-        if info.generation() == FirmwareGeneration::Current {
-            return Err(ErrorCode::FirmwareTooNew.into());
-        }
+        run.require(Feature::UserSpecifiedCertificate).await?;
         let findings = preflight::admit(run, &info, &certificate, self.accept_warnings).await?;
         let (password, alias, summary) = (transfer_password()?, info.serial.to_string(), certificate.summary());
         let (pkcs12, password) = run
@@ -122,13 +117,8 @@ impl Operation for ImportUserCertificate {
             })
             .await??;
         run.begin(Step::Apply)?;
-        let change = ImportCertificate {
-            revision: info.revision,
-            kind: CertificateType::UserSpecified,
-            pkcs12: Base64Bytes(pkcs12),
-            password: WireSecret(password),
-        };
-        run.session.import_certificate(change).await?;
+        let key = SealedKey { pkcs12, password };
+        run.session.import_certificate(info.revision, CertificateType::UserSpecified, key).await?;
         Ok(CertificateImported { summary, findings, moved_aside: Vec::new() })
     }
 }

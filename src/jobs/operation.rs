@@ -5,8 +5,7 @@ use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
 use super::JobController;
-use crate::model::{ErrorCode, Problem, ServerStatus};
-use crate::protocol::Revisioned;
+use crate::model::{ErrorCode, Feature, Problem, Revisioned, ServerStatus};
 use crate::session::ControllerSession;
 
 /// What is done to one controller.
@@ -148,7 +147,7 @@ impl<T: std::fmt::Debug + Send + 'static> OperationOutput for Revisioned<T> {
 pub struct Run<'a> {
     pub controller: &'a JobController,
     pub session: &'a mut dyn ControllerSession,
-    /// The connection password, for protecting what is saved for this controller.
+    /// The password among the controller's credentials: protects the files that are saved for it.
     pub password: &'a SecretString,
     pub(super) key_makers: &'a tokio::sync::Semaphore,
     pub(super) cancel: &'a CancellationToken,
@@ -162,6 +161,11 @@ impl std::fmt::Debug for Run<'_> {
 }
 
 impl Run<'_> {
+    /// An error if the controller does not offer this ([`Capabilities::require`](crate::model::Capabilities::require)).
+    pub async fn require(&mut self, feature: Feature) -> Result<(), Problem> {
+        self.session.capabilities().await?.require(feature)
+    }
+
     /// Reports the next step. After a cancel there is none: the step in hand was the last.
     pub fn begin(&self, step: Step) -> Result<(), Problem> {
         if self.cancel.is_cancelled() {

@@ -1,7 +1,7 @@
 use async_trait::async_trait;
 
 use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
-use crate::model::{ClientList, FirmwareGeneration, Problem, ServerSettings};
+use crate::model::{ClientList, Feature, Problem, ServerSettings};
 
 /// Reads what [`ControllerInfo`](crate::model::ControllerInfo) does not hold, for a look at one controller. Changes
 /// nothing.
@@ -15,7 +15,7 @@ pub struct Overview {
     pub users: usize,
     pub trusted: usize,
     pub rejected: usize,
-    /// `None` on legacy firmware, which has no such list.
+    /// `None` where the controller has no such list.
     pub issuers: Option<usize>,
     pub crls: usize,
 }
@@ -37,9 +37,10 @@ impl Operation for ReadOverview {
     async fn run(&self, run: &mut Run<'_>) -> Result<Overview, Problem> {
         run.begin(Step::Read)?;
         let session = &mut *run.session;
-        let issuers = match session.info().await?.generation() {
-            FirmwareGeneration::Legacy => None,
-            FirmwareGeneration::Current => Some(session.clients(ClientList::Issuers).await?.value.len()),
+        let issuers = if session.capabilities().await?.offers(Feature::IssuersList) {
+            Some(session.clients(ClientList::Issuers).await?.value.len())
+        } else {
+            None
         };
         Ok(Overview {
             settings: session.settings().await?.value,

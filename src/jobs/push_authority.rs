@@ -1,7 +1,7 @@
 use async_trait::async_trait;
 
 use super::{AddTrust, Confirmation, Destination, JobController, Operation, Run, Step, TrustChange, TrustFile};
-use crate::model::{FirmwareGeneration, Problem};
+use crate::model::{Capabilities, Feature, Problem};
 use crate::pki::Bundle;
 use crate::workspace::authority::AuthorityOverview;
 
@@ -35,11 +35,11 @@ impl PushAuthority {
         Self { files, trust }
     }
 
-    fn operation(&self, generation: FirmwareGeneration) -> AddTrust {
-        let (destination, crls_only) = match (self.trust, generation) {
+    fn operation(&self, capabilities: &Capabilities) -> AddTrust {
+        let (destination, crls_only) = match (self.trust, capabilities.offers(Feature::IssuersList)) {
             (true, _) => (Destination::Trusted, false),
-            (false, FirmwareGeneration::Current) => (Destination::Issuers, false),
-            (false, FirmwareGeneration::Legacy) => (Destination::Crls, true),
+            (false, true) => (Destination::Issuers, false),
+            (false, false) => (Destination::Crls, true),
         };
         let wanted = |file: &&TrustFile| !crls_only || file.bundle.certificates.is_empty();
         AddTrust { files: self.files.iter().filter(wanted).cloned().collect(), destination, based_on: None }
@@ -51,19 +51,19 @@ impl Operation for PushAuthority {
     type Output = TrustChange;
 
     fn confirmation(&self) -> Option<Confirmation> {
-        self.operation(FirmwareGeneration::Current).confirmation()
+        self.operation(&Capabilities::all()).confirmation()
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
         match &controller.known {
-            Some(info) => self.operation(info.generation()).check(controller),
+            Some(_) => self.operation(&controller.capabilities()).check(controller),
             None => Ok(()),
         }
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
         run.begin(Step::Read)?;
-        let generation = run.session.info().await?.generation();
-        self.operation(generation).run(run).await
+        let capabilities = run.session.capabilities().await?;
+        self.operation(&capabilities).run(run).await
     }
 }

@@ -6,9 +6,9 @@ use super::{
     CertificateChecked, Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step,
     preflight,
 };
-use crate::model::{CertificateSummary, CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, Problem};
+use crate::model::{CertificateSummary, CertificateType, ControllerInfo, ErrorCode, Feature, Problem};
 use crate::pki::{Finding, PkiError, pkcs12_write, pkcs12_write_key};
-use crate::protocol::{Base64Bytes, ImportCertificate, ImportCsr, WireSecret};
+use crate::session::{CsrImport, SealedKey};
 use crate::workspace::{BackupKind, KeyBackup, KeyBackupError, KeyBackupSource};
 
 /// Puts a backup of a key back into the controller, under the type it was made as: a self-signed certificate with its
@@ -56,7 +56,7 @@ impl Operation for RestoreCertificate {
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
-        controller.known.as_ref().map_or(Ok(()), legacy)
+        controller.capabilities().require(Feature::KeyImport)
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<CertificateRestored, Problem> {
@@ -78,16 +78,14 @@ impl Operation for RestoreCertificate {
             })
             .await??;
         run.begin(Step::Apply)?;
-        let (revision, pkcs12, password) = (info.revision, Base64Bytes(pkcs12), WireSecret(password));
+        let (revision, key) = (info.revision, SealedKey { pkcs12, password });
         match &backup {
             KeyBackup::SelfSigned { .. } => {
-                let kind = CertificateType::SelfSigned;
-                run.session.import_certificate(ImportCertificate { revision, kind, pkcs12, password }).await?;
+                run.session.import_certificate(revision, CertificateType::SelfSigned, key).await?;
             }
             KeyBackup::CaSigned { csr, certificate, .. } => {
-                let csr = Base64Bytes(csr.der().to_vec());
-                let certificate = certificate.as_ref().map(|certificate| Base64Bytes(certificate.der().to_vec()));
-                run.session.import_csr(ImportCsr { revision, csr, pkcs12, password, certificate }).await?;
+                let certificate = certificate.as_ref().map(|certificate| certificate.der().to_vec());
+                run.session.import_csr(revision, CsrImport { csr: csr.der().to_vec(), key, certificate }).await?;
             }
         }
         Ok(CertificateRestored { summary: backup.certificate().map(|certificate| certificate.summary()), findings })
@@ -111,7 +109,7 @@ impl Operation for CheckCertificateBackup {
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
-        controller.known.as_ref().map_or(Ok(()), legacy)
+        controller.capabilities().require(Feature::KeyImport)
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<CertificateChecked, Problem> {
@@ -131,7 +129,7 @@ async fn read(
 ) -> Result<(ControllerInfo, KeyBackup), Problem> {
     run.begin(Step::Read)?;
     let info = run.session.info().await?;
-    legacy(&info)?;
+    run.require(Feature::KeyImport).await?;
     let (source, serial) = (source.clone(), info.serial.clone());
     let (given, connection) = (password.cloned(), run.password.clone());
     let read = move || {
@@ -149,11 +147,4 @@ async fn read(
     };
     let backup = run.on_a_core(read).await??;
     Ok((info, backup))
-}
-
-fn legacy(info: &ControllerInfo) -> Result<(), Problem> {
-    match info.generation() {
-        FirmwareGeneration::Legacy => Ok(()),
-        FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
-    }
 }

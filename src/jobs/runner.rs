@@ -2,21 +2,20 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Duration;
 
-use secrecy::SecretString;
 use tokio::sync::Semaphore;
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
 use super::{JobController, Operation, OperationOutput, Run, Step};
-use crate::model::{ControllerInfo, ErrorCode, Problem};
+use crate::model::{ControllerInfo, Credentials, ErrorCode, Problem, RevisionToken};
 use crate::pki::Fingerprint;
-use crate::session::{Connector, ControllerSession};
+use crate::session::{Connectors, ControllerSession};
 use crate::workspace::Passwords;
 
 /// What every job needs and shares.
 #[derive(Clone)]
 pub struct JobContext {
-    pub connector: Arc<dyn Connector>,
+    pub connectors: Connectors,
     pub passwords: Arc<dyn Passwords>,
     /// How many controllers are worked on at once.
     pub parallelism: usize,
@@ -30,18 +29,35 @@ impl std::fmt::Debug for JobContext {
 }
 
 impl JobContext {
-    pub fn new(connector: Arc<dyn Connector>, passwords: Arc<dyn Passwords>, parallelism: usize) -> Self {
+    /// `parallelism`: at least 1 is used.
+    pub fn new(connectors: impl Into<Connectors>, passwords: Arc<dyn Passwords>, parallelism: usize) -> Self {
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        Self { connector, passwords, parallelism: parallelism.max(1), key_makers: Arc::new(Semaphore::new(cores)) }
+        Self {
+            connectors: connectors.into(),
+            passwords,
+            parallelism: parallelism.max(1),
+            key_makers: Arc::new(Semaphore::new(cores)),
+        }
     }
 
-    /// Passwords may come from a keyring that asks the user: off the async threads.
-    pub(super) async fn password(&self, fingerprint: Fingerprint) -> Result<SecretString, Problem> {
+    /// The credentials of a controller; [`ErrorCode::PasswordMissing`] if none are known. They may come from a keyring that
+    /// asks the user: read off the async threads.
+    pub(super) async fn credentials(&self, fingerprint: Fingerprint) -> Result<Credentials, Problem> {
         let passwords = self.passwords.clone();
         tokio::task::spawn_blocking(move || passwords.get(fingerprint))
             .await
             .map_err(|e| Problem::with_detail(ErrorCode::Internal, e))??
             .ok_or_else(|| ErrorCode::PasswordMissing.into())
+    }
+
+    /// Opens a session with the driver of the controller's kind of connection.
+    pub(super) async fn connect(
+        &self,
+        controller: &JobController,
+        fingerprint: Fingerprint,
+        credentials: &Credentials,
+    ) -> Result<Box<dyn ControllerSession>, Problem> {
+        self.connectors.get(controller.connection)?.connect(&controller.address, fingerprint, credentials).await
     }
 }
 
@@ -163,10 +179,10 @@ async fn one<O: OperationOutput>(
         return Turn::failed(ErrorCode::FingerprintUnknown.into());
     };
     let open = async {
-        let password = context.password(fingerprint).await?;
+        let credentials = context.credentials(fingerprint).await?;
         on_step(Step::Connect);
-        let session = context.connector.connect(&controller.address, fingerprint, &password).await?;
-        Ok((password, session))
+        let session = context.connect(controller, fingerprint, &credentials).await?;
+        Ok((credentials, session))
     };
     // Nothing has been changed yet, so a cancel waits neither for a keyring that asks nor for a controller that does
     // not answer.
@@ -175,7 +191,7 @@ async fn one<O: OperationOutput>(
         () = cancel.cancelled() => Err(ErrorCode::Cancelled.into()),
         opened = open => opened,
     };
-    let (password, mut session) = match opened {
+    let (credentials, mut session) = match opened {
         Ok(opened) => opened,
         Err(problem) => return Turn::failed(problem),
     };
@@ -183,14 +199,14 @@ async fn one<O: OperationOutput>(
         .run(&mut Run {
             controller,
             session: session.as_mut(),
-            password: &password,
+            password: credentials.password(),
             key_makers: &context.key_makers,
             cancel,
             on_step,
         })
         .await;
     let unanswered = session.unanswered();
-    let again = Again { controller, context, fingerprint, password: &password };
+    let again = Again { controller, context, fingerprint, credentials: &credentials };
     // Also after a failure: the row must show what the controller is like now.
     let report = match result {
         Err(problem) if unanswered.is_some() || (is_silence(&problem) && operation.wanted_status().is_some()) => {
@@ -222,13 +238,12 @@ struct Again<'a> {
     controller: &'a JobController,
     context: &'a JobContext,
     fingerprint: Fingerprint,
-    password: &'a SecretString,
+    credentials: &'a Credentials,
 }
 
 impl Again<'_> {
     async fn read(&self) -> Result<ControllerInfo, Problem> {
-        let mut session =
-            self.context.connector.connect(&self.controller.address, self.fingerprint, self.password).await?;
+        let mut session = self.context.connect(self.controller, self.fingerprint, self.credentials).await?;
         let info = session.info().await;
         session.close().await;
         info
@@ -236,7 +251,7 @@ impl Again<'_> {
 
     /// A change was sent and nothing came back. The controller is read again, a few times at most:
     ///
-    /// - Its revision is later than the one the change was based on: [`ErrorCode::AnswerLost`]. Not a success, because
+    /// - Its revision is another than the one the change was based on: [`ErrorCode::AnswerLost`]. Not a success, because
     ///   what the answer carried is lost (a certificate to be backed up, a request to be saved), and because in rare
     ///   cases it was somebody else's change; the row shows how it is.
     /// - It is where a start or a stop should bring it: done, whoever did it.
@@ -244,7 +259,7 @@ impl Again<'_> {
     async fn find_out<O: OperationOutput>(
         &self,
         problem: Problem,
-        based_on: Option<u64>,
+        based_on: Option<RevisionToken>,
         operation: &dyn Operation<Output = O>,
         cancel: &CancellationToken,
     ) -> Report<O> {
@@ -260,7 +275,7 @@ impl Again<'_> {
             {
                 return Report { result: Ok(output), info: Some(info) };
             }
-            if let Some(before) = based_on.filter(|before| info.revision > *before) {
+            if let Some(before) = based_on.filter(|before| info.revision != *before) {
                 let detail = format!("{}; revision {before} is now {}", problem.code.as_str(), info.revision);
                 return Report { result: Err(Problem::with_detail(ErrorCode::AnswerLost, detail)), info: Some(info) };
             }

@@ -1,8 +1,7 @@
 use async_trait::async_trait;
 
 use super::{Confirmation, Done, JobController, Operation, Run, ServerEffect, Step};
-use crate::model::{CertificateType, ErrorCode, FirmwareGeneration, Problem};
-use crate::protocol::{self, HeldCertificates, Revisioned};
+use crate::model::{CertificateType, ErrorCode, Feature, HeldCertificates, Problem, Revisioned};
 
 /// Reads which server certificates a controller holds, and whether a CSR is waiting for its certificate.
 #[derive(Debug, Clone, Copy)]
@@ -36,11 +35,10 @@ impl Operation for SelectCertificateType {
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
-        let current = controller.known.as_ref().is_some_and(|i| i.generation() == FirmwareGeneration::Current);
-        if self.0 == CertificateType::UserSpecified && current {
-            return Err(ErrorCode::FirmwareTooNew.into());
+        match self.0 {
+            CertificateType::UserSpecified => controller.capabilities().require(Feature::UserSpecifiedCertificate),
+            CertificateType::SelfSigned | CertificateType::CaSigned => Ok(()),
         }
-        Ok(())
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
@@ -50,7 +48,7 @@ impl Operation for SelectCertificateType {
             return Err(Problem::with_detail(ErrorCode::CertificateNotStored, self.0.as_str()));
         }
         run.begin(Step::Apply)?;
-        run.session.select_certificate(protocol::SelectCertificate { revision: held.revision, kind: self.0 }).await?;
+        run.session.select_certificate(held.revision, self.0).await?;
         Ok(Done)
     }
 }

@@ -5,11 +5,11 @@ use secrecy::SecretString;
 
 use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
 use crate::model::{
-    CertificateSummary, CertificateType, ControllerInfo, ErrorCode, FirmwareGeneration, KeyLength, Problem,
-    SelfSignedRequest, Subject, Validity, clock,
+    CertificateSummary, CertificateType, ControllerInfo, ErrorCode, Feature, KeyLength, Problem, SelfSignedRequest,
+    Subject, Validity, clock,
 };
 use crate::pki::{self, Certificate, PrivateKey, ServerNames};
-use crate::protocol::{Base64Bytes, ImportCertificate, Installed, MakeSelfSigned, WireSecret};
+use crate::session::{InstalledCertificate, SealedKey};
 use crate::workspace::{CertificateFiles, SavedCertificate};
 
 /// The fields of the self-signed dialog (manual 2.7.1.2).
@@ -99,23 +99,20 @@ impl Operation for SelfSigned {
         let settings = run.session.settings().await?;
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
+        let made_in_controller = run.session.capabilities().await?.offers(Feature::KeysMadeInController);
         if let Some(files) = &self.backup {
             let (files, serial) = (files.clone(), info.serial.clone());
-            let key_password = (info.generation() == FirmwareGeneration::Legacy).then(|| run.password.clone());
+            let key_password = (!made_in_controller).then(|| run.password.clone());
             run.off_thread(move || files.check_writable(&serial, key_password.as_ref()).map_err(Problem::from)).await?;
         }
-        let (installed, key) = match info.generation() {
-            FirmwareGeneration::Current => {
-                run.begin(Step::Apply)?;
-                let change = MakeSelfSigned { revision: info.revision, request };
-                (run.session.make_self_signed(change).await?, None)
-            }
-            FirmwareGeneration::Legacy => {
-                let (installed, key) = make_and_send(run, &info, request).await?;
-                (installed, Some(key))
-            }
+        let (installed, key) = if made_in_controller {
+            run.begin(Step::Apply)?;
+            (run.session.make_self_signed(info.revision, request).await?, None)
+        } else {
+            let (installed, key) = make_and_send(run, &info, request).await?;
+            (installed, Some(key))
         };
-        let certificate = Certificate::from_der(&installed.certificate.0)?;
+        let certificate = Certificate::from_der(&installed.certificate)?;
         let saved = match &self.backup {
             None => None,
             Some(files) => {
@@ -137,7 +134,7 @@ async fn make_and_send(
     run: &mut Run<'_>,
     info: &ControllerInfo,
     request: SelfSignedRequest,
-) -> Result<(Installed, PrivateKey), Problem> {
+) -> Result<(InstalledCertificate, PrivateKey), Problem> {
     run.begin(Step::MakeKey)?;
     let names = server_names(info, run.controller);
     let password = transfer_password()?;
@@ -152,13 +149,8 @@ async fn make_and_send(
         })
         .await??;
     run.begin(Step::Apply)?;
-    let change = ImportCertificate {
-        revision: info.revision,
-        kind: CertificateType::SelfSigned,
-        pkcs12: Base64Bytes(pkcs12),
-        password: WireSecret(password),
-    };
-    Ok((run.session.import_certificate(change).await?, key))
+    let sealed = SealedKey { pkcs12, password };
+    Ok((run.session.import_certificate(info.revision, CertificateType::SelfSigned, sealed).await?, key))
 }
 
 /// What clients will compare with the certificate: the ApplicationUri the server announces (OPC 10000-6 §6.2.2), and

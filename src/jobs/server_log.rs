@@ -4,8 +4,7 @@ use std::time::{Duration, Instant};
 use async_trait::async_trait;
 
 use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
-use crate::model::{ErrorCode, Problem, foreign_text};
-use crate::protocol::LogChunk;
+use crate::model::{ErrorCode, LogChunk, Problem, foreign_text};
 use crate::workspace::write_atomic;
 
 /// No log is longer; a controller that gives more than this is not read to the end.

@@ -3,8 +3,11 @@ use std::collections::BTreeSet;
 use async_trait::async_trait;
 
 use super::{Confirmation, Done, Operation, Run, ServerEffect, Step};
-use crate::model::{ErrorCode, Problem, SecurityPolicy, ServerPort, ServerSettings, StartupMode, UserTokenPolicy};
-use crate::protocol::{self, Revisioned};
+use crate::model::{
+    ErrorCode, Problem, RevisionToken, Revisioned, SecurityPolicy, ServerPort, ServerSettings, StartupMode,
+    UserTokenPolicy,
+};
+use crate::session::SettingsUpdate;
 
 /// Reads the basic settings.
 #[derive(Debug, Clone, Copy)]
@@ -71,8 +74,8 @@ impl SettingsChange {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SetSettings {
     pub change: SettingsChange,
-    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
-    pub based_on: Option<u64>,
+    /// The configuration that a dialog showed; `None` bases the change on the present one.
+    pub based_on: Option<RevisionToken>,
     /// What was typed to allow switching the server log on.
     pub log_password: Option<String>,
 }
@@ -120,12 +123,14 @@ impl Operation for SetSettings {
         settings.check().map_err(|e| Problem::with_detail(ErrorCode::BadSettings, e))?;
         run.begin(Step::Apply)?;
         run.session
-            .set_settings(protocol::SetSettings {
-                revision: self.based_on.unwrap_or(current.revision),
-                settings,
-                delete_log: self.change.delete_log,
-                log_password: self.log_password.clone(),
-            })
+            .set_settings(
+                self.based_on.unwrap_or(current.revision),
+                SettingsUpdate {
+                    settings,
+                    delete_log: self.change.delete_log,
+                    log_password: self.log_password.clone(),
+                },
+            )
             .await?;
         Ok(Done)
     }

@@ -4,8 +4,7 @@ use async_trait::async_trait;
 use secrecy::SecretString;
 
 use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
-use crate::model::{ErrorCode, FirmwareGeneration, FirmwareVersion, Problem};
-use crate::protocol::{self, WireSecret};
+use crate::model::{Feature, Problem};
 use crate::workspace::{SettingsFiles, check_passphrase, check_protects_files};
 
 /// Saves the settings, users and keys of legacy controllers to the workspace (manual 2.6.4). The controller seals
@@ -24,13 +23,6 @@ pub struct ImportSettings {
     pub files: SettingsFiles,
     /// What the exports were sealed with; `None`: each controller's connection password.
     pub passphrase: Option<SecretString>,
-}
-
-fn legacy(firmware: FirmwareVersion) -> Result<(), Problem> {
-    match firmware.generation() {
-        FirmwareGeneration::Legacy => Ok(()),
-        FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
-    }
 }
 
 /// The settings of the controller are in this file.
@@ -67,18 +59,18 @@ impl Operation for ExportSettings {
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
         self.passphrase.as_ref().map_or(Ok(()), check_passphrase)?;
-        controller.known.as_ref().map_or(Ok(()), |known| legacy(known.firmware))
+        controller.capabilities().require(Feature::SettingsTransfer)
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<SettingsExported, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
-        legacy(info.firmware)?;
+        run.require(Feature::SettingsTransfer).await?;
         if self.passphrase.is_none() {
             check_protects_files(run.password)?;
         }
-        let passphrase = WireSecret(self.passphrase.as_ref().unwrap_or(run.password).clone());
-        let export = run.session.export_settings(protocol::ExportSettings { passphrase }).await?;
+        let passphrase = self.passphrase.as_ref().unwrap_or(run.password).clone();
+        let export = run.session.export_settings(passphrase).await?;
         // Another one's would be refused at the import, when it is too late.
         export.check_for(&info.serial, info.series, info.firmware)?;
         run.begin(Step::SaveBackup)?;
@@ -97,13 +89,13 @@ impl Operation for ImportSettings {
     }
 
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
-        controller.known.as_ref().map_or(Ok(()), |known| legacy(known.firmware))
+        controller.capabilities().require(Feature::SettingsTransfer)
     }
 
     async fn run(&self, run: &mut Run<'_>) -> Result<SettingsImported, Problem> {
         run.begin(Step::Read)?;
         let info = run.session.info().await?;
-        legacy(info.firmware)?;
+        run.require(Feature::SettingsTransfer).await?;
         let (files, revision) = (self.files.clone(), info.revision);
         let passphrase = self.passphrase.as_ref().unwrap_or(run.password).clone();
         let tried = passphrase.clone();
@@ -117,8 +109,7 @@ impl Operation for ImportSettings {
             })
             .await??;
         run.begin(Step::Apply)?;
-        let change = protocol::ImportSettings { revision, export, passphrase: WireSecret(passphrase) };
-        run.session.import_settings(change).await?;
+        run.session.import_settings(revision, export, passphrase).await?;
         Ok(SettingsImported { path })
     }
 }

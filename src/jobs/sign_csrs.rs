@@ -9,7 +9,6 @@ use super::{
 };
 use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, ServerStatus, Validity, clock};
 use crate::pki::{Certificate, Csr, IssueRequest};
-use crate::protocol::{Base64Bytes, ImportCaSigned};
 use crate::workspace::authority::{Authority, AuthorityFiles, Drafted, IssuedFor};
 
 /// The small CA for one job: taken up when it is first needed, and held until the job is over.
@@ -115,8 +114,7 @@ impl Operation for SignCsrs {
             run.begin(Step::Apply)?;
             // Another one than above, if a request was made.
             let revision = run.session.info().await?.revision;
-            let change = ImportCaSigned { revision, certificate: Base64Bytes(certificate.der().to_vec()) };
-            let imported = run.session.import_ca_signed(change).await?;
+            let imported = run.session.import_ca_signed(revision, certificate.der().to_vec()).await?;
             // On legacy firmware, a new request took the certificate away from a server that used it.
             if info.status == ServerStatus::Run && imported.changed.status == ServerStatus::Stop {
                 run.session.start_server().await?;

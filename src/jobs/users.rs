@@ -1,8 +1,7 @@
 use async_trait::async_trait;
 
 use super::{Confirmation, Done, Operation, Run, ServerEffect, Step};
-use crate::model::{Credential, ErrorCode, MAX_USERS, Problem, UserName};
-use crate::protocol::{self, Revisioned, WireSecret};
+use crate::model::{Credential, ErrorCode, MAX_USERS, Problem, RevisionToken, Revisioned, UserName};
 
 /// Lists the users of an OPC UA server; never their passwords (manual 2.6.2.1).
 #[derive(Debug, Clone, Copy)]
@@ -26,8 +25,8 @@ impl Operation for ListUsers {
 #[derive(Debug, Clone)]
 pub struct AddUser {
     pub credential: Credential,
-    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
-    pub based_on: Option<u64>,
+    /// The configuration that a dialog showed; `None` bases the change on the present one.
+    pub based_on: Option<RevisionToken>,
 }
 
 #[async_trait]
@@ -48,13 +47,7 @@ impl Operation for AddUser {
             return Err(ErrorCode::TooManyUsers.into());
         }
         run.begin(Step::Apply)?;
-        run.session
-            .add_user(protocol::AddUser {
-                revision: self.based_on.unwrap_or(current.revision),
-                name: self.credential.name.clone(),
-                password: WireSecret(self.credential.password.secret().clone()),
-            })
-            .await?;
+        run.session.add_user(self.based_on.unwrap_or(current.revision), self.credential.clone()).await?;
         Ok(Done)
     }
 }
@@ -63,8 +56,8 @@ impl Operation for AddUser {
 #[derive(Debug, Clone)]
 pub struct RemoveUsers {
     pub names: Vec<UserName>,
-    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
-    pub based_on: Option<u64>,
+    /// The configuration that a dialog showed; `None` bases the change on the present one.
+    pub based_on: Option<RevisionToken>,
 }
 
 #[async_trait]
@@ -82,12 +75,7 @@ impl Operation for RemoveUsers {
             return Err(Problem::with_detail(ErrorCode::UserNotFound, missing));
         }
         run.begin(Step::Apply)?;
-        run.session
-            .remove_users(protocol::RemoveUsers {
-                revision: self.based_on.unwrap_or(current.revision),
-                names: self.names.clone(),
-            })
-            .await?;
+        run.session.remove_users(self.based_on.unwrap_or(current.revision), self.names.clone()).await?;
         Ok(Done)
     }
 }

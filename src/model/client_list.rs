@@ -34,6 +34,22 @@ pub struct ListLimits {
 }
 
 impl ListLimits {
+    /// The limits of current firmware: assumed for a controller that was not read yet.
+    pub const LARGEST: Self = Self::of(FirmwareGeneration::Current);
+
+    /// The limits of firmware without an issuers list.
+    pub const WITHOUT_ISSUERS: Self = Self::of(FirmwareGeneration::Legacy);
+
+    /// The smaller limit for each list.
+    #[must_use]
+    pub fn min(self, other: Self) -> Self {
+        Self {
+            trusted: self.trusted.min(other.trusted),
+            issuers: self.issuers.min(other.issuers),
+            crls: self.crls.min(other.crls),
+        }
+    }
+
     /// The manual gives both 10 and 50; the smaller holds for legacy firmware.
     pub const fn of(generation: FirmwareGeneration) -> Self {
         match generation {

@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     CertificateSummary, CertificateType, ControllerSeries, ErrorCode, FirmwareGeneration, FirmwareVersion, ListLimits,
-    SerialNumber,
+    RevisionToken, SerialNumber,
 };
 
 /// State of the OPC UA server inside a controller (manual 2.4.4.2).
@@ -58,8 +58,8 @@ pub struct ControllerInfo {
     pub limits: ListLimits,
     /// The controller's clock.
     pub clock: DateTime<Utc>,
-    /// Counts every change of the configuration; a change must name the revision it was based on.
-    pub revision: u64,
+    /// The configuration that this was read from.
+    pub revision: RevisionToken,
 }
 
 impl ControllerInfo {

@@ -10,12 +10,15 @@ pub mod activation;
 mod address;
 mod authority;
 mod base64_bytes;
+mod capabilities;
 mod certificate;
 mod certificate_status;
 mod client_list;
 pub mod clock;
+mod connection_kind;
 mod controller;
 mod country;
+mod credentials;
 mod crl_summary;
 mod error_code;
 pub mod file_names;
@@ -25,26 +28,29 @@ mod info;
 mod language;
 mod log_chunk;
 mod problem;
+mod revision;
 mod settings;
 pub mod table;
 pub mod text;
 mod trust_lists;
 mod user;
-mod version;
 
 pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
 pub use authority::{AuthorityRequest, AuthorityValidity, AuthorityYears, CertificateProfile};
 pub use base64_bytes::Base64Bytes;
+pub use capabilities::{Capabilities, Feature, MissingReason};
 pub use certificate::{
     CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
     Validity, default_common_name, offered_key_lengths,
 };
 pub use certificate_status::{CertificateStatus, UnknownCertificateStatus};
 pub use client_list::{ClientList, ListLimits};
+pub use connection_kind::ConnectionKind;
 pub use controller::{
     ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber, VersionError,
 };
 pub use country::Country;
+pub use credentials::Credentials;
 pub use crl_summary::CrlSummary;
 pub use error_code::{ErrorCode, ErrorOrigin};
 pub use held_certificates::{HeldCertificate, HeldCertificates};
@@ -52,9 +58,9 @@ pub use info::{ControllerInfo, ServerCertificate, ServerStatus};
 pub use language::Language;
 pub use log_chunk::LogChunk;
 pub use problem::Problem;
+pub use revision::{Changed, RevisionToken, Revisioned};
 pub use settings::{
     PortError, SecurityPolicy, ServerPort, ServerSettings, SettingsError, SettingsWarning, StartupMode, UserTokenPolicy,
 };
 pub use trust_lists::{CutClient, ListedCertificate, ListedCrl, TrustStamp, TrustStep};
 pub use user::{Credential, CredentialError, MAX_USERS, UserName, UserPassword};
-pub use version::{VersionToken, Versioned};

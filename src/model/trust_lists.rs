@@ -3,7 +3,7 @@
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
-use super::{Base64Bytes, CertificateStatus, CertificateSummary, ClientList, CrlSummary, VersionToken};
+use super::{Base64Bytes, CertificateStatus, CertificateSummary, ClientList, CrlSummary, RevisionToken};
 
 /// A certificate in the trusted or issuers list.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,10 +31,10 @@ pub struct ListedCrl {
 }
 
 /// Two equal stamps of one controller mean that its lists and CRLs have not changed in between. Cheap to read.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub struct TrustStamp {
     /// Of the configuration, which holds the trusted and issuers lists and the CRLs.
-    pub version: VersionToken,
+    pub revision: RevisionToken,
     /// Changes with the rejected list, which the controller fills by itself and which is not part of the configuration.
     pub rejected: u64,
 }

@@ -4,8 +4,10 @@ use serde::{Deserialize, Serialize};
 
 use super::request::requests;
 use super::response::check_count;
-use super::{Changed, Response, Revisioned, WireSecret};
-use crate::model::{Base64Bytes, CertificateType, CsrRequest, HeldCertificates, SelfSignedRequest};
+use super::{Response, WireSecret};
+use crate::model::{
+    Base64Bytes, CertificateType, Changed, CsrRequest, HeldCertificates, RevisionToken, Revisioned, SelfSignedRequest,
+};
 
 requests! {
     /// Server certificates.
@@ -33,7 +35,7 @@ impl Response for HeldCertificates {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SelectCertificate {
-    pub revision: u64,
+    pub revision: RevisionToken,
     #[serde(rename = "type")]
     pub kind: CertificateType,
 }
@@ -42,7 +44,7 @@ pub struct SelectCertificate {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MakeSelfSigned {
-    pub revision: u64,
+    pub revision: RevisionToken,
     pub request: SelfSignedRequest,
 }
 
@@ -51,7 +53,7 @@ pub struct MakeSelfSigned {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCertificate {
-    pub revision: u64,
+    pub revision: RevisionToken,
     pub kind: CertificateType,
     pub pkcs12: Base64Bytes,
     /// The password of `pkcs12`, made for this transfer only.
@@ -73,7 +75,7 @@ impl Response for Installed {}
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MakeCsr {
-    pub revision: u64,
+    pub revision: RevisionToken,
     pub request: CsrRequest,
 }
 
@@ -85,7 +87,7 @@ pub struct MakeCsr {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCsr {
-    pub revision: u64,
+    pub revision: RevisionToken,
     /// DER.
     pub csr: Base64Bytes,
     /// The key of `csr`, without a certificate.
@@ -111,7 +113,7 @@ impl Response for CsrMade {}
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCaSigned {
-    pub revision: u64,
+    pub revision: RevisionToken,
     /// DER.
     pub certificate: Base64Bytes,
 }

@@ -6,7 +6,7 @@ use secrecy::{ExposeSecret, SecretString};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::Response;
-use crate::model::{ErrorCode, Problem, ServerStatus};
+use crate::model::{Changed, ErrorCode, Problem, Revisioned};
 
 /// A secret inside a message: serialised as a plain string (the channel is encrypted), not shown by `Debug`.
 #[derive(Clone)]
@@ -36,26 +36,10 @@ impl<'de> Deserialize<'de> for WireSecret {
     }
 }
 
-/// A value with the revision of the configuration it was read at.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Revisioned<T> {
-    pub revision: u64,
-    pub value: T,
-}
-
 impl<T: Response> Response for Revisioned<T> {
     fn check(&mut self) -> Result<(), &'static str> {
         self.value.check()
     }
-}
-
-/// A change was applied.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Changed {
-    /// The revision after the change.
-    pub revision: u64,
-    /// The server's state after the change.
-    pub status: ServerStatus,
 }
 
 impl Response for Changed {}

@@ -88,7 +88,7 @@ pub use certificates::{
     CERTIFICATE_REQUESTS, CsrMade, GetCertificates, ImportCaSigned, ImportCertificate, ImportCsr, Installed, MakeCsr,
     MakeSelfSigned, SelectCertificate,
 };
-pub use messages::{Changed, Failure, Revisioned, WireSecret};
+pub use messages::{Failure, WireSecret};
 pub use request::{Method, Needs, Request, RequestRow};
 pub use response::{MAX_LISTED, Response};
 pub use server::{GetInfo, GetLog, SERVER_REQUESTS, StartServer, StopServer};
@@ -100,16 +100,11 @@ pub use settings_export::{
 pub use tls_time::TlsTime;
 pub use trust::{
     EditTrust, GetCrl, GetCrls, GetIssuers, GetRejected, GetTrustStamp, GetTrusted, MAX_SENT_CRL_BYTES,
-    MAX_TRUST_STEPS, TRUST_REQUESTS, TrustChanged, TrustStamp,
+    MAX_TRUST_STEPS, TRUST_REQUESTS, TrustChanged,
 };
 pub use users::{AddUser, GetUsers, RemoveUsers, USER_REQUESTS};
 
 use crate::model::ErrorCode;
-// Until every module names them by their own path.
-pub use crate::model::{
-    Base64Bytes, CutClient, HeldCertificate, HeldCertificates, ListedCertificate, ListedCrl, LogChunk, TrustStep,
-};
-pub use crate::pki::RejectedClient;
 
 /// All requests, by topic.
 pub const REQUESTS: [&[RequestRow]; 6] =
@@ -150,6 +145,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
+    use crate::model::RevisionToken;
 
     #[test]
     fn every_row_of_the_tables_is_a_request_of_its_own() {
@@ -168,7 +164,7 @@ mod tests {
         assert_eq!(GetLog { from: None }.target(), "/v1/log");
         assert_eq!(GetLog { from: Some(7) }.target(), "/v1/log?from=7");
         assert_eq!(GetTrusted.target(), GetTrusted::PATH);
-        let remove = RemoveUsers { revision: 12, names: Vec::new() };
-        assert_eq!((remove.revision(), StartServer.revision()), (Some(12), None));
+        let remove = RemoveUsers { revision: RevisionToken::new(12), names: Vec::new() };
+        assert_eq!((remove.revision(), StartServer.revision()), (Some(RevisionToken::new(12)), None));
     }
 }

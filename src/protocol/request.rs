@@ -4,6 +4,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::Response;
+use crate::model::RevisionToken;
 
 /// One request of the protocol. Method, path, body and response belong to the type: a client sends a value of it, a controller
 /// registers its handler under [`Request::METHOD`] and [`Request::PATH`] of the same type.
@@ -22,7 +23,7 @@ pub trait Request: Serialize + DeserializeOwned + fmt::Debug + Send + Sync {
     fn target(&self) -> String;
 
     /// The revision that the change is based on. `None` unless [`Request::NEEDS`] is [`Needs::Revision`].
-    fn revision(&self) -> Option<u64>;
+    fn revision(&self) -> Option<RevisionToken>;
 }
 
 /// The HTTP method of a request.
@@ -111,7 +112,7 @@ macro_rules! requests {
                     requests!(@target self $($target)?)
                 }
 
-                fn revision(&self) -> Option<u64> {
+                fn revision(&self) -> Option<$crate::model::RevisionToken> {
                     requests!(@revision self $needs)
                 }
             }

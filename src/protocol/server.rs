@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::Response;
 use super::request::requests;
 use super::response::{MAX_LISTED, check_time, shorten};
-use super::{Changed, Response};
-use crate::model::{ControllerInfo, ErrorCode, LogChunk};
+use crate::model::{Changed, ControllerInfo, ErrorCode, LogChunk};
 
 requests! {
     /// The controller's state and its OPC UA server.

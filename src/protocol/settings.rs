@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::request::requests;
 use super::response::{MAX_TEXT, check_time};
-use super::{Changed, Response, Revisioned, SettingsExport, WireSecret};
-use crate::model::ServerSettings;
+use super::{Response, SettingsExport, WireSecret};
 use crate::model::activation::{ActivationKey, LicenceKey};
+use crate::model::{Changed, RevisionToken, Revisioned, ServerSettings};
 
 requests! {
     /// Settings and activation.
@@ -28,7 +28,7 @@ impl Response for ServerSettings {}
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SetSettings {
-    pub revision: u64,
+    pub revision: RevisionToken,
     pub settings: ServerSettings,
     /// Deletes the server log as well. Default: false.
     #[serde(default)]
@@ -61,7 +61,7 @@ impl Response for SettingsExport {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportSettings {
-    pub revision: u64,
+    pub revision: RevisionToken,
     pub export: SettingsExport,
     pub passphrase: WireSecret,
 }
@@ -73,7 +73,7 @@ pub struct ImportSettings {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Activate {
-    pub revision: u64,
+    pub revision: RevisionToken,
     pub licence: LicenceKey,
     pub activation: ActivationKey,
 }

@@ -4,8 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use super::request::requests;
 use super::response::{check_count, check_key, check_time, shorten};
-use super::{Changed, Request, Response, Revisioned};
-use crate::model::{Base64Bytes, CrlSummary, CutClient, ListedCertificate, ListedCrl, TrustStep};
+use super::{Request, Response};
+use crate::model::{
+    Base64Bytes, Changed, CrlSummary, CutClient, ListedCertificate, ListedCrl, RevisionToken, Revisioned, TrustStamp,
+    TrustStep,
+};
 use crate::pki::RejectedClient;
 
 requests! {
@@ -58,22 +61,13 @@ impl GetCrl {
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct GetTrustStamp;
 
-/// Tells whether the lists and CRLs have changed, without sending them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
-pub struct TrustStamp {
-    /// Of the configuration, which holds the trusted and issuers lists and the CRLs.
-    pub revision: u64,
-    /// Changes with the rejected list, which the controller fills by itself and which is not part of the configuration.
-    pub rejected: u64,
-}
-
 impl Response for TrustStamp {}
 
 /// Changes lists and CRLs: all steps, one after the other, or none.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EditTrust {
-    pub revision: u64,
+    pub revision: RevisionToken,
     /// 1 to [`MAX_TRUST_STEPS`].
     pub steps: Vec<TrustStep>,
 }

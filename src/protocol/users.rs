@@ -3,8 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::request::requests;
-use super::{Changed, Response, Revisioned, WireSecret};
-use crate::model::UserName;
+use super::{Response, WireSecret};
+use crate::model::{Changed, RevisionToken, Revisioned, UserName};
 
 requests! {
     /// Users of the OPC UA server.
@@ -25,7 +25,7 @@ impl Response for UserName {}
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AddUser {
-    pub revision: u64,
+    pub revision: RevisionToken,
     pub name: UserName,
     pub password: WireSecret,
 }
@@ -34,7 +34,7 @@ pub struct AddUser {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RemoveUsers {
-    pub revision: u64,
+    pub revision: RevisionToken,
     pub names: Vec<UserName>,
 }
 

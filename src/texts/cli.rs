@@ -3,7 +3,6 @@
 use std::fmt::Display;
 
 use super::TextKey;
-use crate::model::FirmwareGeneration;
 
 in_every_language! {
     cli:
@@ -45,10 +44,8 @@ in_every_language! {
     fn vault_forgot(name: &str) -> String;
     fn vault_has_none(name: &str) -> String;
 }
-/// Over what is done to the controllers of a generation.
-pub const fn controllers_with(generation: FirmwareGeneration) -> TextKey {
-    match generation {
-        FirmwareGeneration::Current => TextKey::CliFirmwareCurrent,
-        FirmwareGeneration::Legacy => TextKey::CliFirmwareLegacy,
-    }
+
+/// Heading of what is done to the controllers with an issuers list, or to those without.
+pub const fn controllers_with(has_issuers_list: bool) -> TextKey {
+    if has_issuers_list { TextKey::CliFirmwareCurrent } else { TextKey::CliFirmwareLegacy }
 }

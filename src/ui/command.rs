@@ -3,7 +3,7 @@
 use egui::{Key, KeyboardShortcut, Modifiers};
 
 use super::model::{Model, Targets};
-use crate::model::Language;
+use crate::model::{Feature, Language};
 use crate::texts::TextKey as T;
 
 /// An action of the main window.
@@ -205,16 +205,20 @@ impl UiCommand {
             | Self::Verify => (count == 0).then_some(T::WhyTick),
             Self::UserSpecified => match count {
                 0 => Some(T::WhyTick),
-                1 => model.any_target_is_current(targets).then_some(T::WhyUserLegacy),
+                1 => model.any_target_lacks(targets, Feature::UserSpecifiedCertificate).then_some(T::WhyUserLegacy),
                 _ => Some(T::WhyUserOne),
             },
             Self::ConfirmIdentity if count == 0 => Some(T::WhyTick),
             Self::ConfirmIdentity => model.all_targets_are_confirmed(targets).then_some(T::WhyConfirmed),
             Self::Activation if count == 0 => Some(T::WhyTick),
-            Self::Activation => model.any_target_is_current(targets).then_some(T::WhyActivationOption),
-            Self::ExportSettings | Self::ImportSettings | Self::RestoreBackup => match count {
+            Self::Activation => model.any_target_lacks(targets, Feature::ActivationKeys).then_some(T::WhyActivationOption),
+            Self::ExportSettings | Self::ImportSettings => match count {
                 0 => Some(T::WhyTick),
-                _ => model.any_target_is_current(targets).then_some(T::WhyLegacyOnly),
+                _ => model.any_target_lacks(targets, Feature::SettingsTransfer).then_some(T::WhyLegacyOnly),
+            },
+            Self::RestoreBackup => match count {
+                0 => Some(T::WhyTick),
+                _ => model.any_target_lacks(targets, Feature::KeyImport).then_some(T::WhyLegacyOnly),
             },
             Self::ServerLog => match count {
                 0 => Some(T::WhyTick),

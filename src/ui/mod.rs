@@ -44,7 +44,7 @@ use model::Model;
 pub use notice::show_notice;
 
 use crate::model::{ErrorCode, Language, Problem, clock};
-use crate::session::Connector;
+use crate::session::Connectors;
 use crate::workspace::{Configuration, Passwords, Workspace, WorkspaceLock};
 
 /// What the window works with.
@@ -54,7 +54,7 @@ pub struct WindowOptions {
     pub lock: WorkspaceLock,
     pub configuration: Configuration,
     pub passwords: Arc<dyn Passwords>,
-    pub connector: Arc<dyn Connector>,
+    pub connectors: Connectors,
     /// `None`: virtual controllers are not offered.
     pub starter: Option<Arc<dyn VirtualFleetStarter>>,
     /// Used until the engineer chooses one.
@@ -119,7 +119,7 @@ fn create(creation: &eframe::CreationContext<'_>, options: WindowOptions) -> std
         workspace: options.workspace.clone(),
         lock: options.lock,
         passwords: options.passwords,
-        connector: options.connector,
+        connectors: options.connectors,
         starter: options.starter,
         picker: Arc::new(picker::SystemPicker),
     };

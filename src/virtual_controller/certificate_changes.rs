@@ -4,9 +4,8 @@
 use super::changes::install;
 use super::secret_bytes::SecretBytes;
 use super::state::{KeyPair, PendingCsr, State, Surroundings};
-use crate::model::{CertificateType, CsrRequest, ErrorCode, FirmwareGeneration, Problem};
+use crate::model::{Base64Bytes, CertificateType, CsrRequest, ErrorCode, FirmwareGeneration, Problem};
 use crate::pki::{Certificate, Csr, PkiError, PrivateKey, check_usable, make_csr as csr_for, pkcs12_read_key};
-use crate::protocol::Base64Bytes;
 
 /// Manual 2.7.1.5 on current firmware: the key is made here and stays here, beside the one of the certificate in use.
 /// Gives the CSR's DER.

@@ -11,11 +11,10 @@ use super::secret_bytes::SecretBytes;
 use super::state::{KeyPair, State, Surroundings, User};
 use crate::model::activation::ActivationKeys;
 use crate::model::{
-    CertificateType, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings, UserName,
-    UserPassword,
+    Base64Bytes, CertificateType, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings,
+    UserName, UserPassword,
 };
 use crate::pki::{Certificate, PkiError, PrivateKey, check_usable, pkcs12_read, self_signed};
-use crate::protocol::Base64Bytes;
 
 /// Manual 2.6.1. `log_password` is looked at only when the server log goes from off to on.
 pub fn set_settings(

@@ -5,10 +5,10 @@ use super::changes::install_self_signed;
 use super::secret_bytes::SecretBytes;
 use super::state::{Identity, KeyPair, State, Surroundings};
 use crate::model::{
-    CertificateType, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, ServerSettings, Subject, Validity,
+    Base64Bytes, CertificateType, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, ServerSettings, Subject,
+    Validity,
 };
 use crate::pki::tls_identity;
-use crate::protocol::Base64Bytes;
 
 /// What a controller is when it is first switched on.
 #[derive(Debug, Clone)]

@@ -16,9 +16,8 @@ use super::faults::Faults;
 use super::opcua::Refusals;
 use super::state::{Listed, State};
 use super::store::{StoreError, replace_private_file};
-use crate::model::CertificateStatus;
-use crate::pki::{Certificate, RefusalCause, Rejection};
-use crate::protocol::{Base64Bytes, RejectedClient};
+use crate::model::{Base64Bytes, CertificateStatus};
+use crate::pki::{Certificate, RefusalCause, RejectedClient, Rejection};
 
 /// The client certificates that were refused, for a person to decide about (manual 2.7.3).
 ///

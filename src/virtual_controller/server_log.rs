@@ -10,7 +10,7 @@ use tokio::sync::Notify;
 use super::faults::Faults;
 use super::log_share::StrangersShare;
 use super::opcua::Event;
-use crate::protocol::LogChunk;
+use crate::model::LogChunk;
 
 /// The log of a controller's OPC UA server (manual 2.6.1, 6.3): one file in its folder, one event a line, times in UTC
 /// by the controller's clock.

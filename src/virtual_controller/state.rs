@@ -7,12 +7,11 @@ use serde::{Deserialize, Serialize};
 use super::secret_bytes::SecretBytes;
 use crate::model::activation::ActivationKeys;
 use crate::model::{
-    CertificateType, ClientList, ControllerName, ControllerSeries, CrlSummary, ErrorCode, FirmwareGeneration,
-    FirmwareVersion, ListLimits, MAX_USERS, Problem, SerialNumber, ServerCertificate, ServerSettings, UserName,
-    default_common_name, offered_key_lengths,
+    Base64Bytes, CertificateType, ClientList, ControllerName, ControllerSeries, CrlSummary, ErrorCode,
+    FirmwareGeneration, FirmwareVersion, ListLimits, ListedCertificate, ListedCrl, MAX_USERS, Problem, SerialNumber,
+    ServerCertificate, ServerSettings, UserName, default_common_name, offered_key_lengths,
 };
 use crate::pki::{Certificate, PkiError, ServerNames};
-use crate::protocol::{Base64Bytes, ListedCertificate, ListedCrl};
 
 /// Who a controller is. Never changes during its life.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -215,7 +214,7 @@ impl State {
         Ok(pair)
     }
 
-    /// As [`crate::protocol::ListedCrl`], each with its DER as long as the answer stays small.
+    /// As [`crate::model::ListedCrl`], each with its DER as long as the answer stays small.
     pub fn listed_crls(&self) -> Vec<ListedCrl> {
         let mut room = MAX_LISTED_CRL_BYTES;
         let listed = |held: &HeldCrl| {

@@ -7,9 +7,9 @@ use sha1::{Digest as _, Sha1};
 
 use super::rejected::Entry;
 use super::state::{HeldCrl, Listed, MAX_CRLS_BYTES, State, Surroundings};
-use crate::model::{ClientList, ErrorCode, FirmwareGeneration, Problem};
+use crate::model::{Base64Bytes, ClientList, ErrorCode, FirmwareGeneration, Problem, TrustStep};
 use crate::pki::{Certificate, Crl};
-use crate::protocol::{Base64Bytes, MAX_SENT_CRL_BYTES, MAX_TRUST_STEPS, TrustStep};
+use crate::protocol::{MAX_SENT_CRL_BYTES, MAX_TRUST_STEPS};
 
 /// The longest file name a list keeps.
 const MAX_FILE_NAME_BYTES: usize = 255;

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize, Serializer};
 use thiserror::Error;
 
 use super::PasswordPlace;
-use crate::model::{Address, ControllerInfo, ControllerName, ControllerSeries, Language, text};
+use crate::model::{Address, ConnectionKind, ControllerInfo, ControllerName, ControllerSeries, Language, text};
 use crate::pki::Fingerprint;
 
 const VERSION: u32 = 1;
@@ -30,6 +30,9 @@ pub struct ControllerEntry {
     pub name: ControllerName,
     pub address: Address,
     pub series: ControllerSeries,
+    /// How the controller is configured. [`ConnectionKind::Management`] in files that do not say it.
+    #[serde(default)]
+    pub connection: ConnectionKind,
     /// The management identity that was compared and accepted; without it nothing is sent to the controller.
     #[serde(default)]
     pub fingerprint: Option<Fingerprint>,
@@ -42,7 +45,7 @@ impl ControllerEntry {
     /// A controller that was not reached yet. Nothing is sent to it until its fingerprint was compared and accepted; its
     /// series is what a person says until then.
     pub const fn unconfirmed(name: ControllerName, address: Address, series: ControllerSeries) -> Self {
-        Self { name, address, series, fingerprint: None, last: None }
+        Self { name, address, series, connection: ConnectionKind::Management, fingerprint: None, last: None }
     }
 }
 
@@ -210,6 +213,7 @@ mod tests {
                 name: "Weld 1".parse().unwrap(),
                 address: "192.168.0.1".parse().unwrap(),
                 series: ControllerSeries::Rc700,
+                connection: ConnectionKind::Management,
                 fingerprint: None,
                 last: None,
             }],
@@ -251,6 +255,19 @@ mod tests {
             let read = Configuration::from_json(json.as_bytes()).unwrap().options.window;
             assert_eq!((read.size, read.columns), (None, BTreeMap::from([("status".to_owned(), 80.0)])), "{nonsense}");
         }
+    }
+
+    #[test]
+    fn a_controller_stored_without_a_kind_of_connection_uses_the_management_protocol() {
+        let old = br#"{"version":1,"controllers":[{"name":"Weld 1","address":"192.168.0.1","series":"RC700"}]}"#;
+        assert_eq!(Configuration::from_json(old), Ok(with_one()));
+        let json = String::from_utf8(with_one().to_json().unwrap()).unwrap();
+        assert!(json.contains(r#""connection": "management""#), "{json}");
+        let unknown = json.replace("\"management\"", "\"carrier-pigeon\"");
+        assert!(
+            Configuration::from_json(unknown.as_bytes()).is_err(),
+            "nothing is sent over another connection instead"
+        );
     }
 
     #[test]

@@ -246,6 +246,7 @@ mod tests {
             name: name.parse().unwrap(),
             address: "192.168.0.1".parse().unwrap(),
             series: crate::model::ControllerSeries::Rc800,
+            connection: crate::model::ConnectionKind::Management,
             fingerprint: None,
             last: None,
         }

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::vault::{Vault, VaultError, VaultFiles};
 use super::{Keyring, MemoryPasswords, PasswordError, Passwords};
+use crate::model::Credentials;
 use crate::pki::Fingerprint;
 
 /// Where connection passwords are kept.
@@ -238,10 +239,8 @@ impl PasswordStore {
             state.to_forget.remove(controller);
         }
     }
-}
 
-impl Passwords for PasswordStore {
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
+    fn password(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
         if let Some(password) = self.memory.known(controller) {
             return Ok(Some(password));
         }
@@ -258,12 +257,19 @@ impl Passwords for PasswordStore {
         }
         self.with_vault(|vault| vault.get(controller))
     }
+}
 
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), PasswordError> {
-        self.set_for(&[controller], &password)
+impl Passwords for PasswordStore {
+    fn get(&self, controller: Fingerprint) -> Result<Option<Credentials>, PasswordError> {
+        Ok(self.password(controller)?.map(Credentials::ConnectionPassword))
     }
 
-    fn set_for(&self, controllers: &[Fingerprint], password: &SecretString) -> Result<(), PasswordError> {
+    fn set(&self, controller: Fingerprint, credentials: Credentials) -> Result<(), PasswordError> {
+        self.set_for(&[controller], &credentials)
+    }
+
+    fn set_for(&self, controllers: &[Fingerprint], credentials: &Credentials) -> Result<(), PasswordError> {
+        let password = credentials.password();
         let mut result = Ok(());
         if !self.uses_vault() {
             for controller in controllers {
@@ -353,8 +359,8 @@ mod tests {
     }
 
     fn get(store: &PasswordStore, name: &str) -> Result<Option<String>, ErrorCode> {
-        let password = store.get(id(name)).map_err(code)?;
-        Ok(password.map(|password| password.expose_secret().to_owned()))
+        let credentials = store.get(id(name)).map_err(code)?;
+        Ok(credentials.map(|credentials| credentials.password().expose_secret().to_owned()))
     }
 
     fn set(store: &PasswordStore, name: &str, password: &str) -> Result<(), ErrorCode> {

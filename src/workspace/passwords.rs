@@ -5,6 +5,7 @@ use secrecy::SecretString;
 use thiserror::Error;
 
 use super::{KeyringError, PasswordStore, VaultError};
+use crate::model::Credentials;
 use crate::pki::Fingerprint;
 
 /// Why a connection password cannot be looked up or kept.
@@ -22,24 +23,24 @@ pub enum PasswordError {
     NoVault,
 }
 
-/// Where connection passwords are kept between jobs.
+/// Keeps the credentials of controllers between jobs.
 ///
-/// A password belongs to a controller's identity, not to its name or address: it is never offered to another one. An
+/// Credentials belong to a controller's identity, not to its name or address: they are never offered to another one. An
 /// empty password is a password: that of a controller that has none. Calls may block (a keyring may ask the user to
 /// unlock it): not for the window's thread.
 pub trait Passwords: Send + Sync {
     /// `None`: not known. An error says why it cannot be found out, as [`PasswordError::VaultClosed`] does.
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError>;
+    fn get(&self, controller: Fingerprint) -> Result<Option<Credentials>, PasswordError>;
 
-    /// Remembers a password at least until the program ends. With an error, it is forgotten then.
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), PasswordError>;
+    /// Remembers credentials at least until the program ends. An error says that they are not kept longer.
+    fn set(&self, controller: Fingerprint, credentials: Credentials) -> Result<(), PasswordError>;
 
-    /// Remembers the same password for several controllers; of several errors, the last.
-    fn set_for(&self, controllers: &[Fingerprint], password: &SecretString) -> Result<(), PasswordError> {
+    /// Remembers the same credentials for several controllers; of several errors, the last.
+    fn set_for(&self, controllers: &[Fingerprint], credentials: &Credentials) -> Result<(), PasswordError> {
         let mut result = Ok(());
         for controller in controllers {
             // One that cannot be kept must not keep the others out.
-            result = self.set(*controller, password.clone()).and(result);
+            result = self.set(*controller, credentials.clone()).and(result);
         }
         result
     }
@@ -74,12 +75,12 @@ impl MemoryPasswords {
 }
 
 impl Passwords for MemoryPasswords {
-    fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
-        Ok(self.known(controller))
+    fn get(&self, controller: Fingerprint) -> Result<Option<Credentials>, PasswordError> {
+        Ok(self.known(controller).map(Credentials::ConnectionPassword))
     }
 
-    fn set(&self, controller: Fingerprint, password: SecretString) -> Result<(), PasswordError> {
-        self.put(controller, password);
+    fn set(&self, controller: Fingerprint, credentials: Credentials) -> Result<(), PasswordError> {
+        self.put(controller, credentials.password().clone());
         Ok(())
     }
 

@@ -8,12 +8,12 @@ use std::time::Duration;
 use opcua_configurator::jobs::{
     self, JobContext, JobController, JobEvent, Operation, OperationOutput, Report, Summary,
 };
+use opcua_configurator::model::ConnectionKind;
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::session::{ManagementConnector, Timeouts};
 use opcua_configurator::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, VirtualController};
 use opcua_configurator::workspace::{MemoryPasswords, Passwords as _};
 use parking_lot::Mutex;
-use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
 pub const PASSWORD: &str = "plant-password";
@@ -49,7 +49,7 @@ impl Plant {
             opcua_port: 0,
             firmware,
             activated,
-            password: SecretString::from(password),
+            password: password.into(),
             data: folder.path().to_owned(),
             admission: AdmissionOptions::default(),
             seed: 7,
@@ -58,7 +58,7 @@ impl Plant {
         .unwrap();
         let passwords = Arc::new(MemoryPasswords::default());
         for controller in fleet.controllers() {
-            passwords.set(controller.fingerprint(), SecretString::from(password)).unwrap();
+            passwords.set(controller.fingerprint(), password.into()).unwrap();
         }
         let timeouts = Timeouts {
             connect: Duration::from_secs(5),
@@ -77,6 +77,7 @@ impl Plant {
         let listed = |(index, controller): (usize, &VirtualController)| JobController {
             name: format!("cell {}", index + 1).parse().unwrap(),
             address: controller.management_address().to_string().parse().unwrap(),
+            connection: ConnectionKind::Management,
             fingerprint: Some(controller.fingerprint()),
             known: None,
         };

@@ -2,8 +2,8 @@
 
 use chrono::{DateTime, Duration, Utc};
 use opcua_configurator::model::{
-    CertificateSummary, CertificateType, ControllerInfo, ControllerSeries, ErrorCode, FirmwareVersion, ListLimits,
-    ServerCertificate, ServerStatus,
+    CertificateSummary, CertificateType, ConnectionKind, ControllerInfo, ControllerSeries, ErrorCode, FirmwareVersion,
+    ListLimits, RevisionToken, ServerCertificate, ServerStatus,
 };
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved};
@@ -41,6 +41,7 @@ pub fn entry(n: usize, now: DateTime<Utc>) -> ControllerEntry {
         name: name.parse().unwrap(),
         address: address.parse().unwrap(),
         series,
+        connection: ConnectionKind::Management,
         fingerprint: Some(Fingerprint::of(&n.to_be_bytes())),
         last: (n % 12 != 6)
             .then(|| Retrieved { at: now - Duration::minutes(n as i64 * 7), info: info(n, now, series) }),
@@ -82,6 +83,6 @@ pub fn info(n: usize, now: DateTime<Utc>, series: ControllerSeries) -> Controlle
         used_ports: vec![2000, 5000],
         limits: ListLimits::of(firmware.generation()),
         clock: now,
-        revision: 4,
+        revision: RevisionToken::new(4),
     }
 }

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use egui_kittest::kittest::Queryable as _;
 use opcua_configurator::jobs::Operation;
-use opcua_configurator::model::{CertificateType, Problem, SerialNumber};
+use opcua_configurator::model::{CertificateType, ConnectionKind, Problem, SerialNumber};
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
 use opcua_configurator::ui::picker::{FileKind, FilePicker, FixedPicker, Picked};
 use opcua_configurator::virtual_controller::{FleetFirmware, demo_keys};
@@ -99,7 +99,7 @@ impl Desk {
             workspace: workspace.clone(),
             lock: workspace.lock().unwrap(),
             passwords: plant.passwords.clone(),
-            connector: Arc::new(plant.connector),
+            connectors: Arc::new(plant.connector).into(),
             starter,
             picker: Arc::new(picker(folder.path())),
         };
@@ -198,6 +198,7 @@ pub fn list(plant: &Plant, known: bool) -> Configuration {
             name: listed.name,
             address: listed.address,
             series: controller.series(),
+            connection: ConnectionKind::Management,
             fingerprint: listed.fingerprint,
             last: known.then(|| Retrieved { at: window::now(), info: controller.info() }),
         });

@@ -7,15 +7,15 @@ use std::process::Command;
 use base64::Engine as _;
 use chrono::{DateTime, Utc};
 use opcua_configurator::model::{
-    CertificateType, ClientList, ControllerSeries, CsrRequest, ErrorCode, FirmwareVersion, KeyLength, Problem,
-    SelfSignedRequest, ServerSettings, ServerStatus, Subject, Validity,
+    Base64Bytes, CertificateType, Changed, ClientList, ControllerSeries, CsrRequest, ErrorCode, FirmwareVersion,
+    HeldCertificate, HeldCertificates, KeyLength, ListedCertificate, LogChunk, Problem, RevisionToken, Revisioned,
+    SelfSignedRequest, ServerSettings, ServerStatus, Subject, TrustStep, Validity,
 };
 use opcua_configurator::pki::{Certificate, Csr, PrivateKey, ServerNames, make_csr, self_signed, tls_identity};
 use opcua_configurator::protocol::{
-    Activate, AddUser, Base64Bytes, Changed, CsrMade, EditTrust, ExportContent, ExportSettings, ExportedUser, Failure,
-    HeldCertificate, HeldCertificates, Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed,
-    ListedCertificate, LogChunk, Login, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, Session,
-    SetSettings, SettingsExport, TrustStep, WireSecret,
+    Activate, AddUser, CsrMade, EditTrust, ExportContent, ExportSettings, ExportedUser, Failure, Hello, ImportCaSigned,
+    ImportCertificate, ImportCsr, ImportSettings, Installed, Login, MakeCsr, MakeSelfSigned, RemoveUsers,
+    SelectCertificate, Session, SetSettings, SettingsExport, WireSecret,
 };
 use opcua_configurator::virtual_controller::{
     Faults, Identity, KeyPair, Listed, PendingCsr, SecretBytes, State, Store, demo_keys, hash_connection_password,
@@ -279,7 +279,7 @@ impl Seeds<'_> {
         } }
         let secret = || WireSecret("correct horse battery staple".into());
         let der = || Base64Bytes(certificate.der().to_vec());
-        let (revision, kind, key_length) = (7, CertificateType::CaSigned, KeyLength::Rsa2048);
+        let (revision, kind, key_length) = (RevisionToken::new(7), CertificateType::CaSigned, KeyLength::Rsa2048);
         let changed = || Changed { revision, status: ServerStatus::Run };
         let keys = demo_keys(&"R7A0000001".parse().expect("a serial number"));
         let name = || "operator1".parse().expect("a name");

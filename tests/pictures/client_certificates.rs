@@ -1,9 +1,8 @@
 //! The dialogs about client certificates and CRLs as they look.
 
 use opcua_configurator::jobs::{TrustChange, TrustFile, TrustSnapshot, WatchEvent};
-use opcua_configurator::model::{CertificateStatus, ErrorCode, FirmwareGeneration, Problem};
+use opcua_configurator::model::{CertificateStatus, CutClient, ErrorCode, FirmwareGeneration, Problem, RevisionToken};
 use opcua_configurator::pki::{Certificate, read_bundle};
-use opcua_configurator::protocol::CutClient;
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
 use opcua_configurator::ui::model::trust::{DetailsView, ReadTrustFile, TrustAction};
 use opcua_configurator::ui::model::{Dialog, JobId, Message, reduce};
@@ -107,7 +106,7 @@ fn changes() {
     assert_shows(&window, "4 of 50, 2 ticked");
     click(&mut window, "Delete");
     let mut held = trust_samples::plant(now() - chrono::Duration::days(2));
-    held.revision = 5;
+    held.revision = RevisionToken::new(5);
     held.trusted.retain(|listed| listed.summary.issued_to.len() > 17);
     let gone = vec![
         cut(3, "HMI line 3", CertificateStatus::Untrusted),

@@ -2,10 +2,9 @@
 
 use opcua_configurator::jobs::{Done, OperationOutput, Step};
 use opcua_configurator::model::{
-    ControllerInfo, ControllerSeries, ErrorCode, Language, Problem, ServerSettings, UserName,
+    ControllerInfo, ControllerSeries, ErrorCode, Language, Problem, RevisionToken, Revisioned, ServerSettings, UserName,
 };
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::protocol::Revisioned;
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
 use opcua_configurator::ui::model::Message;
 use opcua_configurator::workspace::{Configuration, ThemeChoice};
@@ -28,7 +27,7 @@ fn load(window: &mut W, output: impl OperationOutput) {
 }
 
 fn settings() -> Revisioned<ServerSettings> {
-    Revisioned { revision: 4, value: ServerSettings::default() }
+    Revisioned { revision: RevisionToken::new(4), value: ServerSettings::default() }
 }
 
 #[test]
@@ -137,7 +136,7 @@ fn basic_settings() {
     tick(&mut window, &["Weld 1"]);
     choose(&mut window, &["Server settings", "Basic settings…"]);
     load(&mut window, settings());
-    load(&mut window, Revisioned::<Vec<UserName>> { revision: 4, value: vec![] });
+    load(&mut window, Revisioned::<Vec<UserName>> { revision: RevisionToken::new(4), value: vec![] });
     assert_shows(&window, "Basic128Rsa15");
     click(&mut window, "On");
     type_into(&mut window, "Port", "80");
@@ -160,7 +159,7 @@ fn users() {
     tick(&mut window, &["Weld 1"]);
     choose(&mut window, &["Server settings", "Users…"]);
     let users: Vec<UserName> = ["operator1", "Maintenance7", "scada2026"].map(|name| name.parse().unwrap()).to_vec();
-    load(&mut window, Revisioned { revision: 4, value: users });
+    load(&mut window, Revisioned { revision: RevisionToken::new(4), value: users });
     click(&mut window, "scada2026");
     picture(&mut window, "users");
     click(&mut window, "Add user…");

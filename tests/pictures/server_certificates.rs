@@ -2,13 +2,12 @@
 
 use opcua_configurator::jobs::{CertificateChecked, CertificateExported};
 use opcua_configurator::model::{
-    CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Problem, SelfSignedRequest,
-    ServerSettings, Subject, Validity,
+    Base64Bytes, CertificateSummary, CertificateType, ControllerSeries, ErrorCode, HeldCertificate, HeldCertificates,
+    KeyLength, Problem, RevisionToken, Revisioned, SelfSignedRequest, ServerSettings, Subject, Validity,
 };
 use opcua_configurator::pki::{
     Certificate, CertificateFlaw, Finding, Issuers, KeyUsage, PrivateKey, ServerNames, Severity, self_signed,
 };
-use opcua_configurator::protocol::{Base64Bytes, HeldCertificate, HeldCertificates, Revisioned};
 use opcua_configurator::ui::backend::RecordingBackend;
 use opcua_configurator::workspace::SavedFile;
 
@@ -45,7 +44,7 @@ fn certificate() -> Base64Bytes {
 fn held(kinds: &[CertificateType], selected: CertificateType) -> Revisioned<HeldCertificates> {
     let certificate = certificate();
     let held = kinds.iter().map(|kind| HeldCertificate { kind: *kind, certificate: certificate.clone() }).collect();
-    Revisioned { revision: 4, value: HeldCertificates { selected, held, csr: None } }
+    Revisioned { revision: RevisionToken::new(4), value: HeldCertificates { selected, held, csr: None } }
 }
 
 #[test]
@@ -93,7 +92,7 @@ fn ca_signed() {
     choose(&mut window, &["Certificate", "Create and save", "CA signed…"]);
     assert_shows(&window, "1. Create CSR");
     click(&mut window, "Create CSR…");
-    let settings = Revisioned { revision: 4, value: ServerSettings::default() };
+    let settings = Revisioned { revision: RevisionToken::new(4), value: ServerSettings::default() };
     finish(&mut window, vec![Ok(settings)]);
     picture(&mut window, "csr");
     click(&mut window, "Create and save");

@@ -1,8 +1,7 @@
 //! How export, import and the server log look.
 
 use opcua_configurator::jobs::SettingsExported;
-use opcua_configurator::model::{ControllerSeries, ErrorCode, FirmwareVersion, Problem};
-use opcua_configurator::protocol::LogChunk;
+use opcua_configurator::model::{ControllerSeries, ErrorCode, FirmwareVersion, LogChunk, Problem};
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
 use opcua_configurator::ui::model::ExportFound;
 

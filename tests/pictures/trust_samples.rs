@@ -2,15 +2,22 @@
 
 use chrono::{DateTime, Duration, Utc};
 use opcua_configurator::jobs::TrustSnapshot;
-use opcua_configurator::model::{CertificateStatus, CertificateSummary, CrlSummary, FirmwareGeneration, ListLimits};
-use opcua_configurator::pki::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};
-use opcua_configurator::protocol::{Base64Bytes, ListedCertificate, ListedCrl, RejectedClient};
+use opcua_configurator::model::{
+    Base64Bytes, Capabilities, CertificateStatus, CertificateSummary, CrlSummary, Feature, FirmwareGeneration,
+    ListLimits, ListedCertificate, ListedCrl, MissingReason, RevisionToken,
+};
+use opcua_configurator::pki::{CrlDates, CrlHealth, CrlIssuer, RejectedClient, TrustHealth};
 
 /// A controller that holds nothing.
 pub fn nothing(generation: FirmwareGeneration, clock: DateTime<Utc>) -> TrustSnapshot {
     TrustSnapshot {
-        revision: 4,
-        generation,
+        revision: RevisionToken::new(4),
+        capabilities: match generation {
+            FirmwareGeneration::Legacy => {
+                Capabilities::all().without(&[Feature::IssuersList], MissingReason::FirmwareTooOld)
+            }
+            FirmwareGeneration::Current => Capabilities::all(),
+        },
         limits: ListLimits::of(generation),
         clock,
         trusted: vec![],

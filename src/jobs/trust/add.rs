@@ -6,6 +6,7 @@ use super::change::{TrustChange, apply};
 use super::{Destination, TrustFile, TrustPlan, TrustSnapshot};
 use crate::jobs::{Confirmation, JobController, Operation, Run, Step};
 use crate::model::Problem;
+use crate::model::RevisionToken;
 
 /// Adds certificates to client lists and CRLs (manual 2.7.3.3, 2.7.3.6).
 ///
@@ -15,8 +16,8 @@ use crate::model::Problem;
 pub struct AddTrust {
     pub files: Arc<[TrustFile]>,
     pub destination: Destination,
-    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
-    pub based_on: Option<u64>,
+    /// The configuration that a dialog showed; `None` bases the change on the present one.
+    pub based_on: Option<RevisionToken>,
 }
 
 #[async_trait]
@@ -32,8 +33,8 @@ impl Operation for AddTrust {
     fn check(&self, controller: &JobController) -> Result<(), Problem> {
         match &controller.known {
             Some(info) => {
-                let (generation, limits) = (info.generation(), info.limits);
-                TrustPlan::new(&self.files, self.destination, generation, limits, info.clock, None).check()
+                let (capabilities, limits) = (controller.capabilities(), info.limits);
+                TrustPlan::new(&self.files, self.destination, &capabilities, limits, info.clock, None).check()
             }
             None => Ok(()),
         }

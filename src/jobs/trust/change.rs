@@ -1,8 +1,7 @@
 use super::TrustSnapshot;
 use super::undo::{TrustUndo, undo};
 use crate::jobs::{OperationOutput, OutputFacts, Run, Step};
-use crate::model::Problem;
-use crate::protocol::{CutClient, EditTrust, TrustStep};
+use crate::model::{CutClient, Problem, RevisionToken, TrustStep};
 
 /// What came of a change of lists or CRLs.
 #[derive(Debug, Clone, PartialEq)]
@@ -27,11 +26,10 @@ pub(super) async fn apply(
     run: &mut Run<'_>,
     before: TrustSnapshot,
     steps: Vec<TrustStep>,
-    based_on: Option<u64>,
+    based_on: Option<RevisionToken>,
 ) -> Result<TrustChange, Problem> {
     run.begin(Step::Apply)?;
-    let change = EditTrust { revision: based_on.unwrap_or(before.revision), steps };
-    let done = run.session.edit_trust(change).await?;
+    let done = run.session.edit_trust(based_on.unwrap_or(before.revision), steps).await?;
     let lists = TrustSnapshot::read(run.session).await?;
     let undo = (lists.revision == done.changed.revision).then(|| undo(&before, &lists)).flatten();
     Ok(TrustChange { lists, cut: done.cut, undo })

@@ -6,9 +6,12 @@ use chrono::{DateTime, Utc};
 use super::TrustSnapshot;
 use super::notes::{self, Note};
 use super::target::Target;
-use crate::model::{CertificateSummary, ClientList, CrlSummary, ErrorCode, FirmwareGeneration, ListLimits, Problem};
+use crate::model::{
+    Base64Bytes, Capabilities, CertificateSummary, ClientList, CrlSummary, ErrorCode, Feature, ListLimits,
+    MissingReason, Problem, TrustStep,
+};
 use crate::pki::{Bundle, Certificate, Crl, is_authority};
-use crate::protocol::{Base64Bytes, MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES, TrustStep};
+use crate::session::{MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES};
 
 /// A file with certificates and CRLs, read and parsed.
 #[derive(Debug, Clone, PartialEq)]
@@ -22,7 +25,7 @@ pub struct TrustFile {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Destination {
     /// Each where certificates of its kind belong: an application's into the trusted list, an authority's into the
-    /// issuers list, or into the trusted list on legacy firmware, which has no other.
+    /// issuers list, or into the trusted list where the controller has no issuers list.
     ByKind,
     /// The trusted list; but authorities that came in one file with an application's certificate only complete its
     /// chain, and go as with [`Destination::ByKind`].
@@ -89,7 +92,7 @@ impl TrustPlan {
     pub fn new(
         files: &[TrustFile],
         destination: Destination,
-        generation: FirmwareGeneration,
+        capabilities: &Capabilities,
         limits: ListLimits,
         now: DateTime<Utc>,
         held: Option<&TrustSnapshot>,
@@ -102,7 +105,8 @@ impl TrustPlan {
             .flat_map(|file| file.bundle.certificates.iter().cloned())
             .chain(held.into_iter().flat_map(TrustSnapshot::certificates))
             .collect();
-        let sorter = Sorter { destination, generation, now, held, held_crls, offered_crls };
+        let no_issuers_list = capabilities.missing(Feature::IssuersList);
+        let sorter = Sorter { destination, no_issuers_list, now, held, held_crls, offered_crls };
         let mut seen = BTreeSet::new();
         let mut items = Vec::new();
         for file in files {
@@ -141,7 +145,7 @@ impl TrustPlan {
 
     /// For a controller whose lists are known.
     pub fn for_controller(files: &[TrustFile], destination: Destination, held: &TrustSnapshot) -> Self {
-        Self::new(files, destination, held.generation, held.limits, held.clock, Some(held))
+        Self::new(files, destination, &held.capabilities, held.limits, held.clock, Some(held))
     }
 
     /// Whether something is there that a person should agree to: a note, or something left out. What is refused is not
@@ -246,7 +250,8 @@ impl Thing {
 /// Decides about one certificate or CRL at a time.
 struct Sorter<'a> {
     destination: Destination,
-    generation: FirmwareGeneration,
+    /// Why the controller has no issuers list; `None` if it has one.
+    no_issuers_list: Option<MissingReason>,
     now: DateTime<Utc>,
     held: Option<&'a TrustSnapshot>,
     held_crls: Vec<Crl>,
@@ -262,19 +267,21 @@ impl Sorter<'_> {
         with_application: bool,
         with_authority: bool,
     ) -> Fate {
-        let legacy = self.generation == FirmwareGeneration::Legacy;
+        if let (Destination::Issuers, Some(reason)) = (self.destination, self.no_issuers_list) {
+            return Fate::Refused(reason.into());
+        }
+        let has_issuers_list = self.no_issuers_list.is_none();
         let (to, completes_a_chain) = match (self.destination, authority) {
             (Destination::Crls, _) => return Fate::Skipped(SkipReason::NotAskedFor),
-            (Destination::Issuers, _) if legacy => return Fate::Refused(ErrorCode::FirmwareTooOld.into()),
             (Destination::Issuers, false) if with_authority => return Fate::Skipped(SkipReason::NotAskedFor),
             (Destination::Issuers, false) => {
                 return Fate::Refused(Problem::with_detail(ErrorCode::NotAnAuthority, thumbprint));
             }
             (Destination::Issuers, true) => (Target::Issuers, false),
             (Destination::ByKind | Destination::Trusted, false) => (Target::Trusted, false),
-            (Destination::ByKind, true) if legacy => (Target::Trusted, false),
+            (Destination::ByKind, true) if !has_issuers_list => (Target::Trusted, false),
             (Destination::ByKind, true) => (Target::Issuers, false),
-            (Destination::Trusted, true) if with_application && !legacy => (Target::Issuers, true),
+            (Destination::Trusted, true) if with_application && has_issuers_list => (Target::Issuers, true),
             (Destination::Trusted, true) => (Target::Trusted, false),
         };
         let list = if to == Target::Issuers { ClientList::Issuers } else { ClientList::Trusted };
@@ -359,6 +366,7 @@ mod tests {
         application, authority, issuing_application, listed, listed_crl, now, rejected, snapshot,
     };
     use super::*;
+    use crate::model::FirmwareGeneration;
 
     fn file(name: &str, certificates: &[&Certificate], crls: &[&Crl]) -> TrustFile {
         let certificates = certificates.iter().copied().cloned().collect();

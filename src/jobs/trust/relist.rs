@@ -3,8 +3,7 @@ use async_trait::async_trait;
 use super::TrustSnapshot;
 use super::change::{TrustChange, apply};
 use crate::jobs::{Confirmation, Operation, Run, Step};
-use crate::model::{ClientList, ErrorCode, Language, Problem};
-use crate::protocol::TrustStep;
+use crate::model::{ClientList, ErrorCode, Language, Problem, RevisionToken, TrustStep};
 
 /// Moves certificates from one client list into another, such as a refused client into the trusted list.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -16,8 +15,8 @@ pub struct MoveClients {
     /// A person agreed to what [`TrustSnapshot::notes_of_move`] says; without that, certificates with a note are not
     /// moved: [`ErrorCode::NotConfirmed`].
     pub accept_notes: bool,
-    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
-    pub based_on: Option<u64>,
+    /// The configuration that a dialog showed; `None` bases the change on the present one.
+    pub based_on: Option<RevisionToken>,
 }
 
 #[async_trait]

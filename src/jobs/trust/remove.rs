@@ -3,8 +3,7 @@ use async_trait::async_trait;
 use super::TrustSnapshot;
 use super::change::{TrustChange, apply};
 use crate::jobs::{Confirmation, Operation, Run, Step};
-use crate::model::{ClientList, ErrorCode, Problem};
-use crate::protocol::TrustStep;
+use crate::model::{ClientList, ErrorCode, Problem, RevisionToken, TrustStep};
 
 /// Removes certificates from client lists (manual 2.7.3.2).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -13,8 +12,8 @@ pub struct RemoveClients {
     pub list: Option<ClientList>,
     /// SHA-1, upper-case hexadecimal.
     pub thumbprints: Vec<String>,
-    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
-    pub based_on: Option<u64>,
+    /// The configuration that a dialog showed; `None` bases the change on the present one.
+    pub based_on: Option<RevisionToken>,
 }
 
 #[async_trait]
@@ -53,8 +52,8 @@ impl Operation for RemoveClients {
 pub struct RemoveCrls {
     /// [`CrlSummary::id`](crate::model::CrlSummary::id) of each.
     pub ids: Vec<String>,
-    /// The revision a dialog showed; `None` bases the change on whatever the controller has now.
-    pub based_on: Option<u64>,
+    /// The configuration that a dialog showed; `None` bases the change on the present one.
+    pub based_on: Option<RevisionToken>,
 }
 
 #[async_trait]

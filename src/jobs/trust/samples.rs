@@ -1,4 +1,4 @@
-//! Certificates and CRLs for the tests of this room.
+//! Certificates and CRLs for the tests of this module.
 
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -10,9 +10,11 @@ use rcgen::{
 };
 
 use super::TrustSnapshot;
-use crate::model::{FirmwareGeneration, ListLimits};
-use crate::pki::{Certificate, Crl, TrustHealth};
-use crate::protocol::{Base64Bytes, ListedCertificate, ListedCrl, RejectedClient};
+use crate::model::{
+    Base64Bytes, Capabilities, Feature, FirmwareGeneration, ListLimits, ListedCertificate, ListedCrl, MissingReason,
+    RevisionToken,
+};
+use crate::pki::{Certificate, Crl, RejectedClient, TrustHealth};
 
 pub fn now() -> DateTime<Utc> {
     "2030-01-01T12:00:00Z".parse().unwrap()
@@ -102,8 +104,13 @@ impl Authority {
 
 pub fn snapshot(generation: FirmwareGeneration) -> TrustSnapshot {
     TrustSnapshot {
-        revision: 1,
-        generation,
+        revision: RevisionToken::new(1),
+        capabilities: match generation {
+            FirmwareGeneration::Legacy => {
+                Capabilities::all().without(&[Feature::IssuersList], MissingReason::FirmwareTooOld)
+            }
+            FirmwareGeneration::Current => Capabilities::all(),
+        },
         limits: ListLimits::of(generation),
         clock: now(),
         trusted: Vec::new(),

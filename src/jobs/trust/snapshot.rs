@@ -4,9 +4,10 @@ use async_trait::async_trait;
 use chrono::{DateTime, Utc};
 
 use crate::jobs::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
-use crate::model::{ClientList, ErrorCode, FirmwareGeneration, ListLimits, Problem};
-use crate::pki::{Certificate, Crl, PkiError, TrustHealth, TrustLists};
-use crate::protocol::{ListedCertificate, ListedCrl, RejectedClient};
+use crate::model::{
+    Capabilities, ClientList, ErrorCode, Feature, ListLimits, ListedCertificate, ListedCrl, Problem, RevisionToken,
+};
+use crate::pki::{Certificate, Crl, PkiError, RejectedClient, TrustHealth, TrustLists};
 use crate::session::ControllerSession;
 
 /// Reads all client lists and CRLs of a controller (manual 2.7.3.1, 2.7.3.4).
@@ -16,15 +17,16 @@ pub struct ListTrust;
 /// Everything a controller trusts, and whom it refused, at one moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrustSnapshot {
-    pub revision: u64,
-    pub generation: FirmwareGeneration,
+    pub revision: RevisionToken,
+    /// What the controller offers over this connection.
+    pub capabilities: Capabilities,
     pub limits: ListLimits,
     /// The controller's clock when this was read.
     pub clock: DateTime<Utc>,
     pub trusted: Vec<ListedCertificate>,
     /// Seen last first.
     pub rejected: Vec<RejectedClient>,
-    /// Empty on legacy firmware, which has no such list.
+    /// Empty where the controller has no such list ([`Feature::IssuersList`]).
     pub issuers: Vec<ListedCertificate>,
     /// Each with its DER.
     pub crls: Vec<ListedCrl>,
@@ -75,15 +77,15 @@ impl TrustSnapshot {
     async fn read_once(session: &mut dyn ControllerSession) -> Result<Option<Self>, Problem> {
         let info = session.info().await?;
         let trusted = session.clients(ClientList::Trusted).await?;
-        let issuers = match info.generation() {
-            FirmwareGeneration::Legacy => Vec::new(),
-            FirmwareGeneration::Current => {
-                let issuers = session.clients(ClientList::Issuers).await?;
-                if issuers.revision != info.revision {
-                    return Ok(None);
-                }
-                issuers.value
+        let capabilities = session.capabilities().await?;
+        let issuers = if capabilities.offers(Feature::IssuersList) {
+            let issuers = session.clients(ClientList::Issuers).await?;
+            if issuers.revision != info.revision {
+                return Ok(None);
             }
+            issuers.value
+        } else {
+            Vec::new()
         };
         let mut crls = session.crls().await?;
         let mut bytes: usize = crls.value.iter().filter_map(|listed| Some(listed.crl.as_ref()?.0.len())).sum();
@@ -108,7 +110,7 @@ impl TrustSnapshot {
         let health = health([&trusted.value, &issuers], &crls.value, info.clock).await?;
         Ok(Some(Self {
             revision: info.revision,
-            generation: info.generation(),
+            capabilities,
             limits: info.limits,
             clock: info.clock,
             trusted: trusted.value,

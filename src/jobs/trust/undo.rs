@@ -1,6 +1,5 @@
 use super::TrustSnapshot;
-use crate::model::ClientList;
-use crate::protocol::{Base64Bytes, TrustStep};
+use crate::model::{Base64Bytes, ClientList, TrustStep};
 
 /// What puts the lists and CRLs of one controller back to what they were before a change.
 #[derive(Debug, Clone, PartialEq, Eq)]

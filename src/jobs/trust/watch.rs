@@ -1,12 +1,10 @@
 use std::time::Duration;
 
-use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
 use super::TrustSnapshot;
 use crate::jobs::{JobContext, JobController};
 use crate::model::{ErrorCode, Problem};
-use crate::pki::Fingerprint;
 use crate::session::ControllerSession;
 
 /// How often a controller is asked whether anything is new.
@@ -43,8 +41,8 @@ pub async fn watch_trust(
     loop {
         let mut session = None;
         let watching = async {
-            let password = context.password(fingerprint).await?;
-            let session = session.insert(connect(&controller, &context, fingerprint, &password).await?);
+            let credentials = context.credentials(fingerprint).await?;
+            let session = session.insert(context.connect(&controller, fingerprint, &credentials).await?);
             watch(session.as_mut(), &mut pause, &on_event).await
         };
         let ended = tokio::select! {
@@ -77,15 +75,6 @@ const fn is_lost(code: ErrorCode) -> bool {
 
 const FIRST_PAUSE: Duration = Duration::from_millis(500);
 const LAST_PAUSE: Duration = Duration::from_secs(15);
-
-async fn connect(
-    controller: &JobController,
-    context: &JobContext,
-    fingerprint: Fingerprint,
-    password: &SecretString,
-) -> Result<Box<dyn ControllerSession>, Problem> {
-    context.connector.connect(&controller.address, fingerprint, password).await
-}
 
 /// Ends only with a failure.
 async fn watch(

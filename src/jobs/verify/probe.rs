@@ -5,8 +5,7 @@ use chrono::{DateTime, TimeDelta, Utc};
 use super::report::{EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding};
 use crate::jobs::{Run, Step};
 use crate::model::{CertificateStatus, Credential, Problem, SecurityPolicy, ServerSettings, UserTokenPolicy};
-use crate::pki::Certificate;
-use crate::protocol::RejectedClient;
+use crate::pki::{Certificate, RejectedClient};
 use crate::session::opcua_client::{
     Cause, Endpoint, Failure, Login, MessageSecurity, OpcUaClient, Stage, Target, TokenKind, printable,
 };

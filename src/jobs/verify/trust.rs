@@ -1,8 +1,7 @@
 use async_trait::async_trait;
 
 use crate::jobs::{Confirmation, Done, Operation, Run, Step, TrustSnapshot};
-use crate::model::{ClientList, ErrorCode, Problem, clock};
-use crate::protocol::{Base64Bytes, EditTrust, TrustStep};
+use crate::model::{Base64Bytes, ClientList, ErrorCode, Problem, TrustStep, clock};
 use crate::workspace::{OwnIdentity, OwnIdentityFiles};
 
 /// Puts this program's own certificate into the trusted list of a controller, if it is not there yet, so that it may
@@ -53,6 +52,6 @@ pub(super) async fn trust(run: &mut Run<'_>, own: &OwnIdentity) -> Result<(), Pr
         TrustStep::Add { list: ClientList::Trusted, certificates }
     };
     run.begin(Step::Apply)?;
-    run.session.edit_trust(EditTrust { revision: before.revision, steps: vec![step] }).await?;
+    run.session.edit_trust(before.revision, vec![step]).await?;
     Ok(())
 }

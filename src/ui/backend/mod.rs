@@ -20,7 +20,7 @@ use super::model::trust::ReadTrustFile;
 use super::model::{DroppedFile, ExportFound, JobId, Task, TaskEvent};
 use super::picker::FileKind;
 use crate::jobs::{Enrolled, JobController, Summary, WatchEvent};
-use crate::model::{Address, ControllerInfo, Problem};
+use crate::model::{Address, ConnectionKind, ControllerInfo, Credentials, Problem};
 use crate::pki::Fingerprint;
 use crate::workspace::{Configuration, ControllerEntry, StoreStatus};
 
@@ -38,13 +38,15 @@ pub enum Command {
     },
     Probe {
         job: JobId,
+        connection: ConnectionKind,
         address: Address,
     },
     Enroll {
         job: JobId,
+        connection: ConnectionKind,
         address: Address,
         fingerprint: Fingerprint,
-        password: SecretString,
+        credentials: Credentials,
     },
     /// Reads what the settings export of a controller on the PC says of itself.
     LookAtExport {

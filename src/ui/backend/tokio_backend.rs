@@ -13,10 +13,10 @@ use super::unfinished::{Unfinished, UnfinishedWork};
 use super::vault::StoreReporter;
 use super::{Backend, Command, Event, FileContents, VirtualFleetStarter, trust_files};
 use crate::jobs::{self, JobContext, JobController};
-use crate::model::{ControllerInfo, ErrorCode, Problem};
+use crate::model::{ControllerInfo, Credentials, ErrorCode, Problem};
 use crate::platform::display;
 use crate::platform::stop_signal::StopSignals;
-use crate::session::Connector;
+use crate::session::Connectors;
 use crate::ui::model::{DroppedFile, ExportFound, JobId, Task};
 use crate::ui::picker::FilePicker;
 use crate::workspace::{self, Configuration, Passwords, SettingsFiles, Shown, StartRequests, Workspace, WorkspaceLock};
@@ -36,7 +36,7 @@ pub struct BackendOptions {
     pub workspace: Workspace,
     pub lock: WorkspaceLock,
     pub passwords: Arc<dyn Passwords>,
-    pub connector: Arc<dyn Connector>,
+    pub connectors: Connectors,
     /// `None`: the window does not offer virtual controllers.
     pub starter: Option<Arc<dyn VirtualFleetStarter>>,
     pub picker: Arc<dyn FilePicker>,
@@ -102,7 +102,7 @@ impl TokioBackend {
         Ok(Self {
             store,
             workspace: options.workspace,
-            context: JobContext::new(options.connector, options.passwords, 1),
+            context: JobContext::new(options.connectors, options.passwords, 1),
             starter: options.starter,
             picker: options.picker,
             emit,
@@ -220,7 +220,7 @@ async fn remember(
     controllers: Vec<crate::pki::Fingerprint>,
     password: SecretString,
 ) -> Result<(), Problem> {
-    let kept = tokio::task::spawn_blocking(move || passwords.set_for(&controllers, &password));
+    let kept = tokio::task::spawn_blocking(move || passwords.set_for(&controllers, &Credentials::ConnectionPassword(password)));
     Ok(kept.await.map_err(|e| Problem::with_detail(ErrorCode::Internal, e))??)
 }
 
@@ -246,20 +246,20 @@ impl Backend for TokioBackend {
             Command::Run { job, controllers, task, parallelism, password } => {
                 self.run(job, controllers, &task, parallelism, password);
             }
-            Command::Probe { job, address } => {
+            Command::Probe { job, connection, address } => {
                 let cancel = self.token(job);
                 self.spawn(async move {
-                    let probed = cancel.run_until_cancelled(jobs::probe(&address, &context)).await;
+                    let probed = cancel.run_until_cancelled(jobs::probe(connection, &address, &context)).await;
                     if let Some(result) = probed {
                         emit(Event::Probed { job, result });
                     }
                 });
             }
-            Command::Enroll { job, address, fingerprint, password } => {
+            Command::Enroll { job, connection, address, fingerprint, credentials } => {
                 let (cancel, store) = (self.token(job), self.store.clone());
                 let unfinished = self.unfinished.begin();
                 self.spawn(async move {
-                    let enrolling = jobs::enroll(&address, fingerprint, password, &context);
+                    let enrolling = jobs::enroll(connection, &address, fingerprint, credentials, &context);
                     if let Some(result) = cancel.run_until_cancelled(enrolling).await {
                         report(store).await;
                         emit(Event::Enrolled { job, result: result.map(Box::new) });

@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use egui::{Align, Frame, Label, Layout, ProgressBar, RichText, ScrollArea, Sense, Stroke, Ui, vec2};
 
 use super::{error, trust};
-use crate::protocol::CutClient;
+use crate::model::CutClient;
 use crate::texts::{self, TextKey as T};
 use crate::ui::model::trust::TrustAction;
 use crate::ui::model::{CancelState, Job, JobRow, Message, Model, ProcessingView, RowState};

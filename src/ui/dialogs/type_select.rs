@@ -1,6 +1,6 @@
 use egui::{Frame, Label, RichText, Stroke, Ui};
 
-use crate::model::{CertificateType, ErrorCode};
+use crate::model::{CertificateType, ErrorCode, Feature};
 use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Model, TypeSelectForm};
 use crate::ui::theme::{self, palette};
@@ -42,7 +42,7 @@ pub fn show(ui: &Ui, form: &mut TypeSelectForm, model: &Model) -> Answer {
             let said = texts::not_read(model.language, name, problem.code.explain(model.language).message);
             ui.add(Label::new(RichText::new(said).size(theme::SMALL_TEXT).color(palette(ui).error)).wrap());
         }
-        if form.rows.len() > 1 && model.any_current(&form.rows) {
+        if form.rows.len() > 1 && model.any_lacks(&form.rows, Feature::UserSpecifiedCertificate) {
             fine_print(ui, text(T::TypeSelectLegacy));
         }
     })

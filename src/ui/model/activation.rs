@@ -9,7 +9,7 @@ use crate::jobs::{Activate, KeySource};
 use crate::model::activation::{
     self, ActivationFile, ActivationKey, ActivationKeys, KeyError, LicenceKey, MAX_ACTIVATION_FILE_BYTES, Plan,
 };
-use crate::model::{ErrorCode, FirmwareGeneration, Problem};
+use crate::model::{ErrorCode, Problem};
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
 use crate::ui::picker::FileKind;
@@ -130,11 +130,5 @@ impl Model {
         let form = ActivationForm::of_file(self.rows.ticked(), first_path(&paths), self);
         self.dialogs.push(Dialog::Activation(form));
         self.read_typed()
-    }
-
-    /// Whether a ticked controller is known to be activated as a controller option instead.
-    pub fn ticked_has_current_firmware(&self) -> bool {
-        let current = |info: &crate::model::ControllerInfo| info.firmware.generation() == FirmwareGeneration::Current;
-        self.rows.all().iter().any(|row| row.ticked && row.info().is_some_and(current))
     }
 }

@@ -5,9 +5,10 @@ use std::path::PathBuf;
 
 use super::{Dialog, Model, RowId, Task};
 use crate::jobs::{ExportSelfSigned, ListCertificates, SelectCertificateType};
-use crate::model::{CertificateSummary, CertificateType, FileFormat, FirmwareGeneration, Problem, SerialNumber};
+use crate::model::{
+    CertificateSummary, CertificateType, Feature, FileFormat, HeldCertificates, Problem, Revisioned, SerialNumber,
+};
 use crate::pki::Certificate;
-use crate::protocol::{HeldCertificates, Revisioned};
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
 use crate::workspace::{CertificateFiles, Workspace};
@@ -86,19 +87,15 @@ impl TypeSelectForm {
 }
 
 impl Model {
-    /// Whether any of them is known to have current firmware.
-    pub fn any_current(&self, rows: &[RowId]) -> bool {
-        let current = |row: &RowId| {
-            let info = self.rows.get(*row).and_then(|row| row.info());
-            info.is_some_and(|info| info.generation() == FirmwareGeneration::Current)
-        };
-        rows.iter().any(current)
+    /// Whether one of these controllers is known not to offer this.
+    pub fn any_lacks(&self, rows: &[RowId], feature: Feature) -> bool {
+        rows.iter().filter_map(|row| self.rows.get(*row)).any(|row| !row.capabilities().offers(feature))
     }
 
-    /// The types that can be chosen: user-specified ones exist on legacy firmware only.
+    /// The types that can be chosen for all of these controllers.
     pub fn offered_types(&self, rows: &[RowId]) -> impl Iterator<Item = CertificateType> + use<> {
-        let any_current = self.any_current(rows);
-        CertificateType::ALL.into_iter().filter(move |kind| *kind != CertificateType::UserSpecified || !any_current)
+        let user_specified = !self.any_lacks(rows, Feature::UserSpecifiedCertificate);
+        CertificateType::ALL.into_iter().filter(move |kind| *kind != CertificateType::UserSpecified || user_specified)
     }
 
     /// A folder of the one controller, or what the folders of several look like, which is nothing to copy.

@@ -8,7 +8,8 @@ use super::{
 };
 use crate::jobs::Confirmation;
 use crate::model::{
-    ControllerSeries, FileFormat, KeyLength, Problem, SecurityPolicy, StartupMode, UserName, UserTokenPolicy,
+    ConnectionKind, ControllerSeries, FileFormat, KeyLength, Problem, RevisionToken, SecurityPolicy, StartupMode,
+    UserName, UserTokenPolicy,
 };
 use crate::pki::Fingerprint;
 
@@ -103,6 +104,7 @@ pub struct AddController {
     /// The field for the password has just appeared and takes the keyboard.
     pub focus_password: bool,
     pub series: ControllerSeries,
+    pub connection: ConnectionKind,
     pub stage: AddStage,
     /// Why the last attempt failed.
     pub problem: Option<Problem>,
@@ -170,7 +172,7 @@ pub struct SettingsForm {
     pub names: Vec<String>,
     /// The settings of the one controller are being read.
     pub reading: bool,
-    pub revision: Option<u64>,
+    pub revision: Option<RevisionToken>,
     pub port: String,
     pub startup: StartupMode,
     pub policies: BTreeSet<SecurityPolicy>,
@@ -192,7 +194,7 @@ pub struct UsersForm {
     pub row: RowId,
     pub name: String,
     pub reading: bool,
-    pub revision: Option<u64>,
+    pub revision: Option<RevisionToken>,
     pub users: Vec<UserName>,
     pub ticked: BTreeSet<UserName>,
 }
@@ -202,7 +204,7 @@ pub struct UsersForm {
 pub struct AddUserForm {
     pub rows: Vec<RowId>,
     pub names: Vec<String>,
-    pub revision: Option<u64>,
+    pub revision: Option<RevisionToken>,
     /// Users the one controller has already.
     pub existing: Vec<UserName>,
     pub name: String,

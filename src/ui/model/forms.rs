@@ -7,8 +7,8 @@ use secrecy::SecretString;
 use super::{AddController, AddStage, AddUserForm, Model, RowId, SelfSignedForm, SettingsForm, Task, Typed};
 use crate::jobs::{self, CsrFields, SelfSignedFields, SettingsChange};
 use crate::model::{
-    Address, ControllerName, ControllerSeries, Credential, ErrorCode, FileFormat, KeyLength, MAX_USERS, Problem,
-    SecurityPolicy, ServerPort, ServerSettings, Subject, SubjectError, UserName, UserPassword, Validity,
+    Address, ConnectionKind, ControllerName, ControllerSeries, Credential, ErrorCode, FileFormat, KeyLength, MAX_USERS,
+    Problem, SecurityPolicy, ServerPort, ServerSettings, Subject, SubjectError, UserName, UserPassword, Validity,
     offered_key_lengths,
 };
 use crate::texts::TextKey;
@@ -22,6 +22,7 @@ impl AddController {
             show_password: false,
             focus_password: false,
             series: ControllerSeries::Rc800,
+            connection: ConnectionKind::default(),
             stage: AddStage::Form,
             problem: None,
             tried: false,

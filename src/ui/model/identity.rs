@@ -39,10 +39,12 @@ impl Model {
         form.name = entry.name.to_string();
         form.address = address.to_string();
         form.series = entry.series;
+        let connection = entry.connection;
+        form.connection = connection;
         form.stage = AddStage::Probing;
         form.problem = None;
         self.dialogs.push(Dialog::AddController(form));
-        vec![Command::Probe { job: self.next_job(), address }]
+        vec![Command::Probe { job: self.next_job(), connection, address }]
     }
 
     /// Goes on with the next controller, and in the end with those that were confirmed before. The password typed last

@@ -2,8 +2,7 @@ use std::path::PathBuf;
 
 use super::{RowId, Task};
 use crate::jobs::{Step, Summary, TrustUndo};
-use crate::model::{ErrorCode, Problem};
-use crate::protocol::CutClient;
+use crate::model::{CutClient, ErrorCode, Problem};
 
 /// Tells the events of one job from those of another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -11,7 +11,7 @@ use super::{
     UsersForm,
 };
 use crate::jobs::{self, Enrolled, RemoveUsers};
-use crate::model::{FileFormat, Problem};
+use crate::model::{Credentials, FileFormat, Problem, RevisionToken};
 use crate::pki::Fingerprint;
 use crate::texts::{self, TextKey};
 use crate::ui::backend::Command;
@@ -54,7 +54,12 @@ impl Model {
         if reading { self.start(read_policies(), rows, None) } else { vec![] }
     }
 
-    fn push_add_user(&mut self, rows: Vec<RowId>, revision: Option<u64>, existing: Vec<crate::model::UserName>) {
+    fn push_add_user(
+        &mut self,
+        rows: Vec<RowId>,
+        revision: Option<RevisionToken>,
+        existing: Vec<crate::model::UserName>,
+    ) {
         self.dialogs.push(Dialog::AddUser(AddUserForm {
             names: self.rows.names(&rows),
             rows,
@@ -280,11 +285,12 @@ impl Model {
         let command = match (form.stage, target) {
             (AddStage::Form, Ok((_, address))) => {
                 form.stage = AddStage::Probing;
-                Some(Command::Probe { job: self.next_job(), address })
+                Some(Command::Probe { job: self.next_job(), connection: form.connection, address })
             }
             (AddStage::Compare(fingerprint), Ok((_, address))) => {
                 form.stage = AddStage::Enrolling(fingerprint);
-                Some(Command::Enroll { job: self.next_job(), address, fingerprint, password: form.secret() })
+                let (connection, credentials) = (form.connection, Credentials::ConnectionPassword(form.secret()));
+                Some(Command::Enroll { job: self.next_job(), connection, address, fingerprint, credentials })
             }
             // Shown beside the fields.
             (_, Err(_)) | (AddStage::Probing | AddStage::Enrolling(_), Ok(_)) => None,
@@ -341,7 +347,7 @@ impl Model {
     pub(super) fn enrolled(&mut self, job: JobId, result: Result<Box<Enrolled>, Problem>) -> Vec<Command> {
         let now = self.now;
         let Some(form) = self.adding(job) else { return vec![] };
-        let identity = form.identity.clone();
+        let (identity, connection) = (form.identity.clone(), form.connection);
         let enrolled = match result {
             Ok(enrolled) => enrolled,
             Err(problem) => {
@@ -357,6 +363,7 @@ impl Model {
             address,
             // What the controller says of itself counts.
             series: info.series,
+            connection,
             fingerprint: Some(fingerprint),
             last: Some(Retrieved { at: now, info }),
         };

@@ -1,5 +1,6 @@
 //! The context menu of a row, and for which controllers a command is.
 
+use crate::model::Feature;
 use super::{Model, RowId, reduce};
 use crate::ui::backend::Command;
 use crate::ui::command::UiCommand;
@@ -37,11 +38,11 @@ impl Model {
         }
     }
 
-    /// One of the controllers is known to have firmware 8.0.0 or later.
-    pub fn any_target_is_current(&self, targets: Targets) -> bool {
+    /// Whether one of the controllers is known not to offer this.
+    pub fn any_target_lacks(&self, targets: Targets, feature: Feature) -> bool {
         match targets {
-            Targets::Ticked => self.rows.any_ticked_is_current(),
-            Targets::Row(row) => self.any_current(&[row]),
+            Targets::Ticked => self.rows.any_ticked_lacks(feature),
+            Targets::Row(row) => self.any_lacks(&[row], feature),
         }
     }
 

@@ -3,7 +3,8 @@ use std::collections::BTreeSet;
 
 use chrono::{DateTime, Duration, Utc};
 
-use crate::model::{CertificateType, ControllerInfo, FirmwareGeneration};
+use crate::model::{Capabilities, CertificateType, ControllerInfo, Feature};
+use crate::session;
 use crate::ui::model::{LastResult, OverviewRead, RowState};
 use crate::workspace::{ControllerEntry, Retrieved};
 
@@ -119,6 +120,11 @@ impl Row {
 
     pub fn info(&self) -> Option<&ControllerInfo> {
         self.entry.last.as_ref().map(|last| &last.info)
+    }
+
+    /// What the controller offers, as far as its kind of connection and its latest information tell.
+    pub fn capabilities(&self) -> Capabilities {
+        session::capabilities(self.entry.connection, self.info())
     }
 
     pub fn not_after(&self) -> Option<DateTime<Utc>> {
@@ -274,10 +280,9 @@ impl Rows {
         self.ticked
     }
 
-    /// One of the ticked controllers is known to have firmware 8.0.0 or later.
-    pub fn any_ticked_is_current(&self) -> bool {
-        let current = |row: &Row| row.info().map(|i| i.firmware.generation()) == Some(FirmwareGeneration::Current);
-        self.list.iter().any(|row| row.ticked && current(row))
+    /// Whether one of the ticked controllers is known not to offer this.
+    pub fn any_ticked_lacks(&self, feature: Feature) -> bool {
+        self.list.iter().any(|row| row.ticked && !row.capabilities().offers(feature))
     }
 
     pub fn ticked_hidden(&self) -> usize {

@@ -5,8 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{Dialog, Model, RowId, Task};
 use crate::jobs::{LogPart, ReadLog, SaveLog, SetSettings, SettingsChange};
-use crate::model::foreign_text;
-use crate::protocol::LogChunk;
+use crate::model::{LogChunk, foreign_text};
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
 

@@ -10,9 +10,8 @@ use chrono::Duration;
 
 use super::*;
 use crate::jobs::{Done, OperationOutput, Report, SetSettings, Step, Summary};
-use crate::model::{ControllerInfo, ErrorCode, ServerSettings};
+use crate::model::{ControllerInfo, ErrorCode, RevisionToken, Revisioned, ServerSettings};
 use crate::pki::Fingerprint;
-use crate::protocol::Revisioned;
 use crate::texts::TextKey;
 use crate::ui::backend::{Command, FileContents};
 use crate::workspace::ControllerEntry;
@@ -26,6 +25,7 @@ fn entry(name: &str, address: &str) -> ControllerEntry {
         name: name.parse().unwrap(),
         address: address.parse().unwrap(),
         series: crate::model::ControllerSeries::Rc800,
+        connection: crate::model::ConnectionKind::Management,
         fingerprint: Some(Fingerprint::of(name.as_bytes())),
         last: None,
     }
@@ -78,7 +78,7 @@ fn unconfirmed() -> Model {
 }
 
 fn probe(commands: &[Command]) -> (JobId, String) {
-    let Some(Command::Probe { job, address }) = commands.last() else { panic!("{commands:?}") };
+    let Some(Command::Probe { job, connection: _, address }) = commands.last() else { panic!("{commands:?}") };
     (*job, address.to_string())
 }
 
@@ -244,12 +244,12 @@ fn late_events_of_an_old_job_are_ignored() {
     let cancelled = reduce(&mut model, Message::Close);
     assert!(matches!(cancelled[..], [Command::Cancel(id)] if id == old));
     let new = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
-    let settings = Revisioned { revision: 9, value: ServerSettings::default() };
+    let settings = Revisioned { revision: RevisionToken::new(9), value: ServerSettings::default() };
     assert!(done(&mut model, old, 0, settings.clone()).is_empty());
     ended(&mut model, old, 1, 0);
     assert!(matches!(&model.dialogs[..], [Dialog::Settings(form)] if form.reading));
     done(&mut model, new, 0, settings);
-    assert!(matches!(&model.dialogs[..], [Dialog::Settings(form)] if form.revision == Some(9)));
+    assert!(matches!(&model.dialogs[..], [Dialog::Settings(form)] if form.revision == Some(RevisionToken::new(9))));
 }
 
 #[test]
@@ -403,7 +403,7 @@ fn a_form_is_filled_also_under_a_notice() {
     tick(&mut model, &["Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
     reduce(&mut model, Message::Event(Event::SaveFailed(ErrorCode::WorkspaceFull.into())));
-    let settings = Revisioned { revision: 9, value: ServerSettings::default() };
+    let settings = Revisioned { revision: RevisionToken::new(9), value: ServerSettings::default() };
     done(&mut model, id, 0, settings);
     assert!(matches!(&model.dialogs[..], [Dialog::Settings(form), Dialog::Error(_)] if !form.reading));
 }

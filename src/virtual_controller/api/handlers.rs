@@ -6,12 +6,12 @@ use super::body::Malformed;
 use super::routes::Routes;
 use super::{Caller, Failed};
 use crate::model::activation::ActivationKeys;
-use crate::model::{Base64Bytes, ClientList, ErrorCode, ListedCertificate, LogChunk, Problem};
+use crate::model::{Base64Bytes, Changed, ClientList, ErrorCode, ListedCertificate, LogChunk, Problem, Revisioned};
 use crate::protocol::{
-    Activate, AddUser, Changed, CsrMade, EditTrust, ExportSettings, GetCertificates, GetCrl, GetCrls, GetInfo,
-    GetIssuers, GetLog, GetRejected, GetSettings, GetTrustStamp, GetTrusted, GetUsers, ImportCaSigned,
-    ImportCertificate, ImportCsr, ImportSettings, Installed, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned,
-    SelectCertificate, SetSettings, StartServer, StopServer,
+    Activate, AddUser, CsrMade, EditTrust, ExportSettings, GetCertificates, GetCrl, GetCrls, GetInfo, GetIssuers,
+    GetLog, GetRejected, GetSettings, GetTrustStamp, GetTrusted, GetUsers, ImportCaSigned, ImportCertificate,
+    ImportCsr, ImportSettings, Installed, MakeCsr, MakeSelfSigned, RemoveUsers, SelectCertificate, SetSettings,
+    StartServer, StopServer,
 };
 use crate::virtual_controller::controller::Effect;
 use crate::virtual_controller::state::{State, Surroundings};

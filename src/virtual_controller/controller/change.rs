@@ -5,8 +5,7 @@ use tokio::task::spawn_blocking;
 
 use super::plant::{Plant, opcua_config, trust_lists};
 use super::{Controller, Standing};
-use crate::model::{ErrorCode, Problem};
-use crate::protocol::{Changed, CutClient};
+use crate::model::{Changed, CutClient, ErrorCode, Problem, RevisionToken};
 use crate::virtual_controller::faults::DropPoint;
 use crate::virtual_controller::memory;
 use crate::virtual_controller::opcua::{Clock, Events, OpcUaConfig, OpcUaServer, StartError};
@@ -64,7 +63,7 @@ impl Controller {
     /// If a step fails, the ones before it are undone.
     pub(in super::super) async fn change<T: Send + 'static>(
         self: &Arc<Self>,
-        revision: u64,
+        revision: RevisionToken,
         effect: Effect,
         edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
     ) -> Result<(Changed, T), Outcome> {
@@ -103,7 +102,7 @@ impl Controller {
     /// As [`Controller::change`], with a new server log: the old one is deleted, or kept if the change fails.
     pub(in super::super) async fn change_with_new_log<T: Send + 'static>(
         self: &Arc<Self>,
-        revision: u64,
+        revision: RevisionToken,
         effect: Effect,
         edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
     ) -> Result<(Changed, T), Outcome> {
@@ -141,7 +140,7 @@ impl Controller {
 
     async fn change_now<T: Send + 'static>(
         self: Arc<Self>,
-        revision: u64,
+        revision: RevisionToken,
         effect: Effect,
         edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
     ) -> Result<(Changed, T), Outcome> {
@@ -157,8 +156,8 @@ impl Controller {
         if self.faults.take_drop(DropPoint::AfterApply) { Err(Outcome::Dropped) } else { Ok(()) }
     }
 
-    pub(super) fn check_revision(&self, revision: u64) -> Result<(), Problem> {
-        let now = self.state().revision;
+    pub(super) fn check_revision(&self, revision: RevisionToken) -> Result<(), Problem> {
+        let now = RevisionToken::new(self.state().revision);
         if revision == now {
             return Ok(());
         }
@@ -169,7 +168,7 @@ impl Controller {
     pub(super) async fn apply<T: Send + 'static>(
         &self,
         plant: &mut Plant,
-        revision: u64,
+        revision: RevisionToken,
         effect: Effect,
         edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
     ) -> Result<Applied<T>, Outcome> {

@@ -2,9 +2,8 @@ use std::path::Path;
 
 use tokio::task::spawn_blocking;
 
-use crate::model::{CertificateSummary, ErrorCode, Problem};
+use crate::model::{CertificateSummary, CutClient, ErrorCode, Problem};
 use crate::pki::{Certificate, Crl, TrustLists, TrustPolicy};
-use crate::protocol::CutClient;
 use crate::virtual_controller::opcua::{
     Clock, CutConnection, DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser,
 };

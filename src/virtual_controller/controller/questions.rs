@@ -5,12 +5,12 @@ use tokio::task::spawn_blocking;
 
 use super::{Controller, Standing};
 use crate::model::{
-    ClientList, ControllerInfo, ErrorCode, FirmwareGeneration, Problem, ServerSettings, ServerStatus, UserName,
+    Base64Bytes, Changed, ClientList, ControllerInfo, ErrorCode, FirmwareGeneration, HeldCertificate, HeldCertificates,
+    ListedCertificate, ListedCrl, LogChunk, Problem, RevisionToken, Revisioned, ServerSettings, ServerStatus,
+    TrustStamp, UserName,
 };
-use crate::protocol::{
-    Base64Bytes, Changed, HeldCertificate, HeldCertificates, ListedCertificate, ListedCrl, LogChunk, RejectedClient,
-    Revisioned, SettingsExport, TrustStamp, WireSecret,
-};
+use crate::pki::RejectedClient;
+use crate::protocol::{SettingsExport, WireSecret};
 use crate::virtual_controller::ports::is_free;
 use crate::virtual_controller::settings_transfer;
 use crate::virtual_controller::state::Listed;
@@ -34,18 +34,21 @@ impl Controller {
             used_ports: state.taken_ports(&around),
             limits: state.limits(),
             clock: around.now,
-            revision: state.revision,
+            revision: RevisionToken::new(state.revision),
         }
     }
 
     pub(in super::super) fn settings(&self) -> Revisioned<ServerSettings> {
         let state = self.state();
-        Revisioned { revision: state.revision, value: state.settings.clone() }
+        Revisioned { revision: RevisionToken::new(state.revision), value: state.settings.clone() }
     }
 
     pub(in super::super) fn users(&self) -> Revisioned<Vec<UserName>> {
         let state = self.state();
-        Revisioned { revision: state.revision, value: state.users.iter().map(|user| user.name.clone()).collect() }
+        Revisioned {
+            revision: RevisionToken::new(state.revision),
+            value: state.users.iter().map(|user| user.name.clone()).collect(),
+        }
     }
 
     pub(in super::super) fn certificates(&self) -> Revisioned<HeldCertificates> {
@@ -56,7 +59,10 @@ impl Controller {
             .map(|(kind, pair)| HeldCertificate { kind: *kind, certificate: pair.certificate.clone() })
             .collect();
         let csr = state.csr.as_ref().map(|pending| pending.csr.clone());
-        Revisioned { revision: state.revision, value: HeldCertificates { selected: state.selected, held, csr } }
+        Revisioned {
+            revision: RevisionToken::new(state.revision),
+            value: HeldCertificates { selected: state.selected, held, csr },
+        }
     }
 
     /// The trusted or the issuers list.
@@ -66,16 +72,16 @@ impl Controller {
             return Err(ErrorCode::FirmwareTooOld.into());
         }
         let value = state.list(list).iter().filter_map(Listed::to_message).collect();
-        Ok(Revisioned { revision: state.revision, value })
+        Ok(Revisioned { revision: RevisionToken::new(state.revision), value })
     }
 
     pub(in super::super) fn rejected_clients(&self) -> Revisioned<Vec<RejectedClient>> {
-        Revisioned { revision: self.state().revision, value: self.rejected.list() }
+        Revisioned { revision: RevisionToken::new(self.state().revision), value: self.rejected.list() }
     }
 
     pub(in super::super) fn crls(&self) -> Revisioned<Vec<ListedCrl>> {
         let state = self.state();
-        Revisioned { revision: state.revision, value: state.listed_crls() }
+        Revisioned { revision: RevisionToken::new(state.revision), value: state.listed_crls() }
     }
 
     /// The DER of one CRL.
@@ -86,7 +92,7 @@ impl Controller {
     }
 
     pub(in super::super) fn trust_stamp(&self) -> TrustStamp {
-        TrustStamp { revision: self.state().revision, rejected: self.rejected.stamp() }
+        TrustStamp { revision: RevisionToken::new(self.state().revision), rejected: self.rejected.stamp() }
     }
 
     /// The server log from byte `from` on, or its end.
@@ -105,7 +111,7 @@ impl Controller {
     }
 
     pub(super) fn changed(&self) -> Changed {
-        Changed { revision: self.state().revision, status: self.status().0 }
+        Changed { revision: RevisionToken::new(self.state().revision), status: self.status().0 }
     }
 
     /// A server that died by itself is noticed here.

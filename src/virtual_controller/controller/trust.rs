@@ -4,8 +4,8 @@ use tokio::task::spawn_blocking;
 
 use super::change::{Applied, finished};
 use super::{Controller, Effect, Outcome};
-use crate::model::{ClientList, ErrorCode, Problem};
-use crate::protocol::{EditTrust, TrustChanged, TrustStep};
+use crate::model::{ClientList, ErrorCode, Problem, RevisionToken, TrustStep};
+use crate::protocol::{EditTrust, TrustChanged};
 use crate::virtual_controller::rejected::{Entry, RejectedClients};
 use crate::virtual_controller::state::{State, Surroundings};
 use crate::virtual_controller::trust_changes::{self, Rejected};
@@ -45,7 +45,7 @@ impl Controller {
     }
 
     /// Takes certificates out of the rejected list, which is no part of the configuration.
-    async fn forget(&self, revision: u64, thumbprints: Vec<String>) -> Result<TrustChanged, Problem> {
+    async fn forget(&self, revision: RevisionToken, thumbprints: Vec<String>) -> Result<TrustChanged, Problem> {
         self.faults.admit_change()?;
         self.check_revision(revision)?;
         let rejected = Arc::clone(&self.rejected);

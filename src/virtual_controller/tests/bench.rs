@@ -15,11 +15,11 @@ use serde_json::json;
 use tempfile::TempDir;
 
 use crate::model::{
-    ControllerSeries, ErrorCode, FirmwareVersion, KeyLength, SelfSignedRequest, ServerPort, ServerStatus, Subject,
-    Validity,
+    Base64Bytes, ControllerSeries, ErrorCode, FirmwareVersion, KeyLength, SelfSignedRequest, ServerPort, ServerStatus,
+    Subject, Validity,
 };
 use crate::pki::{Fingerprint, PrivateKey, ServerNames, self_signed};
-use crate::protocol::{self, Base64Bytes, Failure, Hello, Request as _, Session};
+use crate::protocol::{self, Failure, Hello, Request as _, Session};
 use crate::virtual_controller::ports::free_port;
 use crate::virtual_controller::{
     AdmissionOptions, ControllerSpec, Identity, NewCertificate, NewController, State, SwitchOnError, VirtualController,

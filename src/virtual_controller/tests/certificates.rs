@@ -2,9 +2,9 @@ use chrono::{TimeDelta, Utc};
 use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, Client, KEY, LEGACY, LOOPBACK, Refusal, bounded, code, initial, request};
-use crate::model::{CertificateType, CsrRequest, ErrorCode};
+use crate::model::{Base64Bytes, CertificateType, Changed, CsrRequest, ErrorCode, HeldCertificates, Revisioned};
 use crate::pki::{Certificate, Csr, PrivateKey, ServerNames, make_csr, pkcs12_write_key, self_signed};
-use crate::protocol::{self, Base64Bytes, Changed, CsrMade, HeldCertificates, Installed, Request as _, Revisioned};
+use crate::protocol::{self, CsrMade, Installed, Request as _};
 
 fn wish(bits: u16) -> CsrRequest {
     let request = request("robot", bits);
@@ -50,7 +50,7 @@ async fn legacy_firmware_takes_a_csr_with_its_key() {
         assert_eq!(bench.revision(), 1);
 
         let made = send(made_on_the_pc(1, &csr, &KEY)).await.unwrap();
-        assert_eq!((made.changed.revision, made.csr.0.as_slice()), (2, csr.der()));
+        assert_eq!((made.changed.revision.number(), made.csr.0.as_slice()), (2, csr.der()));
         let held: Revisioned<HeldCertificates> = client.get(protocol::GetCertificates::PATH).await.unwrap();
         assert_eq!(held.value.csr, Some(made.csr));
         assert!(format!("{:?}", bench.state().csr).contains("private_key: SecretBytes(…)"));

@@ -7,11 +7,11 @@ use super::bench::{
     Bench, CURRENT, KEY, LEGACY, bounded, certificate, clients, code, initial, request, with_certificate,
 };
 use crate::model::{
-    CertificateType, ClientList, ErrorCode, ListLimits, SecurityPolicy, ServerPort, ServerSettings, ServerStatus,
-    UserName,
+    CertificateType, Changed, ClientList, ErrorCode, ListLimits, ListedCertificate, RevisionToken, Revisioned,
+    SecurityPolicy, ServerPort, ServerSettings, ServerStatus, UserName,
 };
 use crate::pki::{Certificate, pkcs12_write};
-use crate::protocol::{self, Changed, Installed, ListedCertificate, Request as _, Revisioned};
+use crate::protocol::{self, Installed, Request as _};
 use crate::virtual_controller::NewController;
 
 fn set(revision: u64, settings: &ServerSettings) -> Value {
@@ -48,7 +48,7 @@ async fn settings_follow_the_rules() {
         let mut right = set(1, &log);
         right["log_password"] = json!("199532");
         right["delete_log"] = json!(true);
-        assert_eq!(put(right).await.unwrap(), Changed { revision: 2, status: ServerStatus::Stop });
+        assert_eq!(put(right).await.unwrap(), Changed { revision: RevisionToken::new(2), status: ServerStatus::Stop });
         put(set(2, &log)).await.expect("it is on already, so no password is asked");
         assert_eq!(bench.state().settings, log);
     })
@@ -95,7 +95,7 @@ async fn users_are_ten_at_most_and_each_name_once() {
         assert_eq!(code(remove(11, json!(["operator1", "nobody99"])).await), ErrorCode::UserNotFound);
         remove(11, json!(["operator1", "operator2"])).await.unwrap();
         let users: Revisioned<Vec<UserName>> = client.get(protocol::GetUsers::PATH).await.unwrap();
-        assert_eq!((users.revision, users.value.len()), (12, 8));
+        assert_eq!((users.revision.number(), users.value.len()), (12, 8));
         assert!(bench.state().users.iter().all(|user| user.password_hash.starts_with("$argon2id$")));
     })
     .await;
@@ -123,7 +123,7 @@ async fn current_firmware_makes_its_own_key_and_takes_none() {
         assert_eq!(code(make(long).await), ErrorCode::BadCertificateRequest);
 
         let installed = make(wanted).await.unwrap();
-        assert_eq!(installed.changed.revision, 2);
+        assert_eq!(installed.changed.revision.number(), 2);
         let made = Certificate::from_der(&installed.certificate.0).unwrap();
         let info = bench.controller.info();
         let in_use = info.certificate.unwrap();
@@ -132,7 +132,7 @@ async fn current_firmware_makes_its_own_key_and_takes_none() {
 
         let pkcs12 = pkcs12_write("x", &KEY, &[&certificate("a", Utc::now())], "transfer").unwrap();
         let body = json!({ "revision": 2, "kind": "user-specified", "password": "transfer",
-            "pkcs12": protocol::Base64Bytes(pkcs12) });
+            "pkcs12": crate::model::Base64Bytes(pkcs12) });
         let result = client.post::<Installed>(protocol::ImportCertificate::PATH, &body).await;
         assert_eq!(code(result), ErrorCode::FirmwareTooNew);
     })
@@ -151,7 +151,7 @@ async fn legacy_firmware_takes_a_key_and_makes_none() {
         let import = async |kind: &str, certificate: &Certificate, password: &str| {
             let pkcs12 = pkcs12_write("x", &KEY, &[certificate], "transfer").unwrap();
             let body = json!({ "revision": 1, "kind": kind, "password": password,
-                "pkcs12": protocol::Base64Bytes(pkcs12) });
+                "pkcs12": crate::model::Base64Bytes(pkcs12) });
             client.post::<Installed>(protocol::ImportCertificate::PATH, &body).await
         };
         let good = certificate("robot", Utc::now());
@@ -165,7 +165,7 @@ async fn legacy_firmware_takes_a_key_and_makes_none() {
         assert_eq!(installed.certificate.0, good.der());
         assert_eq!(bench.state().selected, CertificateType::UserSpecified);
         let started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
-        assert_eq!(started, Changed { revision: 2, status: ServerStatus::Run });
+        assert_eq!(started, Changed { revision: RevisionToken::new(2), status: ServerStatus::Run });
         assert!(bench.answers());
     })
     .await;
@@ -189,14 +189,14 @@ async fn client_lists_have_limits_and_no_doubles() {
             assert_eq!(code(add(ClientList::Trusted, 1, &twice).await), ErrorCode::DuplicateCertificate);
             let path = [("../x.der".to_owned(), many[0].1.clone())];
             assert_eq!(code(add(ClientList::Trusted, 1, &path).await), ErrorCode::BadName);
-            let junk = [many[0].clone(), ("junk.der".to_owned(), protocol::Base64Bytes(vec![0x30, 0]))];
+            let junk = [many[0].clone(), ("junk.der".to_owned(), crate::model::Base64Bytes(vec![0x30, 0]))];
             assert_eq!(code(add(ClientList::Trusted, 1, &junk).await), ErrorCode::BadCertificate);
             assert_eq!(bench.revision(), 1);
 
             add(ClientList::Trusted, 1, &many[..limit]).await.unwrap();
             assert_eq!(code(add(ClientList::Trusted, 2, &many[limit..]).await), ErrorCode::ListFull);
             let listed: Revisioned<Vec<ListedCertificate>> = client.get(protocol::GetTrusted::PATH).await.unwrap();
-            assert_eq!((listed.revision, listed.value.len()), (2, limit));
+            assert_eq!((listed.revision.number(), listed.value.len()), (2, limit));
             assert_eq!(listed.value[0].file_name, "client0.der");
             assert_eq!(listed.value[0].certificate, many[0].1);
 
@@ -261,7 +261,7 @@ async fn a_running_server_refuses_what_it_could_not_run_with() {
 
         let weak = ServerSettings { security_policies: [SecurityPolicy::None].into(), ..before.settings.clone() };
         let changed: Changed = client.put(protocol::GetSettings::PATH, &set(1, &weak)).await.unwrap();
-        assert_eq!(changed, Changed { revision: 2, status: ServerStatus::Run });
+        assert_eq!(changed, Changed { revision: RevisionToken::new(2), status: ServerStatus::Run });
         assert!(bench.answers());
         bench.controller.shutdown().await;
         assert!(!bench.answers());

@@ -2,8 +2,8 @@ use chrono::Utc;
 use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, LEGACY, Refusal, bounded, code, initial};
-use crate::model::{ErrorCode, ServerSettings};
-use crate::protocol::{self, Changed, ExportContent, ExportedUser, LogChunk, Request as _, SettingsExport};
+use crate::model::{Changed, ErrorCode, LogChunk, ServerSettings};
+use crate::protocol::{self, ExportContent, ExportedUser, Request as _, SettingsExport};
 use crate::virtual_controller::demo_keys;
 
 const PASSPHRASE: &str = "correct horse";
@@ -36,7 +36,7 @@ async fn only_its_own_keys_activate_a_controller() {
         assert_eq!(code(send(body(1, &licence, "")).await), ErrorCode::BadActivationKey);
         assert_eq!(code(send(body(2, &licence, &activation)).await), ErrorCode::ChangedMeanwhile);
         assert!(!bench.state().activated);
-        assert_eq!(send(body(1, &licence.to_uppercase(), &activation)).await.unwrap().revision, 2);
+        assert_eq!(send(body(1, &licence.to_uppercase(), &activation)).await.unwrap().revision.number(), 2);
         assert!(bench.state().activated);
 
         let bench = Bench::new(initial(CURRENT)).await;
@@ -101,7 +101,10 @@ async fn a_sealed_export_is_checked_like_any_other_change() {
         let refused = client.post::<Changed>(protocol::ImportSettings::PATH, &body).await;
         assert!(!detail(refused).contains("secret"));
         assert_eq!(bench.state(), before);
-        assert_eq!(import(&with_users(vec![user("operator1".into(), hash)]), PASSPHRASE).await.unwrap().revision, 2);
+        assert_eq!(
+            import(&with_users(vec![user("operator1".into(), hash)]), PASSPHRASE).await.unwrap().revision.number(),
+            2
+        );
     })
     .await;
 }

@@ -1,8 +1,8 @@
 use serde_json::json;
 
 use super::bench::{Bench, CURRENT, LEGACY, bounded, code, initial, with_certificate};
-use crate::model::{ErrorCode, ServerStatus, StartupMode};
-use crate::protocol::{self, Changed, Request as _};
+use crate::model::{Changed, ErrorCode, RevisionToken, ServerStatus, StartupMode};
+use crate::protocol::{self, Request as _};
 use crate::virtual_controller::NewController;
 
 async fn refuses_to_start(new: NewController, expected: ErrorCode) -> Bench {
@@ -12,7 +12,7 @@ async fn refuses_to_start(new: NewController, expected: ErrorCode) -> Bench {
     assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), expected);
     assert_eq!(bench.status(), (ServerStatus::Error, Some(expected)));
     let stopped: Changed = client.post(protocol::StopServer::PATH, &()).await.unwrap();
-    assert_eq!(stopped, Changed { revision: 1, status: ServerStatus::Stop });
+    assert_eq!(stopped, Changed { revision: RevisionToken::new(1), status: ServerStatus::Stop });
     assert_eq!(bench.status(), (ServerStatus::Stop, None));
     bench
 }
@@ -78,11 +78,11 @@ async fn an_error_lasts_until_a_start_succeeds() {
         assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::ServerError);
         let body = json!({ "revision": 1, "name": "operator1", "password": "Passw0rd" });
         let changed: Changed = client.post(protocol::GetUsers::PATH, &body).await.unwrap();
-        assert_eq!(changed, Changed { revision: 2, status: ServerStatus::Error });
+        assert_eq!(changed, Changed { revision: RevisionToken::new(2), status: ServerStatus::Error });
         bench.controller.faults().update(|switches| switches.server_error = false);
         for _ in 0..2 {
             let started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
-            assert_eq!(started, Changed { revision: 2, status: ServerStatus::Run });
+            assert_eq!(started, Changed { revision: RevisionToken::new(2), status: ServerStatus::Run });
         }
         assert!(bench.answers());
         let stopped: Changed = client.post(protocol::StopServer::PATH, &()).await.unwrap();

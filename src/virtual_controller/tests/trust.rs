@@ -3,10 +3,11 @@
 use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, LEGACY, Refusal, bounded, clients, code, initial, switch_on, with_certificate};
-use crate::model::{ClientList, ErrorCode, ServerStatus, StartupMode};
-use crate::protocol::{
-    self, Base64Bytes, ListedCrl, RejectedClient, Request as _, Revisioned, TrustChanged, TrustStamp, TrustStep,
+use crate::model::{
+    Base64Bytes, ClientList, ErrorCode, ListedCrl, Revisioned, ServerStatus, StartupMode, TrustStamp, TrustStep,
 };
+use crate::pki::RejectedClient;
+use crate::protocol::{self, Request as _, TrustChanged};
 use crate::virtual_controller::{DropPoint, Switches};
 
 fn edit(revision: u64, steps: &[TrustStep]) -> Value {
@@ -63,7 +64,7 @@ async fn steps_are_made_in_order_and_all_of_them_or_none() {
         let (two, last) = certificates.split_at(2);
         let steps = [add(Trusted, two), relist(Trusted, Issuers, &two[..1]), add(Trusted, last)];
         let done: TrustChanged = client.post(protocol::EditTrust::PATH, &edit(1, &steps)).await.unwrap();
-        assert_eq!((done.changed.revision, done.changed.status, done.cut.len()), (2, ServerStatus::Run, 0));
+        assert_eq!((done.changed.revision.number(), done.changed.status, done.cut.len()), (2, ServerStatus::Run, 0));
         let state = bench.state();
         assert_eq!((state.trusted.len(), state.issuers.len()), (2, 1));
         assert_eq!(state.issuers[0].file_name, "c0.der");
@@ -135,7 +136,7 @@ async fn a_crl_replaces_an_older_one_of_its_issuer_and_no_other() {
             .unwrap();
         let listed: Revisioned<Vec<ListedCrl>> = client.get(protocol::GetCrls::PATH).await.unwrap();
         let names: Vec<&str> = listed.value.iter().map(|crl| crl.file_name.as_str()).collect();
-        assert_eq!((listed.revision, names), (3, vec!["b.crl", "a3.crl"]));
+        assert_eq!((listed.revision.number(), names), (3, vec!["b.crl", "a3.crl"]));
         assert_eq!(listed.value[1].crl.as_ref(), Some(&three));
         let id = &listed.value[1].summary.id;
         assert_eq!(client.get::<Base64Bytes>(&protocol::GetCrl { id: id.clone() }.target()).await.unwrap(), three);
@@ -224,7 +225,7 @@ async fn a_certificate_is_never_in_no_list_and_never_in_two() {
         assert_eq!(rejected().await.value.len(), 2);
         bench.controller.faults().update(|switches| switches.disk_full = false);
         let forgotten: TrustChanged = client.post(protocol::EditTrust::PATH, &edit(5, &forget)).await.unwrap();
-        assert_eq!((forgotten.changed.revision, rejected().await.value.len()), (5, 0));
+        assert_eq!((forgotten.changed.revision.number(), rejected().await.value.len()), (5, 0));
         bench.controller.shutdown().await;
     })
     .await;

@@ -3,8 +3,8 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::bench::{Bench, CURRENT, Refusal, bounded, clients, code, initial, request, switch_on, with_certificate};
-use crate::model::{ErrorCode, ServerStatus, StartupMode};
-use crate::protocol::{self, Changed, Request as _};
+use crate::model::{Changed, ErrorCode, ServerStatus, StartupMode};
+use crate::protocol::{self, Request as _};
 use crate::virtual_controller::{DropPoint, Switches};
 
 type Throw = fn(&mut Switches);

@@ -12,9 +12,8 @@ use zeroize::Zeroizing;
 use super::database::{Database, StoredAuthority};
 use super::files::{AuthorityFiles, ROOT, SIGNING, Unlock, unlock_pem};
 use super::{Authority, AuthorityError, AuthorityOverview};
-use crate::model::text;
+use crate::model::{Base64Bytes, text};
 use crate::pki::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
-use crate::protocol::Base64Bytes;
 use crate::workspace::{WorkspaceError, read_bounded, write_atomic};
 
 /// Format 1: JSON with exactly these members. What is inside, a [`Content`] as JSON, is encrypted with AES-256-GCM

@@ -5,9 +5,8 @@ use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
 use super::AuthorityError;
-use crate::model::{CertificateProfile, ControllerName, SerialNumber};
+use crate::model::{Base64Bytes, CertificateProfile, ControllerName, SerialNumber};
 use crate::pki::{Certificate, Crl, RevocationReason, RevokedCertificate};
-use crate::protocol::Base64Bytes;
 
 /// Everything the CA must never forget: the content of `ca.json`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

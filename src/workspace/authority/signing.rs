@@ -6,9 +6,8 @@ use secrecy::SecretString;
 use super::database::{Database, IssuedCertificate, IssuedFor, MAX_ISSUED, Revocation, StoredCrl};
 use super::files::{AuthorityFiles, AuthorityOverview, ROOT};
 use super::{AuthorityError, CertificateState};
-use crate::model::CertificateProfile;
+use crate::model::{Base64Bytes, CertificateProfile};
 use crate::pki::{Certificate, CertificateAuthority, Csr, IssueRequest, RevocationReason, RevokedCertificate};
-use crate::protocol::Base64Bytes;
 use crate::workspace::WorkspaceLock;
 
 /// How long a CRL is good for unless told otherwise: a year, because in a small plant a person has to publish the next

@@ -3,8 +3,8 @@ use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 use zeroize::Zeroizing;
 
+use crate::model::Base64Bytes;
 use crate::pki::{SealCost, SealError, Sealed, SealingKey};
-use crate::protocol::Base64Bytes;
 
 /// `passwords.vault`, a JSON object with exactly these members.
 ///

@@ -8,8 +8,8 @@ use std::path::Path;
 use chrono::{DateTime, Utc};
 use opcua_configurator::model::activation::{self, ActivationKeys, FIRST_LINE};
 use opcua_configurator::model::{
-    Address, ControllerName, ControllerSeries, FirmwareVersion, Language, SecurityPolicy, SerialNumber, ServerPort,
-    ServerSettings, StartupMode, UserTokenPolicy,
+    Address, ConnectionKind, ControllerName, ControllerSeries, FirmwareVersion, Language, SecurityPolicy, SerialNumber,
+    ServerPort, ServerSettings, StartupMode, UserTokenPolicy,
 };
 use opcua_configurator::pki::{Certificate, Fingerprint, PkiError, describe, read_bundle};
 use opcua_configurator::protocol::{ExportContent, ExportError, ExportedUser, SettingsExport};
@@ -279,7 +279,7 @@ proptest! {
             .into_iter()
             .map(|(name, address, series, bytes)| {
                 let fingerprint = bytes.map(|bytes| Fingerprint::of(&bytes));
-                ControllerEntry { name, address, series, fingerprint, last: None }
+                ControllerEntry { name, address, series, connection: ConnectionKind::Management, fingerprint, last: None }
             })
             .collect();
         configuration.options = Options {

@@ -10,7 +10,6 @@ use opcua_configurator::jobs::{
 };
 use opcua_configurator::model::{CertificateType, ErrorCode, FileFormat, KeyLength, ServerStatus, Validity};
 use opcua_configurator::pki::{Certificate, Csr, pkcs12_read, pkcs12_read_key};
-use opcua_configurator::protocol;
 use opcua_configurator::session::Connector as _;
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{BackupKind, CertificateFiles, KeyBackupSource, Workspace};
@@ -350,9 +349,8 @@ async fn an_empty_connection_password_protects_no_file() {
     // The controller seals nothing under an empty passphrase either.
     let listed = &bench.plant.listed()[0];
     let (fingerprint, empty) = (listed.fingerprint.unwrap(), SecretString::default());
-    let mut session = bench.plant.connector.connect(&listed.address, fingerprint, &empty).await.unwrap();
-    let passphrase = protocol::WireSecret(empty);
-    let refused = session.export_settings(protocol::ExportSettings { passphrase }).await.unwrap_err();
+    let mut session = bench.plant.connector.connect(&listed.address, fingerprint, &empty.clone().into()).await.unwrap();
+    let refused = session.export_settings(empty).await.unwrap_err();
     assert_eq!(refused.code, ErrorCode::BadPassphrase);
     session.close().await;
 

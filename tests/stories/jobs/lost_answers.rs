@@ -9,13 +9,12 @@ use opcua_configurator::jobs::{
     AddUser, Done, GetInfo, JobContext, OperationOutput, Report, SelfSigned, SelfSignedFields, StartServer, StopServer,
 };
 use opcua_configurator::model::{
-    Address, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, ServerStatus, UserName, UserPassword, Validity,
+    Address, Capabilities, Changed, ControllerInfo, Credential, Credentials, ErrorCode, KeyLength, Problem,
+    RevisionToken, ServerStatus, UserName, UserPassword, Validity,
 };
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::protocol::{self, Changed};
 use opcua_configurator::session::{Connector, ControllerSession, ManagementConnector, Timeouts};
 use opcua_configurator::virtual_controller::FleetFirmware;
-use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
 use crate::common::plant::{self, Plant};
@@ -54,9 +53,9 @@ impl Connector for Network {
         &self,
         address: &Address,
         fingerprint: Fingerprint,
-        password: &SecretString,
+        credentials: &Credentials,
     ) -> Result<Box<dyn ControllerSession>, Problem> {
-        let real = self.real.connect(address, fingerprint, password).await?;
+        let real = self.real.connect(address, fingerprint, credentials).await?;
         let first = self.sessions.fetch_add(1, Ordering::Relaxed) == 0;
         Ok(Box::new(Troubled { real, trouble: self.trouble, first, changed: false }))
     }
@@ -80,6 +79,10 @@ impl ControllerSession for Troubled {
         if lost { Err(ErrorCode::ConnectionLost.into()) } else { self.real.info().await }
     }
 
+    async fn capabilities(&mut self) -> Result<Capabilities, Problem> {
+        self.real.capabilities().await
+    }
+
     async fn start_server(&mut self) -> Result<Changed, Problem> {
         let done = self.real.start_server().await;
         self.status(done)
@@ -90,13 +93,13 @@ impl ControllerSession for Troubled {
         self.status(done)
     }
 
-    async fn users(&mut self) -> Result<protocol::Revisioned<Vec<UserName>>, Problem> {
+    async fn users(&mut self) -> Result<opcua_configurator::model::Revisioned<Vec<UserName>>, Problem> {
         self.real.users().await
     }
 
-    async fn add_user(&mut self, change: protocol::AddUser) -> Result<Changed, Problem> {
+    async fn add_user(&mut self, based_on: RevisionToken, user: Credential) -> Result<Changed, Problem> {
         self.changed = true;
-        self.real.add_user(change).await
+        self.real.add_user(based_on, user).await
     }
 
     async fn close(&mut self) {
@@ -160,14 +163,14 @@ async fn a_start_whose_answer_was_lost_is_done_if_the_server_runs() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_change_that_was_done_is_not_said_to_have_failed_because_nothing_can_be_read_afterwards() {
     let plant = with_certificate().await;
-    let before = plant.controller(0).info().revision;
+    let before = plant.controller(0).info().revision.number();
     let report = in_trouble(&plant, Trouble::Reading, user("operator1")).await;
     assert_eq!(report.result, Ok(Done));
-    assert_eq!(report.info.map(|info| info.revision), Some(before + 1), "read with another session");
+    assert_eq!(report.info.map(|info| info.revision.number()), Some(before + 1), "read with another session");
 
     let report = in_trouble(&plant, Trouble::EveryReading, user("operator2")).await;
     assert_eq!((report.result, report.info), (Ok(Done), None));
-    assert_eq!(plant.controller(0).info().revision, before + 2);
+    assert_eq!(plant.controller(0).info().revision.number(), before + 2);
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -185,14 +188,14 @@ async fn information_that_cannot_be_read_is_no_information() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_change_that_was_not_waited_for_is_looked_for() {
     let plant = Plant::start(1, FleetFirmware::Legacy).await;
-    let before = plant.controller(0).info().revision;
+    let before = plant.controller(0).info().revision.number();
     plant.controller(0).faults().update(|faults| faults.latency = Duration::from_millis(700));
     // Readings take their time, a change is given up too early.
     let timeouts = Timeouts { change: Duration::from_millis(200), ..plant.connector.timeouts };
     let hasty = JobContext::new(Arc::new(ManagementConnector { timeouts }), plant.passwords.clone(), 1);
     let (reports, _) = plant::run(plant.listed(), user("operator1"), hasty, CancellationToken::new(), |_| {}).await;
     let problem = reports[0].result.as_ref().unwrap_err();
-    let after = plant.controller(0).info().revision;
+    let after = plant.controller(0).info().revision.number();
     // What is said is what is so.
     match problem.code {
         ErrorCode::AnswerLost => assert_eq!(after, before + 1),
@@ -202,5 +205,5 @@ async fn a_change_that_was_not_waited_for_is_looked_for() {
         }
         other => panic!("{other:?}: {problem:?}"),
     }
-    assert_eq!(reports[0].info.as_ref().map(|info| info.revision), Some(after));
+    assert_eq!(reports[0].info.as_ref().map(|info| info.revision.number()), Some(after));
 }

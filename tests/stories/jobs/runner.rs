@@ -11,15 +11,14 @@ use opcua_configurator::jobs::{
     SelfSignedFields, SetSettings, SettingsChange, StartServer, Step, StopServer, Summary,
 };
 use opcua_configurator::model::{
-    Address, ControllerInfo, Credential, ErrorCode, KeyLength, Problem, SecurityPolicy, ServerStatus, UserPassword,
-    UserTokenPolicy, Validity,
+    Address, Capabilities, ConnectionKind, ControllerInfo, Credential, Credentials, ErrorCode, KeyLength, Problem,
+    SecurityPolicy, ServerStatus, UserPassword, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::session::{Connector, ControllerSession};
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{MemoryPasswords, PasswordError, Passwords, Workspace};
 use parking_lot::Mutex;
-use secrecy::SecretString;
 use tokio_util::sync::CancellationToken;
 
 use crate::common::plant::{self, Plant};
@@ -148,11 +147,11 @@ async fn a_connection_lost_before_the_change_leaves_the_controller_as_it_was() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_lost_answer_is_said_to_be_lost_and_the_row_shows_what_was_done() {
     let plant = Plant::start(1, FleetFirmware::Current).await;
-    let before = plant.controller(0).info().revision;
+    let before = plant.controller(0).info().revision.number();
     plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
     let reports = plant.run(user("operator1")).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::AnswerLost)]);
-    assert_eq!(reports[0].info.as_ref().map(|i| i.revision), Some(before + 1));
+    assert_eq!(reports[0].info.as_ref().map(|i| i.revision.number()), Some(before + 1));
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -174,7 +173,7 @@ async fn a_second_configurator_is_noticed() {
     let mut late = policies(&[SecurityPolicy::Basic256Sha256]);
     late.based_on = Some(seen);
     assert_eq!(codes(&plant.run(late).await), [Some(ErrorCode::ChangedMeanwhile)]);
-    assert_eq!(plant.controller(0).info().revision, seen + 1, "nothing was changed");
+    assert_eq!(plant.controller(0).info().revision.number(), seen.number() + 1, "nothing was changed");
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -277,10 +276,10 @@ async fn a_backup_that_cannot_be_written_stops_before_the_controller_is_changed(
     let in_the_way = folder.path().join("file");
     std::fs::write(&in_the_way, "x").unwrap();
     let files = Workspace::new(&in_the_way).certificate_files();
-    let before = plant.controller(0).info().revision;
+    let before = plant.controller(0).info().revision.number();
     let reports = plant.run(SelfSigned { backup: Some(files), ..certificate() }).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::WorkspaceReadOnly)]);
-    assert_eq!(plant.controller(0).info().revision, before);
+    assert_eq!(plant.controller(0).info().revision.number(), before);
 }
 
 /// Stands in for every controller: sessions whose information and goodbye the test decides.
@@ -312,6 +311,7 @@ fn crowd(count: usize) -> Vec<JobController> {
     let nth = |n| JobController {
         name: format!("cell {n}").parse().unwrap(),
         address: format!("10.0.0.{n}").parse().unwrap(),
+        connection: ConnectionKind::Management,
         fingerprint: Some(plant::nobody()),
         known: None,
     };
@@ -331,7 +331,7 @@ impl Connector for StandIn {
         &self,
         address: &Address,
         _: Fingerprint,
-        _: &SecretString,
+        _: &Credentials,
     ) -> Result<Box<dyn ControllerSession>, Problem> {
         self.0.met.lock().push(address.to_string());
         Ok(Box::new(StandIn(self.0.clone())))
@@ -342,6 +342,10 @@ impl Connector for StandIn {
 impl ControllerSession for StandIn {
     async fn info(&mut self) -> Result<ControllerInfo, Problem> {
         self.0.info.clone()
+    }
+
+    async fn capabilities(&mut self) -> Result<Capabilities, Problem> {
+        Ok(Capabilities::all())
     }
 
     async fn close(&mut self) {
@@ -395,11 +399,11 @@ async fn the_next_turn_begins_before_the_last_goodbye_is_said() {
 struct LockedKeyring(Mutex<std::sync::mpsc::Receiver<()>>);
 
 impl Passwords for LockedKeyring {
-    fn get(&self, _: Fingerprint) -> Result<Option<SecretString>, PasswordError> {
+    fn get(&self, _: Fingerprint) -> Result<Option<Credentials>, PasswordError> {
         let _gone = self.0.lock().recv();
         Ok(None)
     }
-    fn set(&self, _: Fingerprint, _: SecretString) -> Result<(), PasswordError> {
+    fn set(&self, _: Fingerprint, _: Credentials) -> Result<(), PasswordError> {
         unimplemented!()
     }
     fn forget(&self, _: Fingerprint) {}

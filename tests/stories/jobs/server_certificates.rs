@@ -9,11 +9,12 @@ use opcua_configurator::jobs::{
     ImportUserCertificate, ListCertificates, Report, SelectCertificateType, SelfSigned, SelfSignedFields, StartServer,
     UserCertificateFiles,
 };
-use opcua_configurator::model::{CertificateType, ErrorCode, FileFormat, KeyLength, ServerStatus, Validity};
+use opcua_configurator::model::{
+    CertificateType, ErrorCode, FileFormat, HeldCertificates, KeyLength, ServerStatus, Validity,
+};
 use opcua_configurator::pki::{
     Certificate, CertificateFlaw, Csr, Finding, PrivateKey, Severity, pkcs12_read_key, pkcs12_write,
 };
-use opcua_configurator::protocol::HeldCertificates;
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{CertificateFiles, Workspace};
 use rcgen::{CertificateParams, ExtendedKeyUsagePurpose, KeyUsagePurpose, SanType};

@@ -10,9 +10,8 @@ use opcua_configurator::jobs::{
     StopServer,
 };
 use opcua_configurator::model::{
-    ControllerInfo, ErrorCode, KeyLength, SecurityPolicy, ServerSettings, ServerStatus, Validity,
+    ControllerInfo, ErrorCode, KeyLength, LogChunk, SecurityPolicy, ServerSettings, ServerStatus, Validity,
 };
-use opcua_configurator::protocol::LogChunk;
 use opcua_configurator::virtual_controller::FleetFirmware;
 use tokio::io::AsyncWriteExt as _;
 use tokio::net::TcpSocket;

@@ -172,7 +172,7 @@ async fn a_failure_with_a_strange_code() {
     for code in ["out-of-coffee", "cancelled", "timeout"] {
         let failure = format!(r#"{{"code":"{code}","message":"not \u001b[31mtoday"}}"#);
         let (address, identity) = always(http_with("400 Bad Request", &failure)).await;
-        let refused = connector().connect(&address, identity.fingerprint(), &SecretString::from("")).await;
+        let refused = connector().connect(&address, identity.fingerprint(), &"".into()).await;
         let problem = refused.err().expect("refused");
         assert_eq!(problem.code, ErrorCode::Refused);
         assert_eq!(problem.detail, Some(format!("{code}: not \u{fffd}[31mtoday")));
@@ -190,7 +190,7 @@ async fn information_without_end_is_not_taken() {
             "x".repeat(length)
         );
         let (address, identity) = in_turn(vec![http(r#"{"token":"t","idle_secs":300}"#), http(&info)]).await;
-        let session = connector().connect(&address, identity.fingerprint(), &SecretString::from("")).await;
+        let session = connector().connect(&address, identity.fingerprint(), &"".into()).await;
         let Ok(mut session) = session else { panic!("not logged in") };
         match session.info().await {
             Ok(info) => assert!(taken && info.name.len() == length),
@@ -230,7 +230,7 @@ async fn a_changed_fingerprint_is_refused_before_the_password_is_sent() {
     });
     let expected = Fingerprint::of(b"the one that was confirmed");
     let password = SecretString::from("secret-of-the-plant");
-    let refused = connector().connect(&address, expected, &password).await;
+    let refused = connector().connect(&address, expected, &password.into()).await;
     let problem = refused.err().expect("refused");
     assert_eq!(problem.code, ErrorCode::FingerprintChanged);
     let detail = problem.detail.expect("both fingerprints");

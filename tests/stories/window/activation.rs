@@ -193,7 +193,7 @@ fn a_desktop_without_a_file_dialog_says_what_to_do_instead() {
         workspace: workspace.clone(),
         lock: workspace.lock().unwrap(),
         passwords: desk.plant.passwords.clone(),
-        connector: Arc::new(desk.plant.connector),
+        connectors: Arc::new(desk.plant.connector).into(),
         starter: None,
         picker,
     };

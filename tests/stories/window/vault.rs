@@ -40,7 +40,7 @@ fn opened(desk: Desk, configuration: Option<Configuration>) -> Desk {
         workspace: workspace.clone(),
         lock,
         passwords: Arc::new(store),
-        connector: Arc::new(plant.connector),
+        connectors: Arc::new(plant.connector).into(),
         starter: None,
         picker: Arc::new(FixedPicker(Ok(None))),
     };

@@ -1,7 +1,6 @@
 use egui::{Align, Button, Frame, Label, Layout, RichText, ScrollArea, Stroke, TextEdit, Ui, vec2};
 
 use crate::jobs::{Destination, Fate, Planned, Target, Thing};
-use crate::model::FirmwareGeneration;
 use crate::texts::{self, TextKey as T};
 use crate::ui::model::trust::{AddTrustForm, PaneKind, Shows, TrustAction};
 use crate::ui::model::{Message, Model};
@@ -32,7 +31,7 @@ pub fn show(ui: &Ui, form: &mut AddTrustForm, focus: bool, model: &Model, messag
 
 fn destination(ui: &mut Ui, form: &mut AddTrustForm, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
-    let legacy_only = !form.plans.is_empty() && form.plans.iter().all(|(g, _)| *g == FirmwareGeneration::Legacy);
+    let none_has_issuers = !form.plans.is_empty() && form.plans.iter().all(|(has_issuers_list, _)| !has_issuers_list);
     ui.horizontal(|ui| {
         ui.label(RichText::new(text(T::TrustGoesTo)).color(palette(ui).weak));
         for (destination, label, tip) in [
@@ -40,7 +39,7 @@ fn destination(ui: &mut Ui, form: &mut AddTrustForm, model: &Model, messages: &m
             (Destination::Issuers, T::TrustIssuers, T::TrustIssuersTip),
             (Destination::ByKind, T::TrustByKind, T::TrustByKindTip),
         ] {
-            let possible = destination != Destination::Issuers || !legacy_only;
+            let possible = destination != Destination::Issuers || !none_has_issuers;
             let radio = egui::RadioButton::new(form.destination == destination, text(label));
             let response = ui.add_enabled(possible, radio).on_disabled_hover_text(text(T::TrustIssuersWhy));
             if response.on_hover_text(text(tip)).clicked() {
@@ -146,11 +145,8 @@ fn plans(ui: &mut Ui, form: &AddTrustForm, model: &Model) {
     list_title(ui, T::TrustWhereGoes.text(language));
     items(ui, &plan.items, model);
     if form.plans.len() > 1 {
-        for (generation, plan) in &form.plans {
-            let firmware = match generation {
-                FirmwareGeneration::Current => T::TrustOnCurrent,
-                FirmwareGeneration::Legacy => T::TrustOnLegacy,
-            };
+        for (has_issuers_list, plan) in &form.plans {
+            let firmware = if *has_issuers_list { T::TrustOnCurrent } else { T::TrustOnLegacy };
             if let Err(problem) = plan.check() {
                 let said = texts::on_firmware(language, firmware, problem.code);
                 ui.add(Label::new(RichText::new(said).color(palette.warning)).wrap());

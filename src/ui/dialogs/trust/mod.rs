@@ -129,7 +129,7 @@ fn remarks(ui: &mut Ui, form: &TrustForm, model: &Model) {
 const MOST_CUT: usize = 3;
 
 /// Whose connections were ended.
-pub(super) fn cut(ui: &mut Ui, clients: &[crate::protocol::CutClient], model: &Model) {
+pub(super) fn cut(ui: &mut Ui, clients: &[crate::model::CutClient], model: &Model) {
     let language = model.language;
     if clients.is_empty() {
         ui.label(RichText::new(T::TrustCutNone.text(language)).size(theme::SMALL_TEXT));

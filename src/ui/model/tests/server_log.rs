@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::jobs::ServerEffect;
-use crate::protocol::LogChunk;
+use crate::model::LogChunk;
 
 const TEXT: &str = "10:00 INFO server started\r\n10:01 WARN 客户端 refused\n10:02 INFO server stopped";
 

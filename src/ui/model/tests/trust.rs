@@ -4,9 +4,11 @@ use std::path::PathBuf;
 
 use super::*;
 use crate::jobs::{Destination, TrustChange, TrustFile, TrustSnapshot, WatchEvent};
-use crate::model::{CertificateStatus, CertificateSummary, FirmwareGeneration, ListLimits};
-use crate::pki::{Bundle, TrustHealth};
-use crate::protocol::{Base64Bytes, CutClient, ListedCertificate, RejectedClient};
+use crate::model::{
+    Base64Bytes, Capabilities, CertificateStatus, CertificateSummary, CutClient, ListLimits, ListedCertificate,
+    RevisionToken,
+};
+use crate::pki::{Bundle, RejectedClient, TrustHealth};
 use crate::ui::backend::Event;
 use crate::ui::model::trust::{
     AddTrustForm, Done, Life, Link, MAX_TRUST_FILES, PaneKind, ReadTrustFile, TrustAction, TrustColumn, TrustForm,
@@ -47,8 +49,8 @@ fn refused(name: &str, count: u64) -> RejectedClient {
 
 fn held(revision: u64) -> TrustSnapshot {
     TrustSnapshot {
-        revision,
-        generation: FirmwareGeneration::Current,
+        revision: RevisionToken::new(revision),
+        capabilities: Capabilities::all(),
         limits: ListLimits { trusted: 3, issuers: 3, crls: 3 },
         clock: now(),
         trusted: vec![listed("b", 100), listed("a", 10), listed("c", -1)],
@@ -255,7 +257,7 @@ fn without_lists_there_is_no_dialog() {
 fn the_clock_of_the_controller_counts_and_is_pointed_out_when_it_is_wrong() {
     let (mut model, watch) = opened();
     assert_eq!(form(&mut model).clock_off, None);
-    let behind = TrustSnapshot { clock: now() - Duration::days(3), revision: 5, ..held(5) };
+    let behind = TrustSnapshot { clock: now() - Duration::days(3), revision: RevisionToken::new(5), ..held(5) };
     seen(&mut model, watch, WatchEvent::Lists(Box::new(behind)));
     let lists = form(&mut model);
     assert_eq!(lists.clock_off, Some(-Duration::days(3)));

@@ -3,10 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use chrono::{DateTime, Utc};
+
 use super::change::keep_change;
 use super::{Done, PaneKind, Shows};
 use crate::jobs::{AddTrust, Destination, Fate, TrustFile, TrustPlan, TrustSnapshot};
-use crate::model::{FirmwareGeneration, ListLimits, Problem};
+use crate::model::{Capabilities, Feature, ListLimits, Problem, RevisionToken};
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
 use crate::ui::model::{Dialog, JobId, Model, RowId, Task};
@@ -56,8 +58,8 @@ pub struct AddTrustForm {
     /// More than [`MAX_TRUST_FILES`] were given at last; they were not read.
     pub too_many: bool,
     pub files: Vec<AddFile>,
-    /// What becomes of it all: one plan for each kind of firmware among the controllers.
-    pub plans: Vec<(FirmwareGeneration, TrustPlan)>,
+    /// What becomes of it all: one plan for the controllers with an issuers list (`true`), one for the others.
+    pub plans: Vec<(bool, TrustPlan)>,
     /// Why it cannot be done anywhere.
     pub refused: Option<Problem>,
 }
@@ -122,19 +124,24 @@ impl AddTrustForm {
         self.files.iter().filter_map(|file| file.file.clone()).collect()
     }
 
-    fn operation(&self, based_on: Option<u64>) -> AddTrust {
+    fn operation(&self, based_on: Option<RevisionToken>) -> AddTrust {
         AddTrust { files: self.usable(), destination: self.destination, based_on }
     }
 
     /// Works out anew what goes where. `held`: what the one controller has.
-    fn plan(&mut self, held: Option<&TrustSnapshot>, model_kinds: &[(FirmwareGeneration, ListLimits)], model: &Now) {
+    fn plan(&mut self, held: Option<&TrustSnapshot>, kinds: &[(Capabilities, ListLimits)], now: DateTime<Utc>) {
         let files = self.usable();
+        let has_issuers_list = |capabilities: &Capabilities| capabilities.offers(Feature::IssuersList);
         self.plans = match held {
-            Some(held) => vec![(held.generation, TrustPlan::for_controller(&files, self.destination, held))],
-            None => model_kinds
+            Some(held) => {
+                let plan = TrustPlan::for_controller(&files, self.destination, held);
+                vec![(has_issuers_list(&held.capabilities), plan)]
+            }
+            None => kinds
                 .iter()
-                .map(|(generation, limits)| {
-                    (*generation, TrustPlan::new(&files, self.destination, *generation, *limits, model.0, None))
+                .map(|(capabilities, limits)| {
+                    let plan = TrustPlan::new(&files, self.destination, capabilities, *limits, now, None);
+                    (has_issuers_list(capabilities), plan)
                 })
                 .collect(),
         };
@@ -143,9 +150,6 @@ impl AddTrustForm {
         self.refused = if possible { None } else { checks.drain(..).find_map(Result::err) };
     }
 }
-
-/// The computer's time.
-struct Now(chrono::DateTime<chrono::Utc>);
 
 impl Model {
     fn adding_trust(&mut self) -> Option<&mut AddTrustForm> {
@@ -307,31 +311,24 @@ impl Model {
         else {
             return;
         };
-        let kinds = self.kinds_of(&form.rows);
-        let now = Now(self.now);
-        form.plan(self.trust().and_then(|lists| lists.held.as_deref()), &kinds, &now);
+        let (kinds, now) = (self.kinds_of(&form.rows), self.now);
+        form.plan(self.trust().and_then(|lists| lists.held.as_deref()), &kinds, now);
         self.dialogs.push(Dialog::AddTrust(form));
     }
 
-    /// The kinds of firmware among the controllers, with the smallest limits of each. One that was not read yet may be
-    /// of any kind, and is likely to be current.
-    fn kinds_of(&self, rows: &[RowId]) -> Vec<(FirmwareGeneration, ListLimits)> {
-        let known = |row: &RowId| self.rows.get(*row).and_then(|row| row.info());
-        let of = |generation: FirmwareGeneration| {
-            let unknown = ListLimits::of(generation);
-            let mut limits = rows.iter().filter_map(|row| match known(row) {
-                Some(info) => (info.generation() == generation).then_some(info.limits),
-                None => (generation == FirmwareGeneration::Current).then_some(unknown),
-            });
-            let first = limits.next()?;
-            let least = limits.fold(first, |least, limits| ListLimits {
-                trusted: least.trusted.min(limits.trusted),
-                issuers: least.issuers.min(limits.issuers),
-                crls: least.crls.min(limits.crls),
-            });
-            Some((generation, least))
+    /// What the controllers with an issuers list offer, and those without, each with the smallest limits among them. A
+    /// controller that was not read yet is taken for one with an issuers list.
+    fn kinds_of(&self, rows: &[RowId]) -> Vec<(Capabilities, ListLimits)> {
+        let rows: Vec<_> = rows.iter().filter_map(|row| self.rows.get(*row)).collect();
+        let of = |has_issuers_list: bool| {
+            let mut members = rows
+                .iter()
+                .map(|row| (row.capabilities(), row.info().map_or(ListLimits::LARGEST, |info| info.limits)))
+                .filter(|(capabilities, _)| capabilities.offers(Feature::IssuersList) == has_issuers_list);
+            let first = members.next()?;
+            Some(members.fold(first, |(capabilities, least), (_, limits)| (capabilities, least.min(limits))))
         };
-        [FirmwareGeneration::Current, FirmwareGeneration::Legacy].into_iter().filter_map(of).collect()
+        [true, false].into_iter().filter_map(of).collect()
     }
 
     /// What was chosen was agreed to.

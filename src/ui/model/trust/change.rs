@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{Done, Link, PaneKind, TrustAction, TrustForm};
 use crate::jobs::{MoveClients, Note, Operation, RemoveClients, RemoveCrls, TrustChange, UndoTrust};
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, RevisionToken};
 use crate::texts::TextKey;
 use crate::ui::backend::Command;
 use crate::ui::model::{Dialog, Model, RowId, Task};
@@ -16,7 +16,7 @@ pub struct DeleteTrust {
     pub from: PaneKind,
     /// Id, and what it is called.
     pub what: Vec<(String, String)>,
-    revision: Option<u64>,
+    revision: Option<RevisionToken>,
 }
 
 /// What is to be moved into a list, although there is something to think about.

@@ -4,9 +4,8 @@ use chrono::{DateTime, Utc};
 
 use super::{PaneKind, Refusal, Shows};
 use crate::jobs::TrustSnapshot;
-use crate::model::{CertificateSummary, ErrorCode, Problem};
+use crate::model::{CertificateSummary, ErrorCode, ListedCertificate, Problem};
 use crate::pki::{self, AlternativeName, Certificate, CrlFlaw, RevocationReason};
-use crate::protocol::ListedCertificate;
 use crate::texts::{TextKey, Zone};
 use crate::ui::model::{Dialog, Model};
 

@@ -3,9 +3,8 @@ use std::cmp::Ordering;
 use chrono::{DateTime, Duration, Utc};
 
 use super::TrustColumn;
-use crate::model::{CertificateStatus, CertificateSummary, Language};
-use crate::pki::{CrlHealth, RefusalCause};
-use crate::protocol::{ListedCertificate, ListedCrl, RejectedClient};
+use crate::model::{CertificateStatus, CertificateSummary, Language, ListedCertificate, ListedCrl};
+use crate::pki::{CrlHealth, RefusalCause, RejectedClient};
 use crate::texts::Zone;
 use crate::texts::explain_refusal;
 use crate::ui::model::EXPIRES_SOON;

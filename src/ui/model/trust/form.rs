@@ -4,9 +4,8 @@ use chrono::{DateTime, Duration, Utc};
 
 use super::{Entry, Pane, PaneKind};
 use crate::jobs::{TrustSnapshot, TrustUndo};
-use crate::model::{FirmwareGeneration, Problem};
+use crate::model::{CutClient, Feature, Problem};
 use crate::pki::CrlIssuer;
-use crate::protocol::CutClient;
 use crate::texts::Zone;
 use crate::ui::model::{JobId, RowId};
 
@@ -111,7 +110,7 @@ impl TrustForm {
     pub fn fill(&mut self, held: Box<TrustSnapshot>, now: DateTime<Utc>) {
         // A change answers sooner than what was being read meanwhile.
         let is_stale =
-            self.held.as_ref().is_some_and(|newer| newer.revision > held.revision && newer.clock > held.clock);
+            self.held.as_ref().is_some_and(|newer| newer.revision != held.revision && newer.clock > held.clock);
         if is_stale {
             return;
         }
@@ -126,7 +125,7 @@ impl TrustForm {
         let without_crl = held.health.without_crl.iter().filter_map(|thumbprint| name_of(thumbprint));
         self.without_crl = without_crl.collect::<Vec<_>>().join(", ");
         for pane in &mut self.panes {
-            let listed = |list: &[crate::protocol::ListedCertificate]| -> Vec<Entry> {
+            let listed = |list: &[crate::model::ListedCertificate]| -> Vec<Entry> {
                 list.iter().map(|listed| Entry::listed(listed, zone, clock)).collect()
             };
             let (entries, limit) = match pane.kind {
@@ -202,7 +201,7 @@ impl TrustForm {
     }
 
     pub fn has_issuers(&self) -> bool {
-        self.held.as_ref().is_none_or(|held| held.generation == FirmwareGeneration::Current)
+        self.held.as_ref().is_none_or(|held| held.capabilities.offers(Feature::IssuersList))
     }
 
     /// How many changes can be taken back.

@@ -1,9 +1,11 @@
-use opcua_configurator::model::{ControllerInfo, Problem, ServerSettings, UserName};
+use opcua_configurator::model::{
+    Changed, ControllerInfo, HeldCertificates, ListedCertificate, LogChunk, Problem, Revisioned, ServerSettings,
+    UserName,
+};
 use opcua_configurator::protocol::{
-    Activate, AddUser, Changed, CsrMade, EditTrust, ExportContent, ExportSettings, Failure, HeldCertificates, Hello,
-    ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed, ListedCertificate, LogChunk, Login,
-    MAX_EXPORT_BYTES, MakeCsr, MakeSelfSigned, RemoveUsers, Revisioned, SelectCertificate, Session, SetSettings,
-    SettingsExport,
+    Activate, AddUser, CsrMade, EditTrust, ExportContent, ExportSettings, Failure, Hello, ImportCaSigned,
+    ImportCertificate, ImportCsr, ImportSettings, Installed, Login, MAX_EXPORT_BYTES, MakeCsr, MakeSelfSigned,
+    RemoveUsers, SelectCertificate, Session, SetSettings, SettingsExport,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;

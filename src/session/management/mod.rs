@@ -1,4 +1,15 @@
 //! The driver for the management protocol over HTTPS.
+//!
+//! | file | its one idea |
+//! |---|---|
+//! | `mod` | [`ManagementConnector`], and one HTTPS connection on which a request is sent |
+//! | `session` | the session's calls as requests of the protocol |
+//! | `capabilities` | what each firmware offers |
+//! | `pinned_tls` | TLS that trusts one certificate |
+
+mod capabilities;
+mod pinned_tls;
+mod session;
 
 use std::error::Error;
 use std::io;
@@ -9,21 +20,14 @@ use async_trait::async_trait;
 use parking_lot::Mutex;
 use reqwest::header::CONTENT_TYPE;
 use reqwest::{Method, StatusCode};
-use secrecy::SecretString;
 use serde::Deserialize;
 
-use super::pinned_tls::PinVerifier;
+use self::pinned_tls::PinVerifier;
 use super::{Connector, ControllerSession};
-use crate::model::{Address, ClientList, ControllerInfo, ErrorCode, Problem, ServerSettings, UserName};
+use crate::model::{Address, Credentials, ErrorCode, FirmwareVersion, Problem, RevisionToken};
 use crate::pki::Fingerprint;
-use crate::protocol::{
-    self, Activate, AddUser, Base64Bytes, Changed, CsrMade, EditTrust, ExportSettings, Failure, GetCertificates,
-    GetCrl, GetCrls, GetHello, GetInfo, GetIssuers, GetLog, GetRejected, GetSettings, GetTrustStamp, GetTrusted,
-    GetUsers, HeldCertificates, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Installed,
-    ListedCertificate, ListedCrl, LogChunk, Login, Logout, MakeCsr, MakeSelfSigned, Needs, RejectedClient, RemoveUsers,
-    Request, Response, Revisioned, SelectCertificate, SetSettings, SettingsExport, StartServer, StopServer,
-    TrustChanged, TrustStamp, WireSecret,
-};
+use crate::protocol::{self, Failure, GetHello, Login, Needs, Request, Response as _, WireSecret};
+pub(super) use capabilities::capabilities;
 
 /// How long the driver waits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -76,9 +80,10 @@ impl Connector for ManagementConnector {
         &self,
         address: &Address,
         fingerprint: Fingerprint,
-        password: &SecretString,
+        credentials: &Credentials,
     ) -> Result<Box<dyn ControllerSession>, Problem> {
         let mut link = Link::new(address, Some(fingerprint), self.timeouts)?;
+        let Credentials::ConnectionPassword(password) = credentials;
         let login = Login { password: WireSecret(password.clone()) };
         let session = link.send(&login).await?;
         link.token = Some(session.token);
@@ -95,7 +100,9 @@ struct Link {
     token: Option<WireSecret>,
     timeouts: Timeouts,
     /// See [`ControllerSession::unanswered`].
-    unanswered: Mutex<Option<u64>>,
+    unanswered: Mutex<Option<RevisionToken>>,
+    /// Known once the information was read.
+    firmware: Option<FirmwareVersion>,
 }
 
 impl Link {
@@ -106,7 +113,7 @@ impl Link {
         let client = reqwest::Client::builder()
             .tls_backend_preconfigured(tls)
             .https_only(true)
-            // A proxy would see the plant's addresses, and controllers are on the local network.
+            // A proxy would see the addresses of the controllers, which are on the local network.
             .no_proxy()
             .redirect(reqwest::redirect::Policy::none())
             .connect_timeout(timeouts.connect)
@@ -114,7 +121,7 @@ impl Link {
             .build()
             .map_err(|e| internal(&e))?;
         let base = format!("https://{}", address.authority());
-        Ok(Self { client, verifier, base, pin, token: None, timeouts, unanswered: Mutex::new(None) })
+        Ok(Self { client, verifier, base, pin, token: None, timeouts, unanswered: Mutex::new(None), firmware: None })
     }
 
     /// Sends a request, and checks the response.
@@ -189,7 +196,7 @@ impl Link {
         request.send().await
     }
 
-    /// A lying server must not fill the memory of this one.
+    /// Reads a body of at most [`protocol::MAX_RESPONSE_BYTES`].
     async fn read_bounded(&self, mut response: reqwest::Response) -> Result<Vec<u8>, Problem> {
         let mut bytes = Vec::new();
         while let Some(chunk) = response.chunk().await.map_err(|e| self.explain(&e))? {
@@ -265,124 +272,4 @@ fn handshake_failure(error: &reqwest::Error) -> Option<ErrorCode> {
 
 fn is_caused_by_http_parse(error: &reqwest::Error) -> bool {
     causes(error).filter_map(|e| e.downcast_ref::<hyper::Error>()).any(hyper::Error::is_parse)
-}
-
-#[async_trait]
-impl ControllerSession for Link {
-    async fn info(&mut self) -> Result<ControllerInfo, Problem> {
-        self.send(&GetInfo).await
-    }
-
-    async fn start_server(&mut self) -> Result<Changed, Problem> {
-        self.send(&StartServer).await
-    }
-
-    async fn stop_server(&mut self) -> Result<Changed, Problem> {
-        self.send(&StopServer).await
-    }
-
-    async fn settings(&mut self) -> Result<Revisioned<ServerSettings>, Problem> {
-        self.send(&GetSettings).await
-    }
-
-    async fn set_settings(&mut self, change: SetSettings) -> Result<Changed, Problem> {
-        self.send(&change).await
-    }
-
-    async fn users(&mut self) -> Result<Revisioned<Vec<UserName>>, Problem> {
-        self.send(&GetUsers).await
-    }
-
-    async fn add_user(&mut self, change: AddUser) -> Result<Changed, Problem> {
-        self.send(&change).await
-    }
-
-    async fn remove_users(&mut self, change: RemoveUsers) -> Result<Changed, Problem> {
-        self.send(&change).await
-    }
-
-    async fn make_self_signed(&mut self, change: MakeSelfSigned) -> Result<Installed, Problem> {
-        self.send(&change).await
-    }
-
-    async fn import_certificate(&mut self, change: ImportCertificate) -> Result<Installed, Problem> {
-        self.send(&change).await
-    }
-
-    async fn certificates(&mut self) -> Result<Revisioned<HeldCertificates>, Problem> {
-        self.send(&GetCertificates).await
-    }
-
-    async fn select_certificate(&mut self, change: SelectCertificate) -> Result<Changed, Problem> {
-        self.send(&change).await
-    }
-
-    async fn make_csr(&mut self, change: MakeCsr) -> Result<CsrMade, Problem> {
-        self.send(&change).await
-    }
-
-    async fn import_csr(&mut self, change: ImportCsr) -> Result<CsrMade, Problem> {
-        self.send(&change).await
-    }
-
-    async fn import_ca_signed(&mut self, change: ImportCaSigned) -> Result<Installed, Problem> {
-        self.send(&change).await
-    }
-
-    async fn clients(&mut self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
-        match list {
-            ClientList::Trusted => self.send(&GetTrusted).await,
-            ClientList::Issuers => self.send(&GetIssuers).await,
-            ClientList::Rejected => {
-                Err(Problem::with_detail(ErrorCode::Internal, "the rejected list is read on its own"))
-            }
-        }
-    }
-
-    async fn rejected_clients(&mut self) -> Result<Revisioned<Vec<RejectedClient>>, Problem> {
-        self.send(&GetRejected).await
-    }
-
-    async fn crls(&mut self) -> Result<Revisioned<Vec<ListedCrl>>, Problem> {
-        self.send(&GetCrls).await
-    }
-
-    async fn crl(&mut self, id: &str) -> Result<Base64Bytes, Problem> {
-        self.send(&GetCrl { id: id.to_owned() }).await
-    }
-
-    async fn trust_stamp(&mut self) -> Result<TrustStamp, Problem> {
-        self.send(&GetTrustStamp).await
-    }
-
-    async fn edit_trust(&mut self, change: EditTrust) -> Result<TrustChanged, Problem> {
-        self.send(&change).await
-    }
-
-    async fn activate(&mut self, change: Activate) -> Result<Changed, Problem> {
-        self.send(&change).await
-    }
-
-    async fn log(&mut self, from: Option<u64>) -> Result<LogChunk, Problem> {
-        self.send(&GetLog { from }).await
-    }
-
-    async fn export_settings(&mut self, request: ExportSettings) -> Result<SettingsExport, Problem> {
-        self.send(&request).await
-    }
-
-    async fn import_settings(&mut self, change: ImportSettings) -> Result<Changed, Problem> {
-        self.send(&change).await
-    }
-
-    fn unanswered(&self) -> Option<u64> {
-        *self.unanswered.lock()
-    }
-
-    async fn close(&mut self) {
-        if let Err(problem) = self.send_within(LOGOUT_TIMEOUT, &Logout).await {
-            tracing::debug!(%problem, "logout failed");
-        }
-        self.token = None;
-    }
 }
