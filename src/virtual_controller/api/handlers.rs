@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::body::Malformed;
+use super::caller::{Caller, Failed};
 use super::routes::Routes;
-use super::{Caller, Failed};
 use crate::model::activation::ActivationKeys;
 use crate::model::{Base64Bytes, Changed, ClientList, ErrorCode, ListedCertificate, LogChunk, Problem, Revisioned};
 use crate::protocol::{

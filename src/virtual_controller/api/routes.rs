@@ -12,7 +12,7 @@ use axum::routing::{MethodFilter, MethodRouter, on};
 use axum::{Json, Router};
 
 use super::body::{Malformed, read};
-use super::{Caller, ClientConnection, Failed, not_found, unknown_method, unknown_path};
+use super::caller::{Caller, ClientConnection, Failed, not_found, unknown_method, unknown_path};
 use crate::protocol::{Method, Request};
 
 /// A router in the making, and what was registered.
