@@ -10,7 +10,7 @@ use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_plan};
 use super::{Ending, Settled};
 use crate::jobs::{AddTrust, Destination, ListTrust, RemoveCrls, TrustSnapshot};
-use crate::model::{Language, Problem, ListedCrl};
+use crate::model::{Language, ListedCrl, Problem};
 use crate::pki::CrlHealth;
 use crate::texts::{TextKey, cli as texts, crl_flaws};
 

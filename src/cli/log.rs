@@ -6,7 +6,7 @@ use super::output::say;
 use super::select::Select;
 use super::{Ending, Settled};
 use crate::jobs::{LogPart, ReadLog, SetSettings, SettingsChange};
-use crate::model::{Problem, foreign_text, LogChunk};
+use crate::model::{LogChunk, Problem, foreign_text};
 use crate::texts::{TextKey, cli as texts};
 
 #[derive(Debug, Subcommand)]

@@ -211,7 +211,9 @@ impl UiCommand {
             Self::ConfirmIdentity if count == 0 => Some(T::WhyTick),
             Self::ConfirmIdentity => model.all_targets_are_confirmed(targets).then_some(T::WhyConfirmed),
             Self::Activation if count == 0 => Some(T::WhyTick),
-            Self::Activation => model.any_target_lacks(targets, Feature::ActivationKeys).then_some(T::WhyActivationOption),
+            Self::Activation => {
+                model.any_target_lacks(targets, Feature::ActivationKeys).then_some(T::WhyActivationOption)
+            }
             Self::ExportSettings | Self::ImportSettings => match count {
                 0 => Some(T::WhyTick),
                 _ => model.any_target_lacks(targets, Feature::SettingsTransfer).then_some(T::WhyLegacyOnly),

@@ -3,13 +3,13 @@
 
 use super::changes::install;
 use super::secret_bytes::SecretBytes;
-use super::state::{KeyPair, PendingCsr, State, Surroundings};
+use super::state::{KeyPair, OperatingContext, PendingCsr, State};
 use crate::model::{Base64Bytes, CertificateType, CsrRequest, ErrorCode, FirmwareGeneration, Problem};
 use crate::pki::{Certificate, Csr, PkiError, PrivateKey, check_usable, make_csr as csr_for, pkcs12_read_key};
 
 /// Manual 2.7.1.5 on current firmware: the key is made here and stays here, beside the one of the certificate in use.
 /// Gives the CSR's DER.
-pub fn make_csr(state: &mut State, around: &Surroundings, request: &CsrRequest) -> Result<Vec<u8>, Problem> {
+pub fn make_csr(state: &mut State, context: &OperatingContext, request: &CsrRequest) -> Result<Vec<u8>, Problem> {
     if state.generation() == FirmwareGeneration::Legacy {
         return Err(ErrorCode::FirmwareTooOld.into());
     }
@@ -17,7 +17,7 @@ pub fn make_csr(state: &mut State, around: &Surroundings, request: &CsrRequest) 
         .check(&state.settings.security_policies)
         .map_err(|error| Problem::with_detail(ErrorCode::BadCertificateRequest, error))?;
     let key = PrivateKey::generate(request.key_length)?;
-    let csr = csr_for(request, &state.server_names(around), &key)?;
+    let csr = csr_for(request, &state.server_names(context), &key)?;
     keep(state, &csr, &key)
 }
 
@@ -25,7 +25,7 @@ pub fn make_csr(state: &mut State, around: &Surroundings, request: &CsrRequest) 
 /// unless it is for the same key. A certificate that comes with them is installed and selected. Gives the CSR's DER.
 pub fn import_csr(
     state: &mut State,
-    around: &Surroundings,
+    context: &OperatingContext,
     csr: &[u8],
     pkcs12: &[u8],
     password: &str,
@@ -48,19 +48,19 @@ pub fn import_csr(
     }
     let made = keep(state, &csr, &key)?;
     if let Some(certificate) = certificate {
-        import_ca_signed(state, around, certificate)?;
+        import_ca_signed(state, context, certificate)?;
     }
     Ok(made)
 }
 
 /// Manual 2.7.1.5: installs and selects what the CA issued for the CSR held here. Gives the certificate's DER.
-pub fn import_ca_signed(state: &mut State, around: &Surroundings, certificate: &[u8]) -> Result<Vec<u8>, Problem> {
+pub fn import_ca_signed(state: &mut State, context: &OperatingContext, certificate: &[u8]) -> Result<Vec<u8>, Problem> {
     let pending = state.csr.as_ref().ok_or(ErrorCode::NoCsr)?;
     let certificate = Certificate::from_der(certificate)?;
     if !Csr::from_der(&pending.csr.0)?.matches(&certificate) {
         return Err(ErrorCode::CsrMismatch.into());
     }
-    check_usable(&certificate, &state.settings.security_policies, around.now)?;
+    check_usable(&certificate, &state.settings.security_policies, context.now)?;
     let key = PrivateKey::from_pkcs8_der(&pending.private_key.0)?;
     install(state, CertificateType::CaSigned, &certificate, &key)
 }

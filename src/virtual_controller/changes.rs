@@ -8,7 +8,7 @@ use chrono::{DateTime, Utc};
 use super::activation_keys::demo_keys;
 use super::opcua::hash_password;
 use super::secret_bytes::SecretBytes;
-use super::state::{KeyPair, State, Surroundings, User};
+use super::state::{KeyPair, OperatingContext, State, User};
 use crate::model::activation::ActivationKeys;
 use crate::model::{
     Base64Bytes, CertificateType, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings,
@@ -19,12 +19,12 @@ use crate::pki::{Certificate, PkiError, PrivateKey, check_usable, pkcs12_read, s
 /// Manual 2.6.1. `log_password` is looked at only when the server log goes from off to on.
 pub fn set_settings(
     state: &mut State,
-    around: &Surroundings,
+    context: &OperatingContext,
     settings: ServerSettings,
     log_password: Option<&str>,
 ) -> Result<(), Problem> {
     settings.check().map_err(|error| Problem::with_detail(ErrorCode::BadSettings, error))?;
-    state.check_port(settings.port.get(), around)?;
+    state.check_port(settings.port.get(), context)?;
     let log_goes_on = settings.server_log && !state.settings.server_log;
     if log_goes_on && log_password != Some(ServerSettings::LOG_PASSWORD) {
         return Err(ErrorCode::LogPassword.into());
@@ -64,19 +64,19 @@ pub fn remove_users(state: &mut State, names: &[UserName]) -> Result<(), Problem
 /// Gives the certificate's DER.
 pub fn make_self_signed(
     state: &mut State,
-    around: &Surroundings,
+    context: &OperatingContext,
     request: &SelfSignedRequest,
 ) -> Result<Vec<u8>, Problem> {
     if state.generation() == FirmwareGeneration::Legacy {
         return Err(ErrorCode::FirmwareTooOld.into());
     }
-    install_self_signed(state, around, request, around.now)
+    install_self_signed(state, context, request, context.now)
 }
 
 /// Makes a self-signed certificate dated `made`, installs and selects it, whatever the firmware.
 pub fn install_self_signed(
     state: &mut State,
-    around: &Surroundings,
+    context: &OperatingContext,
     request: &SelfSignedRequest,
     made: DateTime<Utc>,
 ) -> Result<Vec<u8>, Problem> {
@@ -84,14 +84,14 @@ pub fn install_self_signed(
         .check(&state.settings.security_policies)
         .map_err(|error| Problem::with_detail(ErrorCode::BadCertificateRequest, error))?;
     let key = PrivateKey::generate(request.key_length)?;
-    let certificate = self_signed(request, &state.server_names(around), &key, made)?;
+    let certificate = self_signed(request, &state.server_names(context), &key, made)?;
     install(state, CertificateType::SelfSigned, &certificate, &key)
 }
 
 /// Manual 2.7.1 on legacy firmware: key and certificate come from the PC. Gives the certificate's DER.
 pub fn import_certificate(
     state: &mut State,
-    around: &Surroundings,
+    context: &OperatingContext,
     kind: CertificateType,
     pkcs12: &[u8],
     password: &str,
@@ -104,7 +104,7 @@ pub fn import_certificate(
     }
     let (key, chain) = pkcs12_read(pkcs12, password)?;
     let certificate = chain.iter().find(|c| key.matches(c)).ok_or(PkiError::NotAPair)?;
-    check_usable(certificate, &state.settings.security_policies, around.now)?;
+    check_usable(certificate, &state.settings.security_policies, context.now)?;
     if kind == CertificateType::SelfSigned && !certificate.is_self_signed() {
         return Err(Problem::with_detail(ErrorCode::BadCertificate, "the certificate is not self-signed"));
     }

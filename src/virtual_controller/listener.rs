@@ -17,12 +17,13 @@ use tokio_util::sync::CancellationToken;
 use tower_service::Service as _;
 
 use super::api::{self, Api, ClientConnection, ROUTER};
-use super::connection_limits::{PlaceLimits, Places, Standing};
+use super::connection_limits::{ConnectionLimits, ConnectionSlots, ConnectionStage};
 use super::peer::Peer;
 use super::request_heads::CheckedHeads;
 
 /// An engineer's program keeps one connection for each session. No change takes as long as `silence`.
-const PLACES: PlaceLimits = PlaceLimits { connections: 64, per_source: 16, silence: Duration::from_secs(180) };
+const CONNECTION_LIMITS: ConnectionLimits =
+    ConnectionLimits { connections: 64, per_source: 16, silence: Duration::from_secs(180) };
 const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(5);
 /// From the first byte to the first request with a valid session.
 const SESSION_TIMEOUT: Duration = Duration::from_secs(20);
@@ -38,7 +39,7 @@ const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 /// Accepts connections of the management protocol until `off`, then lets the requests in hand finish.
 pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<Api>, off: CancellationToken) {
     let acceptor = TlsAcceptor::from(tls);
-    let places = Arc::new(Places::new(PLACES));
+    let slots = Arc::new(ConnectionSlots::new(CONNECTION_LIMITS));
     let mut connections = JoinSet::new();
     loop {
         let accepted = tokio::select! {
@@ -48,13 +49,13 @@ pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<Api>,
         };
         match accepted {
             Ok((stream, address)) => {
-                let Some(place) = places.enter(Peer::new(address)) else {
+                let Some(slot) = slots.enter(Peer::new(address)) else {
                     tracing::debug!(%address, "too many management connections, one more refused");
                     continue;
                 };
                 let (acceptor, api, off) = (acceptor.clone(), Arc::clone(&api), off.clone());
                 connections.spawn(async move {
-                    let peer = &place.connection;
+                    let peer = &slot.connection;
                     let served = serve_peer(stream, peer, &acceptor, api, &off);
                     peer.evicted.run_until_cancelled(served).await;
                 });
@@ -87,7 +88,7 @@ async fn serve_peer(
         Some(Ok(Err(error))) => return tracing::debug!(peer = %peer.address(), %error, "TLS failed"),
         Some(Err(_)) | None => return,
     };
-    peer.activity.reached(Standing::Opened);
+    peer.activity.reached(ConnectionStage::Opened);
     let cut = CancellationToken::new();
     let connection = ClientConnection { api, peer: Arc::clone(peer), local: local.ip(), cut: cut.clone() };
     let (stream, rejected) = CheckedHeads::new(stream);

@@ -108,7 +108,7 @@ pub use opcua::AdmissionOptions;
 pub use password::hash_connection_password;
 pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;
-pub use state::{HeldCrl, Identity, KeyPair, Listed, PendingCsr, State, Surroundings, User};
+pub use state::{HeldCrl, Identity, KeyPair, OperatingContext, PendingCsr, State, StoredCertificate, User};
 pub use store::{Staged, Store, StoreError};
 pub use switch_on::VirtualController;
 pub use switchboard::{OutsideSwitches, Switchboard};

@@ -3,7 +3,7 @@ use chrono::{DateTime, Utc};
 use super::activation_keys::demo_keys;
 use super::changes::install_self_signed;
 use super::secret_bytes::SecretBytes;
-use super::state::{Identity, KeyPair, State, Surroundings};
+use super::state::{Identity, KeyPair, OperatingContext, State};
 use crate::model::{
     Base64Bytes, CertificateType, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, ServerSettings, Subject,
     Validity,
@@ -50,8 +50,8 @@ impl NewController {
     }
 
     /// Makes its keys. Slow when a server certificate is wanted.
-    pub(super) fn make(self, around: &Surroundings) -> Result<State, Problem> {
-        let tls = tls_identity(self.identity.serial.as_str(), around.now)?;
+    pub(super) fn make(self, context: &OperatingContext) -> Result<State, Problem> {
+        let tls = tls_identity(self.identity.serial.as_str(), context.now)?;
         let management =
             KeyPair { certificate: Base64Bytes(tls.certificate_der), private_key: SecretBytes(tls.private_key_pkcs8) };
         let current = self.identity.firmware.generation() == FirmwareGeneration::Current;
@@ -77,7 +77,7 @@ impl NewController {
         if let Some(wanted) = self.certificate {
             let request = SelfSignedRequest {
                 subject: Subject {
-                    common_name: state.application_name(around),
+                    common_name: state.application_name(context),
                     country: "JP".to_owned(),
                     state: "Nagano".to_owned(),
                     locality: "Suwa".to_owned(),
@@ -86,7 +86,7 @@ impl NewController {
                 key_length: wanted.key_length,
                 validity: wanted.validity,
             };
-            install_self_signed(&mut state, around, &request, wanted.made)?;
+            install_self_signed(&mut state, context, &request, wanted.made)?;
         }
         state.check()?;
         Ok(state)

@@ -2,7 +2,7 @@ use std::net::{IpAddr, SocketAddr};
 
 use tokio_util::sync::CancellationToken;
 
-use super::connection_limits::{Activity, Occupant, Source, Standing};
+use super::connection_limits::{Activity, ConnectionStage, LimitedConnection, Source};
 
 /// One connection of a peer of the management protocol.
 #[derive(Debug)]
@@ -23,12 +23,12 @@ impl Peer {
 
     /// A request with a valid session has come.
     pub fn has_session(&self) {
-        self.activity.reached(Standing::InSession);
+        self.activity.reached(ConnectionStage::InSession);
         self.activity.used();
     }
 }
 
-impl Occupant for Peer {
+impl LimitedConnection for Peer {
     fn source(&self) -> Source {
         Source::new(self.address)
     }

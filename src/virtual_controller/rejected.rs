@@ -14,7 +14,7 @@ use tokio_util::sync::CancellationToken;
 use super::connection_limits::Source;
 use super::faults::Faults;
 use super::opcua::Refusals;
-use super::state::{Listed, State};
+use super::state::{State, StoredCertificate};
 use super::store::{StoreError, replace_private_file};
 use crate::model::{Base64Bytes, CertificateStatus};
 use crate::pki::{Certificate, RefusalCause, RejectedClient, Rejection};
@@ -39,7 +39,7 @@ pub struct RejectedClients {
 
 #[derive(Debug, Default)]
 struct List {
-    entries: Vec<Entry>,
+    entries: Vec<RejectedEntry>,
     stamp: u64,
     /// Whether the file holds something else.
     dirty: bool,
@@ -47,7 +47,7 @@ struct List {
 
 /// One refused certificate.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Entry {
+pub struct RejectedEntry {
     /// DER.
     pub certificate: Base64Bytes,
     pub chain: Vec<Base64Bytes>,
@@ -88,7 +88,7 @@ impl RejectedClients {
             .trusted
             .iter()
             .chain(&state.issuers)
-            .map(|Listed { certificate, added, .. }| (certificate.0.as_slice(), *added))
+            .map(|StoredCertificate { certificate, added, .. }| (certificate.0.as_slice(), *added))
             .collect();
         entries.retain(|entry| {
             listed.get(entry.certificate.0.as_slice()).is_none_or(|added| entry.count > 0 && entry.last_seen > *added)
@@ -107,7 +107,7 @@ impl RejectedClients {
     pub fn list(&self) -> Vec<RejectedClient> {
         let mut entries = self.list.lock().entries.clone();
         entries.sort_by_key(|entry| std::cmp::Reverse(entry.last_seen));
-        entries.into_iter().filter_map(Entry::into_message).collect()
+        entries.into_iter().filter_map(RejectedEntry::into_message).collect()
     }
 
     /// The certificates by thumbprint, in DER.
@@ -118,7 +118,7 @@ impl RejectedClients {
 
     /// Takes in certificates that another list loses, and gives the entries that had to go for them. The disk hears of
     /// it with [`RejectedClients::write`].
-    pub fn insert(&self, entries: Vec<Entry>) -> Vec<Entry> {
+    pub fn insert(&self, entries: Vec<RejectedEntry>) -> Vec<RejectedEntry> {
         let mut list = self.list.lock();
         let mut displaced = Vec::new();
         for entry in entries {
@@ -132,7 +132,7 @@ impl RejectedClients {
     }
 
     /// Undoes [`RejectedClients::insert`], but for what was refused again since.
-    pub fn take_back(&self, inserted: &[String], displaced: Vec<Entry>) {
+    pub fn take_back(&self, inserted: &[String], displaced: Vec<RejectedEntry>) {
         if inserted.is_empty() && displaced.is_empty() {
             return;
         }
@@ -154,7 +154,7 @@ impl RejectedClients {
 
     /// Forgets certificates, and writes that to the disk; if that fails, nothing is forgotten.
     pub fn remove(&self, thumbprints: &[String]) -> Result<(), StoreError> {
-        let removed: Vec<Entry> = {
+        let removed: Vec<RejectedEntry> = {
             let mut list = self.list.lock();
             let removed = list.entries.extract_if(.., |entry| thumbprints.contains(&entry.thumbprint)).collect();
             self.touch(&mut list);
@@ -234,7 +234,7 @@ impl Refusals for RejectedClients {
         let index = match list.entries.iter().position(|entry| entry.certificate.0 == certificate.der()) {
             Some(index) => index,
             None => {
-                list.entries.push(Entry {
+                list.entries.push(RejectedEntry {
                     certificate: Base64Bytes(certificate.der().to_vec()),
                     chain: Vec::new(),
                     thumbprint: certificate.thumbprint_sha1(),
@@ -264,7 +264,7 @@ impl Refusals for RejectedClients {
 
 impl List {
     /// Takes in what had gone, where there is no newer entry.
-    fn put_back(&mut self, entries: Vec<Entry>) {
+    fn put_back(&mut self, entries: Vec<RejectedEntry>) {
         for entry in entries {
             if !self.entries.iter().any(|known| known.thumbprint == entry.thumbprint) {
                 self.entries.push(entry);
@@ -274,10 +274,10 @@ impl List {
     }
 
     /// Drops entries until the list is within its bounds, not the one at `fresh`; and gives them.
-    fn make_room(&mut self, fresh: Option<usize>) -> Vec<Entry> {
+    fn make_room(&mut self, fresh: Option<usize>) -> Vec<RejectedEntry> {
         let mut dropped = Vec::new();
         let keep = fresh.and_then(|index| self.entries.get(index)).map(|entry| entry.thumbprint.clone());
-        let mut bytes: usize = self.entries.iter().map(Entry::bytes).sum();
+        let mut bytes: usize = self.entries.iter().map(RejectedEntry::bytes).sum();
         while self.entries.len() > MAX_ENTRIES || bytes > MAX_BYTES {
             let mut owned: HashMap<Option<Source>, usize> = HashMap::new();
             for entry in &self.entries {
@@ -299,7 +299,7 @@ impl List {
     }
 }
 
-impl Entry {
+impl RejectedEntry {
     /// A certificate that a person put here.
     pub fn moved(certificate: Base64Bytes, thumbprint: String, now: DateTime<Utc>) -> Self {
         Self {
@@ -341,7 +341,7 @@ fn stamp(now: DateTime<Utc>) -> u64 {
     u64::try_from(now.timestamp_millis()).unwrap_or_default()
 }
 
-fn read(path: &Path) -> io::Result<Vec<Entry>> {
+fn read(path: &Path) -> io::Result<Vec<RejectedEntry>> {
     let mut bytes = Vec::new();
     match File::open(path) {
         Ok(file) => file.take(MAX_FILE_BYTES).read_to_end(&mut bytes)?,
@@ -359,7 +359,7 @@ mod tests {
     use std::time::Instant;
 
     use crate::pki::CertificateFlaw;
-    use crate::virtual_controller::{Identity, NewController, Surroundings};
+    use crate::virtual_controller::{Identity, NewController, OperatingContext};
 
     const HOME: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 1));
     const STRANGER: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 66));
@@ -371,8 +371,8 @@ mod tests {
             firmware: crate::model::FirmwareVersion::new(8, 1, 0),
             name: "rejected".parse().unwrap(),
         };
-        let around = Surroundings { now: Utc::now(), bind: HOME, management_port: 7943 };
-        NewController::new(identity, String::new()).make(&around).unwrap()
+        let context = OperatingContext { now: Utc::now(), bind: HOME, management_port: 7943 };
+        NewController::new(identity, String::new()).make(&context).unwrap()
     }
 
     fn open(folder: &Path) -> Arc<RejectedClients> {
@@ -497,7 +497,7 @@ mod tests {
         let rejected = RejectedClients::open(folder.path(), faults.clone(), &state());
         let entry = |i: u32| {
             let certificate = certificate(i);
-            Entry::moved(Base64Bytes(certificate.der().to_vec()), certificate.thumbprint_sha1(), Utc::now())
+            RejectedEntry::moved(Base64Bytes(certificate.der().to_vec()), certificate.thumbprint_sha1(), Utc::now())
         };
         rejected.insert(vec![entry(1)]);
         rejected.write().unwrap();
@@ -522,7 +522,7 @@ mod tests {
         let before = rejected.list();
         let moved = |certificate: &Certificate| {
             let der = Base64Bytes(certificate.der().to_vec());
-            Entry::moved(der, certificate.thumbprint_sha1(), Utc::now())
+            RejectedEntry::moved(der, certificate.thumbprint_sha1(), Utc::now())
         };
         let new = certificate(9999);
         let thumbprints = [known.thumbprint_sha1(), new.thumbprint_sha1()];
@@ -550,13 +550,13 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let rejected = open(folder.path());
         let moved = certificate(1);
-        let listed = |certificate: &Certificate, added| Listed {
+        let listed = |certificate: &Certificate, added| StoredCertificate {
             file_name: "client.der".to_owned(),
             certificate: Base64Bytes(certificate.der().to_vec()),
             added,
         };
         let der = Base64Bytes(moved.der().to_vec());
-        rejected.insert(vec![Entry::moved(der, moved.thumbprint_sha1(), Utc::now())]);
+        rejected.insert(vec![RejectedEntry::moved(der, moved.thumbprint_sha1(), Utc::now())]);
         rejected.write().unwrap();
         for i in [2, 3, 4] {
             rejected.record(&[certificate(i)], HOME, &untrusted());

@@ -5,12 +5,12 @@ use argon2::password_hash::PasswordHash;
 use secrecy::{ExposeSecret as _, SecretString};
 
 use super::changes;
-use super::state::{State, Surroundings, User};
+use super::state::{OperatingContext, State, User};
 use crate::model::{ErrorCode, FirmwareGeneration, MAX_USERS, Problem};
 use crate::protocol::{ExportContent, ExportedUser, SettingsExport};
 
 /// Seals what manual 2.6.1 to 2.6.3 sets.
-pub fn export(state: &State, around: &Surroundings, passphrase: &SecretString) -> Result<SettingsExport, Problem> {
+pub fn export(state: &State, context: &OperatingContext, passphrase: &SecretString) -> Result<SettingsExport, Problem> {
     legacy(state)?;
     if passphrase.expose_secret().is_empty() {
         return Err(ErrorCode::BadPassphrase.into());
@@ -22,14 +22,14 @@ pub fn export(state: &State, around: &Surroundings, passphrase: &SecretString) -
         activation: state.activation_keys.clone(),
     };
     let of = (state.identity.serial.clone(), state.identity.series, state.identity.firmware);
-    Ok(SettingsExport::new(of, around.now, &content, passphrase)?)
+    Ok(SettingsExport::new(of, context.now, &content, passphrase)?)
 }
 
 /// Puts back what this controller sealed, after every check a single change would have met. Only the password of the
 /// server log is not asked for again: that it was on then was somebody's will.
 pub fn import(
     state: &mut State,
-    around: &Surroundings,
+    context: &OperatingContext,
     export: &SettingsExport,
     passphrase: &SecretString,
 ) -> Result<(), Problem> {
@@ -37,7 +37,7 @@ pub fn import(
     export.check_for(&state.identity.serial, state.identity.series, state.identity.firmware)?;
     let ExportContent { settings, users, activation } = export.open(passphrase)?;
     settings.check().map_err(|error| Problem::with_detail(ErrorCode::BadSettings, error))?;
-    state.check_port(settings.port.get(), around)?;
+    state.check_port(settings.port.get(), context)?;
     if users.len() > MAX_USERS {
         return Err(ErrorCode::TooManyUsers.into());
     }

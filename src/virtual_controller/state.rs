@@ -57,7 +57,7 @@ pub struct User {
 
 /// A certificate in the trusted or issuers list.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Listed {
+pub struct StoredCertificate {
     pub file_name: String,
     /// DER.
     pub certificate: Base64Bytes,
@@ -97,8 +97,8 @@ pub struct State {
     pub csr: Option<PendingCsr>,
     /// The type the server uses, whether one is held or not.
     pub selected: CertificateType,
-    pub trusted: Vec<Listed>,
-    pub issuers: Vec<Listed>,
+    pub trusted: Vec<StoredCertificate>,
+    pub issuers: Vec<StoredCertificate>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub crls: Vec<HeldCrl>,
     /// TCP ports taken by other functions of the controller.
@@ -115,7 +115,7 @@ pub const MAX_CRLS_BYTES: usize = 4 * 1024 * 1024;
 
 /// What a controller knows about itself only while it is switched on.
 #[derive(Debug, Clone, Copy)]
-pub struct Surroundings {
+pub struct OperatingContext {
     /// The controller's clock.
     pub now: DateTime<Utc>,
     /// The address its servers listen on.
@@ -124,7 +124,7 @@ pub struct Surroundings {
     pub management_port: u16,
 }
 
-impl Surroundings {
+impl OperatingContext {
     /// The address the controller names itself by: the one it listens on, or the loopback when that is every one.
     pub fn address(&self) -> IpAddr {
         if self.bind.is_unspecified() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { self.bind }
@@ -140,7 +140,7 @@ impl State {
         ListLimits::of(self.generation())
     }
 
-    pub fn list(&self, list: ClientList) -> &[Listed] {
+    pub fn list(&self, list: ClientList) -> &[StoredCertificate] {
         match list {
             ClientList::Trusted => &self.trusted,
             ClientList::Issuers => &self.issuers,
@@ -149,8 +149,8 @@ impl State {
     }
 
     /// ApplicationName of the OPC UA server (manual 2.7.1.2).
-    pub fn application_name(&self, around: &Surroundings) -> String {
-        let ip = match around.address() {
+    pub fn application_name(&self, context: &OperatingContext) -> String {
+        let ip = match context.address() {
             IpAddr::V4(ip) => ip,
             IpAddr::V6(ip) => ip.to_ipv4().unwrap_or(Ipv4Addr::LOCALHOST),
         };
@@ -158,10 +158,10 @@ impl State {
     }
 
     /// The names a server certificate made in this controller carries.
-    pub fn server_names(&self, around: &Surroundings) -> ServerNames {
+    pub fn server_names(&self, context: &OperatingContext) -> ServerNames {
         ServerNames {
-            application_uri: format!("urn:{}", self.application_name(around)),
-            ips: vec![around.address()],
+            application_uri: format!("urn:{}", self.application_name(context)),
+            ips: vec![context.address()],
             dns: Vec::new(),
         }
     }
@@ -177,17 +177,17 @@ impl State {
     }
 
     /// Ports taken by other functions, the management protocol among them; sorted.
-    pub fn taken_ports(&self, around: &Surroundings) -> Vec<u16> {
+    pub fn taken_ports(&self, context: &OperatingContext) -> Vec<u16> {
         let mut ports = self.used_ports.clone();
-        ports.push(around.management_port);
+        ports.push(context.management_port);
         ports.sort_unstable();
         ports.dedup();
         ports
     }
 
     /// 7933 when `port` belongs to another function of the controller.
-    pub fn check_port(&self, port: u16, around: &Surroundings) -> Result<(), Problem> {
-        if self.taken_ports(around).contains(&port) {
+    pub fn check_port(&self, port: u16, context: &OperatingContext) -> Result<(), Problem> {
+        if self.taken_ports(context).contains(&port) {
             return Err(Problem::with_detail(ErrorCode::PortConflict, port));
         }
         Ok(())
@@ -199,7 +199,7 @@ impl State {
     }
 
     /// Why the OPC UA server cannot start: 7930, 7931, 7932 or 7933, in this order (manual 6.1).
-    pub fn check_start(&self, around: &Surroundings) -> Result<&KeyPair, Problem> {
+    pub fn check_start(&self, context: &OperatingContext) -> Result<&KeyPair, Problem> {
         if !self.activated {
             return Err(ErrorCode::NotActivated.into());
         }
@@ -210,7 +210,7 @@ impl State {
         if !self.key_length_fits(bits) {
             return Err(invalid(format!("the security policies do not allow the certificate's {bits}-bit key")));
         }
-        self.check_port(self.settings.port.get(), around)?;
+        self.check_port(self.settings.port.get(), context)?;
         Ok(pair)
     }
 
@@ -259,7 +259,7 @@ impl State {
     }
 }
 
-impl Listed {
+impl StoredCertificate {
     /// `None` for what is no certificate, which the lists never hold.
     pub fn to_message(&self) -> Option<ListedCertificate> {
         let summary = Certificate::from_der(&self.certificate.0).ok()?.summary();

@@ -214,7 +214,7 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::virtual_controller::{Identity, NewController, Surroundings};
+    use crate::virtual_controller::{Identity, NewController, OperatingContext};
 
     fn state() -> State {
         let identity = Identity {
@@ -223,9 +223,9 @@ mod tests {
             firmware: crate::model::FirmwareVersion::new(7, 5, 4),
             name: "store".parse().unwrap(),
         };
-        let around =
-            Surroundings { now: clock::now(), bind: std::net::Ipv4Addr::LOCALHOST.into(), management_port: 7943 };
-        NewController::new(identity, String::new()).make(&around).unwrap()
+        let context =
+            OperatingContext { now: clock::now(), bind: std::net::Ipv4Addr::LOCALHOST.into(), management_port: 7943 };
+        NewController::new(identity, String::new()).make(&context).unwrap()
     }
 
     fn names(folder: &Path) -> Vec<String> {

@@ -60,7 +60,7 @@ impl VirtualController {
     /// [`Self::management_address`] as a program on this machine reaches it, also when the controller listens on every
     /// address.
     pub fn reachable_address(&self) -> SocketAddr {
-        SocketAddr::new(self.controller.surroundings().address(), self.address.port())
+        SocketAddr::new(self.controller.operating_context().address(), self.address.port())
     }
 
     /// SHA-256 of the management identity, which a configurator pins.

@@ -5,8 +5,8 @@ use std::collections::HashMap;
 use chrono::{DateTime, Utc};
 use sha1::{Digest as _, Sha1};
 
-use super::rejected::Entry;
-use super::state::{HeldCrl, Listed, MAX_CRLS_BYTES, State, Surroundings};
+use super::rejected::RejectedEntry;
+use super::state::{HeldCrl, MAX_CRLS_BYTES, OperatingContext, State, StoredCertificate};
 use crate::model::{Base64Bytes, ClientList, ErrorCode, FirmwareGeneration, Problem, TrustStep};
 use crate::pki::{Certificate, Crl};
 use crate::protocol::{MAX_SENT_CRL_BYTES, MAX_TRUST_STEPS};
@@ -18,7 +18,7 @@ const MAX_FILE_NAME_BYTES: usize = 255;
 #[derive(Debug, Default, PartialEq, Eq)]
 pub struct Rejected {
     /// To be there before the change is in force, so that no certificate is in no list at all.
-    pub arrived: Vec<Entry>,
+    pub arrived: Vec<RejectedEntry>,
     /// By thumbprint; to be gone after it.
     pub left: Vec<String>,
 }
@@ -26,14 +26,14 @@ pub struct Rejected {
 /// Makes all steps, one after the other. `rejected`: what the rejected list holds, in DER, by thumbprint.
 pub fn edit_trust(
     state: &mut State,
-    around: &Surroundings,
+    context: &OperatingContext,
     steps: Vec<TrustStep>,
     rejected: HashMap<String, Base64Bytes>,
 ) -> Result<Rejected, Problem> {
     if !(1..=MAX_TRUST_STEPS).contains(&steps.len()) {
         return Err(Problem::with_detail(ErrorCode::Refused, format!("1 to {MAX_TRUST_STEPS} steps make a change")));
     }
-    let mut editor = Editor { state, now: around.now, rejected, outcome: Rejected::default() };
+    let mut editor = Editor { state, now: context.now, rejected, outcome: Rejected::default() };
     for step in steps {
         match step {
             TrustStep::Add { list, certificates } => editor.add(list, certificates)?,
@@ -66,7 +66,7 @@ impl Editor<'_> {
                 Certificate::from_der(&certificate.0).map_err(|error| {
                     Problem::with_detail(ErrorCode::BadCertificate, format!("{file_name}: {error}"))
                 })?;
-                Ok(Listed { file_name, certificate, added })
+                Ok(StoredCertificate { file_name, certificate, added })
             })
             .collect::<Result<_, Problem>>()?;
         self.put(list, listed)
@@ -84,13 +84,13 @@ impl Editor<'_> {
             let thumbprint = thumbprint(&listed.certificate);
             self.outcome.left.retain(|left| *left != thumbprint);
             self.rejected.insert(thumbprint.clone(), listed.certificate.clone());
-            self.outcome.arrived.push(Entry::moved(listed.certificate, thumbprint, self.now));
+            self.outcome.arrived.push(RejectedEntry::moved(listed.certificate, thumbprint, self.now));
         }
         Ok(())
     }
 
     /// Puts certificates into the trusted or the issuers list; they leave the rejected one.
-    fn put(&mut self, list: ClientList, new: Vec<Listed>) -> Result<(), Problem> {
+    fn put(&mut self, list: ClientList, new: Vec<StoredCertificate>) -> Result<(), Problem> {
         let limit = match list {
             ClientList::Trusted => self.state.limits().trusted,
             ClientList::Issuers => self.state.limits().issuers,
@@ -116,7 +116,7 @@ impl Editor<'_> {
     }
 
     /// Takes certificates out of a list: all of them, or none.
-    fn take(&mut self, list: ClientList, thumbprints: &[String]) -> Result<Vec<Listed>, Problem> {
+    fn take(&mut self, list: ClientList, thumbprints: &[String]) -> Result<Vec<StoredCertificate>, Problem> {
         if thumbprints.is_empty() {
             return Err(Problem::with_detail(ErrorCode::NotInList, "no certificate was named"));
         }
@@ -127,13 +127,13 @@ impl Editor<'_> {
                 let certificate = self.rejected.remove(thumbprint).ok_or_else(|| missing(thumbprint))?;
                 let file_name = file_name_of(&certificate);
                 self.forget(thumbprint.clone());
-                taken.push(Listed { file_name, certificate, added: self.now });
+                taken.push(StoredCertificate { file_name, certificate, added: self.now });
             }
             return Ok(taken);
         }
         let held = self.list(list)?;
         let prints: Vec<String> = held.iter().map(|listed| thumbprint(&listed.certificate)).collect();
-        let mut held: Vec<Option<Listed>> = std::mem::take(held).into_iter().map(Some).collect();
+        let mut held: Vec<Option<StoredCertificate>> = std::mem::take(held).into_iter().map(Some).collect();
         for thumbprint in thumbprints {
             let index = prints.iter().position(|print| print == thumbprint);
             let listed = index.and_then(|index| held[index].take()).ok_or_else(|| missing(thumbprint))?;
@@ -151,7 +151,7 @@ impl Editor<'_> {
         }
     }
 
-    fn list(&mut self, list: ClientList) -> Result<&mut Vec<Listed>, Problem> {
+    fn list(&mut self, list: ClientList) -> Result<&mut Vec<StoredCertificate>, Problem> {
         match list {
             ClientList::Issuers if self.state.generation() == FirmwareGeneration::Legacy => {
                 Err(ErrorCode::FirmwareTooOld.into())

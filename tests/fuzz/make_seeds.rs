@@ -18,7 +18,8 @@ use opcua_configurator::protocol::{
     SelectCertificate, Session, SetSettings, SettingsExport, WireSecret,
 };
 use opcua_configurator::virtual_controller::{
-    Faults, Identity, KeyPair, Listed, PendingCsr, SecretBytes, State, Store, demo_keys, hash_connection_password,
+    Faults, Identity, KeyPair, PendingCsr, SecretBytes, State, Store, StoredCertificate, demo_keys,
+    hash_connection_password,
 };
 use opcua_configurator::workspace::Workspace;
 use serde::Serialize;
@@ -379,7 +380,7 @@ impl Seeds<'_> {
         };
         let tls = tls_identity("robot", *now).expect("an identity");
         let pair = || KeyPair { certificate: der(), private_key: SecretBytes(self.made.pkcs8().into()) };
-        let listed = || Listed { file_name: "client.der".into(), certificate: der(), added: *now };
+        let listed = || StoredCertificate { file_name: "client.der".into(), certificate: der(), added: *now };
         let legacy = State {
             identity: identity(ControllerSeries::Rc700, "7.5.54"),
             management: KeyPair {

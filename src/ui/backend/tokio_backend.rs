@@ -220,7 +220,9 @@ async fn remember(
     controllers: Vec<crate::pki::Fingerprint>,
     password: SecretString,
 ) -> Result<(), Problem> {
-    let kept = tokio::task::spawn_blocking(move || passwords.set_for(&controllers, &Credentials::ConnectionPassword(password)));
+    let kept = tokio::task::spawn_blocking(move || {
+        passwords.set_for(&controllers, &Credentials::ConnectionPassword(password))
+    });
     Ok(kept.await.map_err(|e| Problem::with_detail(ErrorCode::Internal, e))??)
 }
 

@@ -1,7 +1,7 @@
 //! The context menu of a row, and for which controllers a command is.
 
-use crate::model::Feature;
 use super::{Model, RowId, reduce};
+use crate::model::Feature;
 use crate::ui::backend::Command;
 use crate::ui::command::UiCommand;
 use crate::ui::model::Message;

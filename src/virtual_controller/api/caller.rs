@@ -16,7 +16,7 @@ use tokio_util::sync::CancellationToken;
 
 use crate::model::{ErrorCode, Problem};
 use crate::protocol::{self, Failure, WireSecret};
-use crate::virtual_controller::controller::{Controller, Outcome};
+use crate::virtual_controller::controller::{ChangeFailure, Controller};
 use crate::virtual_controller::login::{Sessions, Throttle};
 use crate::virtual_controller::peer::Peer;
 use crate::virtual_controller::request_heads::RejectedHead;
@@ -74,11 +74,11 @@ impl Caller {
     }
 
     /// The result of a change. If a fault switch asks for the connection to be lost here, it is cut and this never returns.
-    pub(super) async fn settle<T>(&self, outcome: Result<T, Outcome>) -> Result<T, Failed> {
+    pub(super) async fn settle<T>(&self, outcome: Result<T, ChangeFailure>) -> Result<T, Failed> {
         match outcome {
             Ok(value) => Ok(value),
-            Err(Outcome::Problem(problem)) => Err(problem.into()),
-            Err(Outcome::Dropped) => {
+            Err(ChangeFailure::Problem(problem)) => Err(problem.into()),
+            Err(ChangeFailure::Dropped) => {
                 self.connection.cut.cancel();
                 pending().await
             }

@@ -14,7 +14,7 @@ use crate::protocol::{
     StartServer, StopServer,
 };
 use crate::virtual_controller::controller::Effect;
-use crate::virtual_controller::state::{State, Surroundings};
+use crate::virtual_controller::state::{OperatingContext, State};
 use crate::virtual_controller::{certificate_changes, changes, settings_transfer};
 
 /// Registers every request that needs a session, but for logging out.
@@ -80,8 +80,8 @@ async fn get_log(caller: Arc<Caller>, query: Option<String>) -> Result<LogChunk,
 
 async fn set_settings(caller: Arc<Caller>, change: SetSettings) -> Result<Changed, Failed> {
     let SetSettings { revision, settings, delete_log, log_password } = change;
-    let edit = move |state: &mut State, around: &Surroundings| {
-        changes::set_settings(state, around, settings, log_password.as_deref())
+    let edit = move |state: &mut State, context: &OperatingContext| {
+        changes::set_settings(state, context, settings, log_password.as_deref())
     };
     let outcome = if delete_log {
         caller.controller().change_with_new_log(revision, Effect::Restart, edit).await
@@ -94,8 +94,8 @@ async fn set_settings(caller: Arc<Caller>, change: SetSettings) -> Result<Change
 
 async fn import_settings(caller: Arc<Caller>, change: ImportSettings) -> Result<Changed, Failed> {
     let ImportSettings { revision, export, passphrase } = change;
-    let edit = move |state: &mut State, around: &Surroundings| {
-        settings_transfer::import(state, around, &export, &passphrase.0)
+    let edit = move |state: &mut State, context: &OperatingContext| {
+        settings_transfer::import(state, context, &export, &passphrase.0)
     };
     let (changed, ()) = caller.settle(caller.controller().change(revision, Effect::Restart, edit).await).await?;
     Ok(changed)
@@ -104,35 +104,35 @@ async fn import_settings(caller: Arc<Caller>, change: ImportSettings) -> Result<
 async fn activate(caller: Arc<Caller>, change: Activate) -> Result<Changed, Failed> {
     let Activate { revision, licence, activation } = change;
     let keys = ActivationKeys { licence, activation };
-    let edit = move |state: &mut State, _: &Surroundings| changes::activate(state, keys);
+    let edit = move |state: &mut State, _: &OperatingContext| changes::activate(state, keys);
     let (changed, ()) = caller.settle(caller.controller().change(revision, Effect::Restart, edit).await).await?;
     Ok(changed)
 }
 
 async fn add_user(caller: Arc<Caller>, change: AddUser) -> Result<Changed, Failed> {
     let AddUser { revision, name, password } = change;
-    let edit = move |state: &mut State, _: &Surroundings| changes::add_user(state, name, password.expose());
+    let edit = move |state: &mut State, _: &OperatingContext| changes::add_user(state, name, password.expose());
     let (changed, ()) = caller.settle(caller.controller().change(revision, Effect::Restart, edit).await).await?;
     Ok(changed)
 }
 
 async fn remove_users(caller: Arc<Caller>, change: RemoveUsers) -> Result<Changed, Failed> {
     let RemoveUsers { revision, names } = change;
-    let edit = move |state: &mut State, _: &Surroundings| changes::remove_users(state, &names);
+    let edit = move |state: &mut State, _: &OperatingContext| changes::remove_users(state, &names);
     let (changed, ()) = caller.settle(caller.controller().change(revision, Effect::Restart, edit).await).await?;
     Ok(changed)
 }
 
 async fn select_certificate(caller: Arc<Caller>, change: SelectCertificate) -> Result<Changed, Failed> {
     let SelectCertificate { revision, kind } = change;
-    let edit = move |state: &mut State, _: &Surroundings| certificate_changes::select_certificate(state, kind);
+    let edit = move |state: &mut State, _: &OperatingContext| certificate_changes::select_certificate(state, kind);
     let (changed, ()) = caller.settle(caller.controller().change(revision, Effect::Restart, edit).await).await?;
     Ok(changed)
 }
 
 async fn make_self_signed(caller: Arc<Caller>, change: MakeSelfSigned) -> Result<Installed, Failed> {
     let MakeSelfSigned { revision, request } = change;
-    let edit = move |state: &mut State, around: &Surroundings| changes::make_self_signed(state, around, &request);
+    let edit = move |state: &mut State, context: &OperatingContext| changes::make_self_signed(state, context, &request);
     let outcome = caller.controller().change(revision, Effect::Restart, edit).await;
     let (changed, certificate) = caller.settle(outcome).await?;
     Ok(Installed { changed, certificate: Base64Bytes(certificate) })
@@ -140,8 +140,8 @@ async fn make_self_signed(caller: Arc<Caller>, change: MakeSelfSigned) -> Result
 
 async fn import_certificate(caller: Arc<Caller>, change: ImportCertificate) -> Result<Installed, Failed> {
     let ImportCertificate { revision, kind, pkcs12, password } = change;
-    let edit = move |state: &mut State, around: &Surroundings| {
-        changes::import_certificate(state, around, kind, &pkcs12.0, password.expose())
+    let edit = move |state: &mut State, context: &OperatingContext| {
+        changes::import_certificate(state, context, kind, &pkcs12.0, password.expose())
     };
     let outcome = caller.controller().change(revision, Effect::Restart, edit).await;
     let (changed, certificate) = caller.settle(outcome).await?;
@@ -150,7 +150,8 @@ async fn import_certificate(caller: Arc<Caller>, change: ImportCertificate) -> R
 
 async fn make_csr(caller: Arc<Caller>, change: MakeCsr) -> Result<CsrMade, Failed> {
     let MakeCsr { revision, request } = change;
-    let edit = move |state: &mut State, around: &Surroundings| certificate_changes::make_csr(state, around, &request);
+    let edit =
+        move |state: &mut State, context: &OperatingContext| certificate_changes::make_csr(state, context, &request);
     let (changed, csr) = caller.settle(caller.controller().change(revision, Effect::Nothing, edit).await).await?;
     Ok(CsrMade { changed, csr: Base64Bytes(csr) })
 }
@@ -158,9 +159,9 @@ async fn make_csr(caller: Arc<Caller>, change: MakeCsr) -> Result<CsrMade, Faile
 async fn import_csr(caller: Arc<Caller>, change: ImportCsr) -> Result<CsrMade, Failed> {
     let ImportCsr { revision, csr, pkcs12, password, certificate } = change;
     let effect = if certificate.is_some() { Effect::Restart } else { Effect::CertificateLost };
-    let edit = move |state: &mut State, around: &Surroundings| {
+    let edit = move |state: &mut State, context: &OperatingContext| {
         let certificate = certificate.as_ref().map(|certificate| certificate.0.as_slice());
-        certificate_changes::import_csr(state, around, &csr.0, &pkcs12.0, password.expose(), certificate)
+        certificate_changes::import_csr(state, context, &csr.0, &pkcs12.0, password.expose(), certificate)
     };
     let (changed, csr) = caller.settle(caller.controller().change(revision, effect, edit).await).await?;
     Ok(CsrMade { changed, csr: Base64Bytes(csr) })
@@ -168,8 +169,8 @@ async fn import_csr(caller: Arc<Caller>, change: ImportCsr) -> Result<CsrMade, F
 
 async fn import_ca_signed(caller: Arc<Caller>, change: ImportCaSigned) -> Result<Installed, Failed> {
     let ImportCaSigned { revision, certificate } = change;
-    let edit = move |state: &mut State, around: &Surroundings| {
-        certificate_changes::import_ca_signed(state, around, &certificate.0)
+    let edit = move |state: &mut State, context: &OperatingContext| {
+        certificate_changes::import_ca_signed(state, context, &certificate.0)
     };
     let outcome = caller.controller().change(revision, Effect::Restart, edit).await;
     let (changed, certificate) = caller.settle(outcome).await?;

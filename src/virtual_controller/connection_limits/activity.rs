@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 /// How far a connection has come. The lower one makes room for others first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
-pub enum Standing {
+pub enum ConnectionStage {
     /// A TCP connection, nothing else.
     Accepted,
     /// It speaks the protocol: a TLS handshake, or a secure channel without security.
@@ -26,12 +26,12 @@ pub struct Activity {
 
 impl Activity {
     pub fn new() -> Self {
-        Self { since: Instant::now(), reached: AtomicU8::new(Standing::Accepted as u8), used: AtomicU64::new(0) }
+        Self { since: Instant::now(), reached: AtomicU8::new(ConnectionStage::Accepted as u8), used: AtomicU64::new(0) }
     }
 
     /// The connection has come this far, or further.
-    pub fn reached(&self, standing: Standing) {
-        self.reached.fetch_max(standing as u8, Ordering::Relaxed);
+    pub fn reached(&self, stage: ConnectionStage) {
+        self.reached.fetch_max(stage as u8, Ordering::Relaxed);
     }
 
     /// The connection is used.
@@ -41,18 +41,18 @@ impl Activity {
     }
 
     pub fn has_session(&self) -> bool {
-        self.reached.load(Ordering::Relaxed) == Standing::InSession as u8
+        self.reached.load(Ordering::Relaxed) == ConnectionStage::InSession as u8
     }
 
     /// A session that was not used for longer than `silence` does not count.
-    pub fn standing(&self, silence: Duration) -> Standing {
+    pub fn stage(&self, silence: Duration) -> ConnectionStage {
         let used = Duration::from_millis(self.used.load(Ordering::Relaxed));
         let is_silent = self.since.elapsed().saturating_sub(used) > silence;
         match self.reached.load(Ordering::Relaxed) {
-            reached if reached == Standing::Accepted as u8 => Standing::Accepted,
-            reached if reached == Standing::Opened as u8 => Standing::Opened,
-            reached if reached == Standing::InSession as u8 && !is_silent => Standing::InSession,
-            _ => Standing::Proven,
+            reached if reached == ConnectionStage::Accepted as u8 => ConnectionStage::Accepted,
+            reached if reached == ConnectionStage::Opened as u8 => ConnectionStage::Opened,
+            reached if reached == ConnectionStage::InSession as u8 && !is_silent => ConnectionStage::InSession,
+            _ => ConnectionStage::Proven,
         }
     }
 }

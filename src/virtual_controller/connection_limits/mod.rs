@@ -6,20 +6,20 @@
 //! |---|---|
 //! | `source` | [`Source`]: which addresses count as one peer |
 //! | `activity` | [`Activity`]: how far one connection has come, and when it was last used |
-//! | `places` | [`Places`]: how many connections there may be, and which one makes room |
+//! | `slots` | [`ConnectionSlots`]: how many connections there may be, and which one makes room |
 //! | `lines` | [`Lines`]: how much is said about one source in a log |
 //!
 //! # Which connection makes room
 //! A listener always accepts. When a source, or the listener as a whole, has too many connections, one of those with the
-//! lowest [`Standing`] ends; among them one of the source that has most; among them the oldest. A connection with a
+//! lowest [`ConnectionStage`] ends; among them one of the source that has most; among them the oldest. A connection with a
 //! session never makes room while it is used (OPC 10000-4 §5.5.2.1 asks the same for secure channels).
 
 mod activity;
 mod lines;
-mod places;
+mod slots;
 mod source;
 
-pub(super) use activity::{Activity, Standing};
+pub(super) use activity::{Activity, ConnectionStage};
 pub(super) use lines::{Line, Lines, Refusal};
-pub(super) use places::{Occupant, Place, PlaceLimits, Places};
+pub(super) use slots::{ConnectionLimits, ConnectionSlot, ConnectionSlots, LimitedConnection};
 pub(super) use source::Source;

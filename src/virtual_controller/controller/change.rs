@@ -3,14 +3,14 @@ use std::sync::Arc;
 
 use tokio::task::spawn_blocking;
 
-use super::plant::{Plant, opcua_config, trust_lists};
-use super::{Controller, Standing};
+use super::server_slot::{ServerSlot, opcua_config, trust_lists};
+use super::{Controller, ServerState};
 use crate::model::{Changed, CutClient, ErrorCode, Problem, RevisionToken};
 use crate::virtual_controller::faults::DropPoint;
 use crate::virtual_controller::memory;
 use crate::virtual_controller::opcua::{Clock, Events, OpcUaConfig, OpcUaServer, StartError};
 use crate::virtual_controller::server_log::ServerLog;
-use crate::virtual_controller::state::{State, Surroundings};
+use crate::virtual_controller::state::{OperatingContext, State};
 use crate::virtual_controller::store::StoreError;
 
 /// What a change means for a running OPC UA server.
@@ -36,19 +36,19 @@ pub(super) struct Applied<T> {
 
 /// How a change, a start or a stop did not succeed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in super::super) enum Outcome {
+pub(in super::super) enum ChangeFailure {
     Problem(Problem),
     /// A fault switch asks for the connection to be lost here.
     Dropped,
 }
 
-impl From<Problem> for Outcome {
+impl From<Problem> for ChangeFailure {
     fn from(problem: Problem) -> Self {
         Self::Problem(problem)
     }
 }
 
-impl From<StoreError> for Outcome {
+impl From<StoreError> for ChangeFailure {
     fn from(error: StoreError) -> Self {
         Self::Problem(error.into())
     }
@@ -65,13 +65,13 @@ impl Controller {
         self: &Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<(Changed, T), Outcome> {
+        edit: impl FnOnce(&mut State, &OperatingContext) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<(Changed, T), ChangeFailure> {
         let this = Arc::clone(self);
         finished(tokio::spawn(async move { this.change_now(revision, effect, edit).await }).await)
     }
 
-    pub(in super::super) async fn start_server(self: &Arc<Self>) -> Result<Changed, Outcome> {
+    pub(in super::super) async fn start_server(self: &Arc<Self>) -> Result<Changed, ChangeFailure> {
         let this = Arc::clone(self);
         finished(
             tokio::spawn(async move {
@@ -83,16 +83,16 @@ impl Controller {
         )
     }
 
-    pub(in super::super) async fn stop_server(self: &Arc<Self>) -> Result<Changed, Outcome> {
+    pub(in super::super) async fn stop_server(self: &Arc<Self>) -> Result<Changed, ChangeFailure> {
         let this = Arc::clone(self);
         finished(
             tokio::spawn(async move {
                 this.faults.admit_change()?;
-                let mut plant = this.server.lock().await;
-                plant.admit()?;
-                plant.stop().await;
+                let mut slot = this.server.lock().await;
+                slot.admit()?;
+                slot.stop().await;
                 memory::give_back();
-                *this.standing.lock() = Standing::Stopped;
+                *this.server_state.lock() = ServerState::Stopped;
                 Ok(this.changed())
             })
             .await,
@@ -104,16 +104,16 @@ impl Controller {
         self: &Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<(Changed, T), Outcome> {
+        edit: impl FnOnce(&mut State, &OperatingContext) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<(Changed, T), ChangeFailure> {
         let this = Arc::clone(self);
         let change = async move {
-            let mut plant = this.server.lock().await;
+            let mut slot = this.server.lock().await;
             // Before the change: a full log keeps the server from starting.
             this.with_log(ServerLog::put_aside).await?;
-            match this.apply(&mut plant, revision, effect, edit).await {
+            match this.apply(&mut slot, revision, effect, edit).await {
                 Ok(Applied { changed, value, .. }) => {
-                    drop(plant);
+                    drop(slot);
                     if let Err(problem) = this.with_log(ServerLog::delete_aside).await {
                         tracing::warn!(%problem, "the old server log was not deleted");
                     }
@@ -142,18 +142,18 @@ impl Controller {
         self: Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<(Changed, T), Outcome> {
-        let mut plant = self.server.lock().await;
-        let Applied { changed, value, .. } = self.apply(&mut plant, revision, effect, edit).await?;
-        drop(plant);
+        edit: impl FnOnce(&mut State, &OperatingContext) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<(Changed, T), ChangeFailure> {
+        let mut slot = self.server.lock().await;
+        let Applied { changed, value, .. } = self.apply(&mut slot, revision, effect, edit).await?;
+        drop(slot);
         self.answer()?;
         Ok((changed, value))
     }
 
     /// Whether the answer to a change that was applied reaches who asked for it.
-    pub(super) fn answer(&self) -> Result<(), Outcome> {
-        if self.faults.take_drop(DropPoint::AfterApply) { Err(Outcome::Dropped) } else { Ok(()) }
+    pub(super) fn answer(&self) -> Result<(), ChangeFailure> {
+        if self.faults.take_drop(DropPoint::AfterApply) { Err(ChangeFailure::Dropped) } else { Ok(()) }
     }
 
     pub(super) fn check_revision(&self, revision: RevisionToken) -> Result<(), Problem> {
@@ -167,68 +167,68 @@ impl Controller {
     /// A change, by whoever has its turn.
     pub(super) async fn apply<T: Send + 'static>(
         &self,
-        plant: &mut Plant,
+        slot: &mut ServerSlot,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut State, &Surroundings) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<Applied<T>, Outcome> {
-        plant.admit()?;
+        edit: impl FnOnce(&mut State, &OperatingContext) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<Applied<T>, ChangeFailure> {
+        slot.admit()?;
         self.faults.admit_change()?;
         self.check_revision(revision)?;
-        let effect = if plant.is_running() { effect } else { Effect::Nothing };
+        let effect = if slot.is_running() { effect } else { Effect::Nothing };
         let old = self.state();
-        let (store, around, copy) = (Arc::clone(&self.store), self.surroundings(), State::clone(&old));
+        let (store, context, copy) = (Arc::clone(&self.store), self.operating_context(), State::clone(&old));
         let (new, value, lists, staged) = blocking(move || {
             let mut state = copy;
-            let value = edit(&mut state, &around)?;
+            let value = edit(&mut state, &context)?;
             state.revision += 1;
             state.check()?;
             let lists = if effect == Effect::Trust { Some(trust_lists(&state)?) } else { None };
             let staged = store.stage(&state)?;
-            Ok::<_, Outcome>((state, value, lists, staged))
+            Ok::<_, ChangeFailure>((state, value, lists, staged))
         })
         .await?;
         if self.faults.take_drop(DropPoint::BeforeApply) {
-            return Err(Outcome::Dropped);
+            return Err(ChangeFailure::Dropped);
         }
 
-        self.take_effect(plant, effect, &old, &new).await?;
+        self.take_effect(slot, effect, &old, &new).await?;
         if let Err(error) = blocking(move || staged.commit()).await {
             match effect {
                 Effect::Restart => {
-                    plant.stop().await;
-                    self.restore(plant, &old).await;
+                    slot.stop().await;
+                    self.restore(slot, &old).await;
                 }
-                Effect::CertificateLost if !plant.is_running() => self.restore(plant, &old).await,
+                Effect::CertificateLost if !slot.is_running() => self.restore(slot, &old).await,
                 Effect::CertificateLost | Effect::Trust | Effect::Nothing => {}
             }
             return Err(error.into());
         }
         *self.state.write() = Arc::new(new);
-        if effect == Effect::CertificateLost && !plant.is_running() {
-            *self.standing.lock() = Standing::Stopped;
+        if effect == Effect::CertificateLost && !slot.is_running() {
+            *self.server_state.lock() = ServerState::Stopped;
         }
         // Last, and it cannot fail: a connection that is ended cannot be given back.
         let cut = match lists {
-            Some(lists) => plant.trust(lists).await,
+            Some(lists) => slot.trust(lists).await,
             None => Vec::new(),
         };
         Ok(Applied { changed: self.changed(), value, cut })
     }
 
     pub(in super::super) async fn start_server_now(&self) -> Result<(), Problem> {
-        let mut plant = self.server.lock().await;
-        plant.admit()?;
-        if plant.is_running() {
+        let mut slot = self.server.lock().await;
+        slot.admit()?;
+        if slot.is_running() {
             return Ok(());
         }
         // One that died by itself.
-        plant.stop().await;
+        slot.stop().await;
         let started = if self.faults.get().server_error { Err(fault()) } else { self.run(&self.state()).await };
         match started {
             Ok(server) => {
-                plant.server = Some(server);
-                *self.standing.lock() = Standing::Running;
+                slot.server = Some(server);
+                *self.server_state.lock() = ServerState::Running;
                 Ok(())
             }
             Err(problem) => {
@@ -239,12 +239,18 @@ impl Controller {
     }
 
     /// Gives the running server the new configuration; if that fails, the old one again.
-    async fn take_effect(&self, plant: &mut Plant, effect: Effect, old: &State, new: &State) -> Result<(), Problem> {
+    async fn take_effect(
+        &self,
+        slot: &mut ServerSlot,
+        effect: Effect,
+        old: &State,
+        new: &State,
+    ) -> Result<(), Problem> {
         match effect {
-            Effect::Restart => self.restart(plant, old, new).await,
+            Effect::Restart => self.restart(slot, old, new).await,
             Effect::CertificateLost => {
                 if new.selected_certificate().is_none() {
-                    plant.stop().await;
+                    slot.stop().await;
                 }
                 Ok(())
             }
@@ -253,29 +259,29 @@ impl Controller {
         }
     }
 
-    async fn restart(&self, plant: &mut Plant, old: &State, new: &State) -> Result<(), Problem> {
+    async fn restart(&self, slot: &mut ServerSlot, old: &State, new: &State) -> Result<(), Problem> {
         // A configuration that cannot run is refused before anything is stopped.
-        new.check_start(&self.surroundings())?;
-        plant.stop().await;
+        new.check_start(&self.operating_context())?;
+        slot.stop().await;
         let started = if self.faults.get().server_error { Err(fault()) } else { self.run(new).await };
         match started {
             Ok(server) => {
-                plant.server = Some(server);
+                slot.server = Some(server);
                 Ok(())
             }
             Err(problem) => {
-                self.restore(plant, old).await;
+                self.restore(slot, old).await;
                 Err(problem)
             }
         }
     }
 
     /// Puts back the server that ran until a moment ago. Should even that fail, the status says so.
-    async fn restore(&self, plant: &mut Plant, old: &State) {
+    async fn restore(&self, slot: &mut ServerSlot, old: &State) {
         for attempt in 1..=RESTORE_ATTEMPTS {
             match self.run(old).await {
                 Ok(server) => {
-                    plant.server = Some(server);
+                    slot.server = Some(server);
                     return;
                 }
                 Err(problem) if attempt == RESTORE_ATTEMPTS => {
@@ -310,20 +316,20 @@ impl Controller {
 
     /// Parses what may be megabytes of CRLs: off the async threads.
     async fn config(&self, state: &State) -> Result<OpcUaConfig, Problem> {
-        let (state, around, folder) = (state.clone(), self.surroundings(), self.folder.clone());
-        spawn_blocking(move || opcua_config(&state, &around, &folder))
+        let (state, context, folder) = (state.clone(), self.operating_context(), self.folder.clone());
+        spawn_blocking(move || opcua_config(&state, &context, &folder))
             .await
             .map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?
     }
 
     pub(in super::super) async fn switch_off(&self) {
-        let mut plant = self.server.lock().await;
-        plant.off = true;
-        if plant.server.is_some() {
-            plant.stop().await;
+        let mut slot = self.server.lock().await;
+        slot.off = true;
+        if slot.server.is_some() {
+            slot.stop().await;
             memory::give_back();
         }
-        *self.standing.lock() = Standing::Stopped;
+        *self.server_state.lock() = ServerState::Stopped;
     }
 }
 
@@ -332,7 +338,9 @@ fn fault() -> Problem {
     Problem::with_detail(ErrorCode::ServerError, "a fault switch is on")
 }
 
-pub(super) fn finished<T>(joined: Result<Result<T, Outcome>, tokio::task::JoinError>) -> Result<T, Outcome> {
+pub(super) fn finished<T>(
+    joined: Result<Result<T, ChangeFailure>, tokio::task::JoinError>,
+) -> Result<T, ChangeFailure> {
     joined.unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error).into()))
 }
 

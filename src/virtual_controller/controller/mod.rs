@@ -4,14 +4,14 @@
 //! | file | its one idea |
 //! |---|---|
 //! | `mod` | [`Controller`]: opened from its folder |
-//! | `questions` | what the management protocol asks |
+//! | `queries` | reads of the state, which never wait |
 //! | `change` | changes, whole or not at all |
 //! | `trust` | client lists and CRLs: a change, and the rejected list beside it |
-//! | `plant` | the OPC UA server, made of a state |
+//! | `server_slot` | the OPC UA server, made of a state |
 
 mod change;
-mod plant;
-mod questions;
+mod queries;
+mod server_slot;
 mod trust;
 
 use std::net::{IpAddr, SocketAddr};
@@ -23,15 +23,15 @@ use thiserror::Error;
 use tokio::sync::Mutex as AsyncMutex;
 use tokio::task::spawn_blocking;
 
-pub(super) use change::{Effect, Outcome};
-use plant::Plant;
+pub(super) use change::{ChangeFailure, Effect};
+use server_slot::ServerSlot;
 
 use super::faults::Faults;
 use super::new_controller::NewController;
 use super::opcua::AdmissionOptions;
 use super::rejected::RejectedClients;
 use super::server_log::ServerLog;
-use super::state::{State, Surroundings};
+use super::state::{OperatingContext, State};
 use super::store::{Store, StoreError};
 use crate::model::{ErrorCode, Problem};
 
@@ -78,12 +78,12 @@ pub(super) struct Controller {
     bind: IpAddr,
     management_port: u16,
     admission: AdmissionOptions,
-    server: AsyncMutex<Plant>,
-    standing: Mutex<Standing>,
+    server: AsyncMutex<ServerSlot>,
+    server_state: Mutex<ServerState>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Standing {
+enum ServerState {
     Stopped,
     Running,
     /// Why the server is not running although it should be, found at this revision of the configuration. Shown as long as
@@ -100,12 +100,12 @@ impl Controller {
         let ControllerSpec { folder, bind, admission, initial, management_port: _ } = spec;
         let faults = Faults::default();
         let store = Store::open(&folder, faults.clone())?;
-        let around = Surroundings { now: faults.now(), bind, management_port };
+        let context = OperatingContext { now: faults.now(), bind, management_port };
         let (store, state) = spawn_blocking(move || {
             let state = match store.load()? {
                 Some(state) => state,
                 None => {
-                    let state = initial.make(&around).map_err(SwitchOnError::Initial)?;
+                    let state = initial.make(&context).map_err(SwitchOnError::Initial)?;
                     store.save(&state)?;
                     state
                 }
@@ -124,8 +124,8 @@ impl Controller {
             bind,
             management_port,
             admission,
-            server: AsyncMutex::new(Plant { server: None, off: false }),
-            standing: Mutex::new(Standing::Stopped),
+            server: AsyncMutex::new(ServerSlot { server: None, off: false }),
+            server_state: Mutex::new(ServerState::Stopped),
         })
     }
 
@@ -145,19 +145,19 @@ impl Controller {
         &self.log
     }
 
-    pub(super) fn surroundings(&self) -> Surroundings {
-        Surroundings { now: self.faults.now(), bind: self.bind, management_port: self.management_port }
+    pub(super) fn operating_context(&self) -> OperatingContext {
+        OperatingContext { now: self.faults.now(), bind: self.bind, management_port: self.management_port }
     }
 
     fn failed(&self, code: ErrorCode) {
-        *self.standing.lock() = Standing::Failed { code, revision: self.state().revision };
+        *self.server_state.lock() = ServerState::Failed { code, revision: self.state().revision };
     }
 
     /// Stops the OPC UA server if its log is full.
     pub(super) async fn stop_if_log_is_full(&self) {
-        let mut plant = self.server.lock().await;
-        if plant.is_running() && self.state().settings.server_log && self.log.is_full() {
-            plant.stop().await;
+        let mut slot = self.server.lock().await;
+        if slot.is_running() && self.state().settings.server_log && self.log.is_full() {
+            slot.stop().await;
             self.failed(ErrorCode::ServerLogFull);
         }
     }

@@ -3,11 +3,11 @@ use std::sync::Arc;
 use tokio::task::spawn_blocking;
 
 use super::change::{Applied, finished};
-use super::{Controller, Effect, Outcome};
+use super::{ChangeFailure, Controller, Effect};
 use crate::model::{ClientList, ErrorCode, Problem, RevisionToken, TrustStep};
 use crate::protocol::{EditTrust, TrustChanged};
-use crate::virtual_controller::rejected::{Entry, RejectedClients};
-use crate::virtual_controller::state::{State, Surroundings};
+use crate::virtual_controller::rejected::{RejectedClients, RejectedEntry};
+use crate::virtual_controller::state::{OperatingContext, State};
 use crate::virtual_controller::trust_changes::{self, Rejected};
 
 impl Controller {
@@ -15,7 +15,10 @@ impl Controller {
     ///
     /// The rejected list is another file than the state. What comes into it is written before the state, what leaves it
     /// after: a process killed in between comes back with a certificate in two lists, and takes it out of this one.
-    pub(in super::super) async fn edit_trust(self: &Arc<Self>, change: EditTrust) -> Result<TrustChanged, Outcome> {
+    pub(in super::super) async fn edit_trust(
+        self: &Arc<Self>,
+        change: EditTrust,
+    ) -> Result<TrustChanged, ChangeFailure> {
         let this = Arc::clone(self);
         finished(tokio::spawn(async move { this.edit_trust_now(change).await }).await)
     }
@@ -23,23 +26,23 @@ impl Controller {
     async fn edit_trust_now(
         self: Arc<Self>,
         EditTrust { revision, steps }: EditTrust,
-    ) -> Result<TrustChanged, Outcome> {
-        let mut plant = self.server.lock().await;
+    ) -> Result<TrustChanged, ChangeFailure> {
+        let mut slot = self.server.lock().await;
         let done = if let Some(thumbprints) = only_forgets(&steps) {
-            plant.admit()?;
+            slot.admit()?;
             self.forget(revision, thumbprints).await?
         } else {
             let rejected = Arc::clone(&self.rejected);
-            let edit = move |state: &mut State, around: &Surroundings| {
+            let edit = move |state: &mut State, context: &OperatingContext| {
                 let Rejected { arrived, left } =
-                    trust_changes::edit_trust(state, around, steps, rejected.certificates())?;
-                Draft::new(rejected, arrived, left)
+                    trust_changes::edit_trust(state, context, steps, rejected.certificates())?;
+                RejectedListTransaction::new(rejected, arrived, left)
             };
-            let Applied { changed, value, cut } = self.apply(&mut plant, revision, Effect::Trust, edit).await?;
+            let Applied { changed, value, cut } = self.apply(&mut slot, revision, Effect::Trust, edit).await?;
             value.settle().await;
             TrustChanged { changed, cut }
         };
-        drop(plant);
+        drop(slot);
         self.answer()?;
         Ok(done)
     }
@@ -62,24 +65,24 @@ impl Controller {
 }
 
 /// The rejected list's part of a change: thrown away, unless the change comes into force.
-struct Draft {
+struct RejectedListTransaction {
     rejected: Arc<RejectedClients>,
     arrived: Vec<String>,
     /// Entries that had to go for those.
-    displaced: Vec<Entry>,
+    displaced: Vec<RejectedEntry>,
     left: Vec<String>,
 }
 
-impl Draft {
+impl RejectedListTransaction {
     /// Blocks for the disk.
-    fn new(rejected: Arc<RejectedClients>, arrived: Vec<Entry>, left: Vec<String>) -> Result<Self, Problem> {
+    fn new(rejected: Arc<RejectedClients>, arrived: Vec<RejectedEntry>, left: Vec<String>) -> Result<Self, Problem> {
         let thumbprints = arrived.iter().map(|entry| entry.thumbprint.clone()).collect();
-        let mut draft = Self { rejected, arrived: thumbprints, displaced: Vec::new(), left };
+        let mut transaction = Self { rejected, arrived: thumbprints, displaced: Vec::new(), left };
         if !arrived.is_empty() {
-            draft.displaced = draft.rejected.insert(arrived);
-            draft.rejected.write()?;
+            transaction.displaced = transaction.rejected.insert(arrived);
+            transaction.rejected.write()?;
         }
-        Ok(draft)
+        Ok(transaction)
     }
 
     /// The change is in force. That the disk does not hear of it at once does no harm: see [`RejectedClients::open`].
@@ -91,7 +94,7 @@ impl Draft {
     }
 }
 
-impl Drop for Draft {
+impl Drop for RejectedListTransaction {
     fn drop(&mut self) {
         self.rejected.take_back(&self.arrived, std::mem::take(&mut self.displaced));
     }

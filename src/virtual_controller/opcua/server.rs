@@ -17,7 +17,7 @@ use tokio::task::JoinHandle;
 
 use super::address_space::Controller;
 use super::admission::{
-    Attached, CutConnection, Gate, Guarded, InnerServer, Judge, Own, Reporter, Settings, deaf_listener,
+    Attached, CutConnection, Gate, Guarded, InnerServer, Judge, Reporter, ServerKeyPair, Settings, deaf_listener,
 };
 use super::certificate_store::{OWN_CERTIFICATE, OWN_KEY, PkiFolder};
 use super::config::OpcUaConfig;
@@ -165,7 +165,7 @@ fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHan
     let pki = PkiFolder::create(config.pki_folder.clone()).map_err(failed)?;
     let pem = key.to_pkcs8_pem(LineEnding::LF).map_err(failed)?;
     pki.write_own(&config.certificate_der, &pem).map_err(failed)?;
-    let own = Own::new(&config.certificate_der, &pem).map_err(StartError::InvalidParameter)?;
+    let own = ServerKeyPair::new(&config.certificate_der, &pem).map_err(StartError::InvalidParameter)?;
     let gate = Arc::new(Gate::new(
         Settings::new(config.policies.clone(), config.detailed_status),
         InnerServer::default(),

@@ -12,18 +12,18 @@ use tokio::time::{Instant, timeout, timeout_at};
 
 use super::channel::{Asked, Sent};
 use super::channel_keys::{Beginning, ChannelKeys, Sender, decode, token_of};
+use super::chunk_buffer::ChunkBuffer;
 use super::connections::{Connection, Identity, Stop};
 use super::fault::Fault;
 use super::frame::{Header, Kind, channel_of};
 use super::gate::Gate;
 use super::logins;
-use super::passage::Passage;
 
 /// From one client to the server: whole chunks only, and none that was not looked at.
 pub(super) struct ClientToServer<'a> {
     gate: &'a Arc<Gate>,
     connection: &'a Arc<Connection>,
-    passage: Passage,
+    chunk_buffer: ChunkBuffer,
     identity: Option<Arc<Identity>>,
     /// A message has begun whose last chunk was not seen yet.
     in_message: bool,
@@ -58,7 +58,7 @@ impl<'a> ClientToServer<'a> {
         Self {
             gate,
             connection,
-            passage: Passage::new(bytes),
+            chunk_buffer: ChunkBuffer::new(bytes),
             identity: None,
             in_message: false,
             is_closed: false,
@@ -74,23 +74,23 @@ impl<'a> ClientToServer<'a> {
         deadline: Instant,
     ) -> Result<(), Stop> {
         if let Some(hello) = self.next()? {
-            self.passage.pass(hello);
+            self.chunk_buffer.pass(hello);
         }
         loop {
             self.look().await?;
-            if !self.passage.good().is_empty() {
+            if !self.chunk_buffer.good().is_empty() {
                 self.can_leave = false;
-                if to.write_all(self.passage.good()).await.is_err() {
+                if to.write_all(self.chunk_buffer.good()).await.is_err() {
                     return Ok(());
                 }
                 self.can_leave = true;
-                self.passage.sent();
+                self.chunk_buffer.sent();
             }
             if self.is_closed {
                 self.leave(to).await;
                 return Ok(());
             }
-            let read = from.read_buf(self.passage.room());
+            let read = from.read_buf(self.chunk_buffer.room());
             let read = match self.identity {
                 Some(_) => read.await,
                 None => timeout_at(deadline, read).await.map_err(|_| self.gate.refuse(self.connection, too_late()))?,
@@ -143,12 +143,12 @@ impl<'a> ClientToServer<'a> {
     }
 
     fn next(&mut self) -> Result<Option<Header>, Stop> {
-        self.passage.next(self.gate.limits().chunk).map_err(|fault| self.gate.refuse(self.connection, fault))
+        self.chunk_buffer.next(self.gate.limits().chunk).map_err(|fault| self.gate.refuse(self.connection, fault))
     }
 
     /// False while the chunk is not whole.
     async fn open(&mut self, header: Header) -> Result<bool, Stop> {
-        let Some(chunk) = self.passage.chunk(header) else { return Ok(false) };
+        let Some(chunk) = self.chunk_buffer.chunk(header) else { return Ok(false) };
         let identity = self.gate.admit(self.connection, chunk).await?;
         let secured = self.connection.state.lock().secured.clone();
         match secured {
@@ -159,7 +159,7 @@ impl<'a> ClientToServer<'a> {
                 let (sequence, sealed) =
                     sealed.map_err(|fault| self.gate.unproven(self.connection, &identity, fault))?;
                 self.connection.channel.lock().renewed(sequence);
-                self.passage.replace(header, sealed);
+                self.chunk_buffer.replace(header, sealed);
             }
             None => {
                 let sequence = super::frame::Open::parse(chunk).ok().and_then(|open| sequence_at(chunk, open.body));
@@ -169,7 +169,7 @@ impl<'a> ClientToServer<'a> {
                 }
                 channel.renewed(sequence.unwrap_or_default());
                 drop(channel);
-                self.passage.pass(header);
+                self.chunk_buffer.pass(header);
             }
         }
         self.identity = Some(identity);
@@ -178,7 +178,7 @@ impl<'a> ClientToServer<'a> {
 
     /// A chunk of a message. False while it is not whole.
     fn message(&mut self, header: Header) -> Result<bool, Fault> {
-        let Some(chunk) = self.passage.chunk(header) else { return Ok(false) };
+        let Some(chunk) = self.chunk_buffer.chunk(header) else { return Ok(false) };
         let (channel, token) = (channel_of(chunk).unwrap_or_default(), token_of(chunk).unwrap_or_default());
         let keys = self.connection.channel.lock().keys(token);
         let keys = keys.ok_or_else(|| {
@@ -192,8 +192,8 @@ impl<'a> ClientToServer<'a> {
         self.in_message = header.last == b'C';
         let edited = if is_first { self.request(header, chunk, &keys, beginning)? } else { None };
         match edited {
-            Some(edited) => self.passage.replace(header, edited),
-            None => self.passage.pass(header),
+            Some(edited) => self.chunk_buffer.replace(header, edited),
+            None => self.chunk_buffer.pass(header),
         }
         Ok(true)
     }

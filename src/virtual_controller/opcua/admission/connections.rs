@@ -10,12 +10,14 @@ use super::channel::Channel;
 use super::fault::Fault;
 use super::rewrap::SecuredClient;
 use crate::pki::Certificate;
-use crate::virtual_controller::connection_limits::{Activity, Occupant, Place, PlaceLimits, Places, Source, Standing};
+use crate::virtual_controller::connection_limits::{
+    Activity, ConnectionLimits, ConnectionSlot, ConnectionSlots, ConnectionStage, LimitedConnection, Source,
+};
 
 /// The connections there are, and the secure channel of each.
 #[derive(Debug)]
 pub(super) struct Connections {
-    places: Arc<Places<Connection>>,
+    slots: Arc<ConnectionSlots<Connection>>,
     by_channel: Mutex<HashMap<u32, Arc<Connection>>>,
 }
 
@@ -94,30 +96,30 @@ pub(super) async fn stop_asked(stopped: &mut watch::Receiver<Option<Stop>>) -> S
 #[derive(Debug)]
 pub(super) struct Entered<'a> {
     connections: &'a Connections,
-    place: Place<Connection>,
+    slot: ConnectionSlot<Connection>,
 }
 
 impl Connections {
-    pub(super) fn new(limits: PlaceLimits) -> Self {
-        Self { places: Arc::new(Places::new(limits)), by_channel: Mutex::default() }
+    pub(super) fn new(limits: ConnectionLimits) -> Self {
+        Self { slots: Arc::new(ConnectionSlots::new(limits)), by_channel: Mutex::default() }
     }
 
-    /// Takes in one more, as [`Places::enter`] does.
+    /// Takes in one more, as [`ConnectionSlots::enter`] does.
     pub(super) fn enter(&self, peer: SocketAddr, stop: watch::Sender<Option<Stop>>) -> Option<Entered<'_>> {
-        let place = self.places.enter(Connection::new(peer, stop))?;
-        Some(Entered { connections: self, place })
+        let slot = self.slots.enter(Connection::new(peer, stop))?;
+        Some(Entered { connections: self, slot })
     }
 
     /// Notes which secure channel the server gave a connection.
     pub(super) fn opened(&self, connection: &Arc<Connection>, channel: u32) {
         let mut by_channel = self.by_channel.lock();
-        if channel == 0 || !self.places.has(connection) {
+        if channel == 0 || !self.slots.has(connection) {
             return;
         }
         let before = {
             let mut state = connection.state.lock();
             let is_proven = state.identity.as_ref().is_some_and(|identity| identity.leaf().is_some());
-            connection.activity.reached(if is_proven { Standing::Proven } else { Standing::Opened });
+            connection.activity.reached(if is_proven { ConnectionStage::Proven } else { ConnectionStage::Opened });
             state.channel.replace(channel)
         };
         if let Some(before) = before {
@@ -139,13 +141,13 @@ impl Connections {
     }
 
     pub(super) fn all(&self) -> Vec<Arc<Connection>> {
-        self.places.all()
+        self.slots.all()
     }
 }
 
 impl Entered<'_> {
     pub(super) fn connection(&self) -> &Arc<Connection> {
-        &self.place.connection
+        &self.slot.connection
     }
 }
 
@@ -204,7 +206,7 @@ impl Connection {
     }
 }
 
-impl Occupant for Connection {
+impl LimitedConnection for Connection {
     fn source(&self) -> Source {
         Source::new(self.peer.ip())
     }
@@ -230,7 +232,7 @@ mod tests {
 
     #[test]
     fn a_connection_is_known_by_its_channel_until_it_ends() {
-        let limits = PlaceLimits { connections: 4, per_source: 3, silence: Duration::from_secs(60) };
+        let limits = ConnectionLimits { connections: 4, per_source: 3, silence: Duration::from_secs(60) };
         let connections = Connections::new(limits);
         let peer = SocketAddr::from(([192, 168, 0, 1], 50_000));
         let entered = connections.enter(peer, watch::channel(None).0).unwrap();

@@ -17,11 +17,11 @@ use super::inner_server::InnerServer;
 use super::judge::{self, Judge, invalid, read_chain};
 use super::limits::Limits;
 use super::report::Reporter;
-use super::rewrap::{Own, SecuredClient};
+use super::rewrap::{SecuredClient, ServerKeyPair};
 use super::sessions::{SessionNumber, Sessions};
 use crate::model::SecurityPolicy;
 use crate::pki::{Certificate, CertificateFlaw, Rejection, TrustLists, check_application_uri};
-use crate::virtual_controller::connection_limits::Standing;
+use crate::virtual_controller::connection_limits::ConnectionStage;
 
 /// Stands in front of the OPC UA crate's server, which has no port of its own, and lets in whom it may.
 ///
@@ -31,7 +31,7 @@ use crate::virtual_controller::connection_limits::Standing;
 pub(in super::super) struct Gate {
     settings: Settings,
     pub(super) server: InnerServer,
-    own: Arc<Own>,
+    own: Arc<ServerKeyPair>,
     judge: Judge,
     pki: PkiFolder,
     pub(super) connections: Connections,
@@ -67,12 +67,12 @@ impl Gate {
     pub(in super::super) fn new(
         settings: Settings,
         server: InnerServer,
-        own: Own,
+        own: ServerKeyPair,
         judge: Judge,
         pki: PkiFolder,
         reporter: Reporter,
     ) -> Self {
-        let connections = Connections::new(settings.limits.places);
+        let connections = Connections::new(settings.limits.slots);
         Self { settings, server, own: Arc::new(own), judge, pki, connections, sessions: Sessions::default(), reporter }
     }
 
@@ -112,7 +112,7 @@ impl Gate {
         &self.settings.limits
     }
 
-    pub(super) fn own(&self) -> &Arc<Own> {
+    pub(super) fn own(&self) -> &Arc<ServerKeyPair> {
         &self.own
     }
 
@@ -318,7 +318,7 @@ impl Gate {
             return Err(StatusCode::from(rejection.status().code()));
         }
         connection.state.lock().add_session(session);
-        connection.activity.reached(Standing::InSession);
+        connection.activity.reached(ConnectionStage::InSession);
         connection.activity.used();
         Ok(())
     }

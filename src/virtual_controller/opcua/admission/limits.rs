@@ -1,12 +1,12 @@
 use std::time::Duration;
 
-use crate::virtual_controller::connection_limits::PlaceLimits;
+use crate::virtual_controller::connection_limits::ConnectionLimits;
 
 /// What peers may take of a server before, and without, being let in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Limits {
     /// Connections: far more than the sessions a server takes, since discovery needs connections too.
-    pub(super) places: PlaceLimits,
+    pub(super) slots: ConnectionLimits,
     /// From the first byte of a connection to the end of its first OpenSecureChannel request.
     pub(super) open: Duration,
     /// From there to a session.
@@ -22,7 +22,7 @@ pub(super) struct Limits {
 impl Default for Limits {
     fn default() -> Self {
         Self {
-            places: PlaceLimits {
+            slots: ConnectionLimits {
                 connections: 100,
                 per_source: 50,
                 // As long as a session lives.

@@ -5,7 +5,7 @@ use opcua::types::UserNameIdentityToken;
 use super::connections::Connection;
 use super::gate::Gate;
 use crate::pki::Fingerprint;
-use crate::virtual_controller::connection_limits::{Occupant as _, Source};
+use crate::virtual_controller::connection_limits::{LimitedConnection as _, Source};
 
 /// Who logs in with a password.
 #[derive(Debug, Clone, PartialEq, Eq)]

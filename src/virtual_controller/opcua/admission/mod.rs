@@ -12,7 +12,7 @@
 //! | `inner_server` | how the gate, and nothing else, reaches the crate's server |
 //! | `client_to_server` | whole chunks only, and requests for sessions and logins looked at |
 //! | `server_to_client` | the answers to them, and last words |
-//! | `passage` | bytes of one direction, chunk by chunk |
+//! | `chunk_buffer` | bytes of one direction, chunk by chunk |
 //! | `frame` | the parts of OPC UA's chunks that are not encrypted |
 //! | `rewrap` | OpenSecureChannel opened and sealed again, so that the gate has the keys of the channel |
 //! | `channel_keys` | messages opened and closed with them |
@@ -49,6 +49,7 @@
 
 mod channel;
 mod channel_keys;
+mod chunk_buffer;
 mod client_to_server;
 mod connections;
 mod fault;
@@ -59,7 +60,6 @@ mod inner_server;
 mod judge;
 mod limits;
 mod logins;
-mod passage;
 #[cfg(test)]
 mod properties;
 mod report;
@@ -79,7 +79,7 @@ pub(super) use judge::Judge;
 pub(super) use logins::Login;
 pub use report::Refusals;
 pub(super) use report::Reporter;
-pub(super) use rewrap::Own;
+pub(super) use rewrap::ServerKeyPair;
 
 /// Sessions the crate's server takes: those of all clients, and those that are being closed.
 pub(super) const SESSIONS_BEHIND_THE_GATE: usize = 10 * sessions::MAX_SESSIONS;
@@ -88,8 +88,8 @@ pub(super) const SESSIONS_BEHIND_THE_GATE: usize = 10 * sessions::MAX_SESSIONS;
 #[cfg(test)]
 pub(super) mod wire {
     pub(in super::super) use super::channel_keys::{ChannelKeys, Sender};
+    pub(in super::super) use super::chunk_buffer::ChunkBuffer;
     pub(in super::super) use super::frame::tests;
     pub(in super::super) use super::frame::{Kind, Open};
-    pub(in super::super) use super::passage::Passage;
     pub(in super::super) use super::rewrap::{Envelope, unseal};
 }

@@ -6,10 +6,10 @@ use opcua::types::{
 };
 use proptest::prelude::*;
 
+use super::chunk_buffer::ChunkBuffer;
 use super::frame::{
     HEADER, Header, Kind, MAX_HELLO, MAX_OPEN, Open, SYMMETRIC_HEADER, split_certificates, tests::open,
 };
-use super::passage::Passage;
 use super::{
     channel_keys::{ChannelKeys, Sender, decode},
     logins,
@@ -146,27 +146,27 @@ proptest! {
             }
             sent.extend(whole);
         }
-        let (mut passage, mut arrived, mut seen) = (Passage::default(), Vec::<u8>::new(), 0);
+        let (mut chunk_buffer, mut arrived, mut seen) = (ChunkBuffer::default(), Vec::<u8>::new(), 0);
         let mut pieces = pieces.into_iter().cycle();
         let mut rest = &sent[..];
         while !rest.is_empty() {
             let (piece, after) = rest.split_at(pieces.next().expect("endless").min(rest.len()));
             rest = after;
-            passage.room().extend(piece);
-            while let Some(header) = passage.next(CHUNK).unwrap() {
+            chunk_buffer.room().extend(piece);
+            while let Some(header) = chunk_buffer.next(CHUNK).unwrap() {
                 match chunks[seen].1 {
-                    Some(_) if passage.chunk(header).is_none() => break,
-                    Some(length) => passage.replace(header, vec![0xee; usize::from(length)]),
-                    None => passage.pass(header),
+                    Some(_) if chunk_buffer.chunk(header).is_none() => break,
+                    Some(length) => chunk_buffer.replace(header, vec![0xee; usize::from(length)]),
+                    None => chunk_buffer.pass(header),
                 }
                 seen += 1;
             }
-            arrived.extend(passage.good());
-            passage.sent();
+            arrived.extend(chunk_buffer.good());
+            chunk_buffer.sent();
         }
         prop_assert_eq!(seen, chunks.len());
         prop_assert_eq!(arrived, expected);
-        prop_assert!(passage.is_between_chunks());
+        prop_assert!(chunk_buffer.is_between_chunks());
     }
 
     #[test]

@@ -10,7 +10,7 @@ use super::fault::Fault;
 use super::frame::Open;
 
 /// The server's own certificate and key, as the OPC UA crate takes them.
-pub(in super::super) struct Own {
+pub(in super::super) struct ServerKeyPair {
     key: PrivateKey,
     public: PublicKey,
     certificate: Vec<u8>,
@@ -30,7 +30,7 @@ pub(super) struct SecuredClient {
     asked: Mutex<Vec<u8>>,
 }
 
-impl Own {
+impl ServerKeyPair {
     pub(in super::super) fn new(certificate: &[u8], key_pem: &str) -> Result<Self, String> {
         let key = PrivateKey::from_pem(key_pem.as_bytes()).map_err(|_| "the server's key cannot be read".to_owned())?;
         let thumbprint = thumbprint(certificate).ok_or("the server's certificate cannot be read")?;
@@ -52,7 +52,7 @@ impl SecuredClient {
     }
 
     /// The client's request as the server can read it, if the client signed it; and its sequence number.
-    pub(super) fn request(&self, own: &Own, chunk: &[u8]) -> Result<(u32, Vec<u8>), Fault> {
+    pub(super) fn request(&self, own: &ServerKeyPair, chunk: &[u8]) -> Result<(u32, Vec<u8>), Fault> {
         let body = unseal(self.policy, chunk, &own.key, &self.public)?;
         let sequence = sequence_at(&body, 0).ok_or_else(refused)?;
         let sealed = self.seal(own, chunk, &body, &own.thumbprint, &own.public)?;
@@ -61,7 +61,7 @@ impl SecuredClient {
     }
 
     /// The server's answer as the client expects it, and the keys agreed on with it.
-    pub(super) fn answer(&self, own: &Own, chunk: &[u8]) -> Result<(Option<ChannelKeys>, Vec<u8>), Fault> {
+    pub(super) fn answer(&self, own: &ServerKeyPair, chunk: &[u8]) -> Result<(Option<ChannelKeys>, Vec<u8>), Fault> {
         let body = unseal(self.policy, chunk, &own.key, &own.public)?;
         let keys = ChannelKeys::new(self.policy, &std::mem::take(&mut *self.asked.lock()), &body);
         Ok((keys, self.seal(own, chunk, &body, &self.thumbprint, &self.public)?))
@@ -69,7 +69,7 @@ impl SecuredClient {
 
     fn seal(
         &self,
-        own: &Own,
+        own: &ServerKeyPair,
         chunk: &[u8],
         body: &[u8],
         receiver_thumbprint: &[u8],
@@ -177,9 +177,11 @@ fn refused() -> Fault {
     Fault::new(StatusCode::BadSecurityChecksFailed, "the request is not secured as it should be")
 }
 
-impl fmt::Debug for Own {
+impl fmt::Debug for ServerKeyPair {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Own").field("thumbprint", &hex::encode_upper(&self.thumbprint)).finish_non_exhaustive()
+        f.debug_struct("ServerKeyPair")
+            .field("thumbprint", &hex::encode_upper(&self.thumbprint))
+            .finish_non_exhaustive()
     }
 }
 

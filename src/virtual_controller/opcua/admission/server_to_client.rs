@@ -10,22 +10,22 @@ use tokio::time::{Instant, sleep_until, timeout};
 
 use super::channel::Asked;
 use super::channel_keys::{BEGINNING, ChannelKeys, SEQUENCE_HEADER, Sender, contexts, decode, token_of};
+use super::chunk_buffer::ChunkBuffer;
 use super::connections::{Connection, Stop, stop_asked};
 use super::fault::Fault;
 use super::frame::{Header, Kind, channel_of};
 use super::gate::Gate;
-use super::passage::Passage;
 
 /// From the server to one client. Says to the client why its connection ends, between two chunks.
 pub(super) struct ServerToClient<'a> {
     gate: &'a Gate,
     connection: &'a Arc<Connection>,
-    passage: Passage,
+    chunk_buffer: ChunkBuffer,
 }
 
 impl<'a> ServerToClient<'a> {
     pub(super) fn new(gate: &'a Gate, connection: &'a Arc<Connection>) -> Self {
-        Self { gate, connection, passage: Passage::default() }
+        Self { gate, connection, chunk_buffer: ChunkBuffer::default() }
     }
 
     /// Ends when the server has hung up, when the client takes nothing any more, or as `stopped` says. Whether the
@@ -39,7 +39,7 @@ impl<'a> ServerToClient<'a> {
         let (mut stop, mut boundary_by): (Option<Stop>, Option<Instant>) = (None, None);
         loop {
             if let Some(stop) = &stop
-                && self.passage.is_between_chunks()
+                && self.chunk_buffer.is_between_chunks()
             {
                 return say(to, stop).await;
             }
@@ -50,7 +50,7 @@ impl<'a> ServerToClient<'a> {
                     boundary_by = Some(Instant::now() + REST_OF_A_CHUNK);
                     continue;
                 }
-                read = from.read_buf(self.passage.room()) => if !matches!(read, Ok(1..)) {
+                read = from.read_buf(self.chunk_buffer.room()) => if !matches!(read, Ok(1..)) {
                     return to.shutdown().await.is_ok();
                 },
                 () = sleep_until(boundary_by.unwrap_or_else(Instant::now)), if boundary_by.is_some() => return false,
@@ -58,8 +58,8 @@ impl<'a> ServerToClient<'a> {
             if let Err(fault) = self.look().await {
                 self.connection.stop(Stop::Told(fault));
             }
-            if !self.passage.good().is_empty() {
-                let written = timeout(self.gate.limits().stall, to.write_all(self.passage.good()));
+            if !self.chunk_buffer.good().is_empty() {
+                let written = timeout(self.gate.limits().stall, to.write_all(self.chunk_buffer.good()));
                 // A client that reads nothing must not put off its end.
                 let overdue = async {
                     if stop.is_none() {
@@ -73,7 +73,7 @@ impl<'a> ServerToClient<'a> {
                     },
                     () = overdue => return false,
                 }
-                self.passage.sent();
+                self.chunk_buffer.sent();
             }
         }
     }
@@ -81,15 +81,15 @@ impl<'a> ServerToClient<'a> {
     /// Reads what the server still says to a client that has left, until it hangs up.
     pub(super) async fn hear_out(&mut self, from: &mut OwnedReadHalf) {
         loop {
-            self.passage.sent();
-            if self.look().await.is_err() || !matches!(from.read_buf(self.passage.room()).await, Ok(1..)) {
+            self.chunk_buffer.sent();
+            if self.look().await.is_err() || !matches!(from.read_buf(self.chunk_buffer.room()).await, Ok(1..)) {
                 return;
             }
         }
     }
 
     async fn look(&mut self) -> Result<(), Fault> {
-        while let Some(header) = self.passage.next(self.gate.limits().chunk)? {
+        while let Some(header) = self.chunk_buffer.next(self.gate.limits().chunk)? {
             match header.kind {
                 Kind::Open => {
                     if !self.opened(header).await? {
@@ -103,9 +103,9 @@ impl<'a> ServerToClient<'a> {
                 }
                 Kind::Error => {
                     self.gate.server_refused(self.connection);
-                    self.passage.pass(header);
+                    self.chunk_buffer.pass(header);
                 }
-                _ => self.passage.pass(header),
+                _ => self.chunk_buffer.pass(header),
             }
         }
         Ok(())
@@ -113,7 +113,7 @@ impl<'a> ServerToClient<'a> {
 
     /// The server has answered an OpenSecureChannel. False while the answer is not whole.
     async fn opened(&mut self, header: Header) -> Result<bool, Fault> {
-        let Some(chunk) = self.passage.chunk(header) else { return Ok(false) };
+        let Some(chunk) = self.chunk_buffer.chunk(header) else { return Ok(false) };
         if let Some(channel) = channel_of(chunk) {
             self.gate.opened(self.connection, channel);
         }
@@ -126,35 +126,35 @@ impl<'a> ServerToClient<'a> {
                 if let Some(keys) = keys {
                     self.connection.channel.lock().opened(keys);
                 }
-                self.passage.replace(header, sealed);
+                self.chunk_buffer.replace(header, sealed);
             }
-            None => self.passage.pass(header),
+            None => self.chunk_buffer.pass(header),
         }
         Ok(true)
     }
 
     /// A message, perhaps the answer to a request for a session. False while too little of it is here.
     fn answered(&mut self, header: Header) -> bool {
-        let bytes = self.passage.rest();
+        let bytes = self.chunk_buffer.rest();
         if bytes.len() < BEGINNING.min(header.size) {
             return false;
         }
         let keys = token_of(bytes).and_then(|token| self.connection.channel.lock().keys(token));
         let Some(keys) = keys else {
-            self.passage.pass(header);
+            self.chunk_buffer.pass(header);
             return true;
         };
         let request = keys.begin(Sender::Server, bytes).map(|beginning| beginning.request).unwrap_or_default();
         if !self.connection.channel.lock().is_asked(request) {
-            self.passage.pass(header);
+            self.chunk_buffer.pass(header);
             return true;
         }
-        let Some(chunk) = self.passage.chunk(header) else { return false };
+        let Some(chunk) = self.chunk_buffer.chunk(header) else { return false };
         let asked = self.connection.channel.lock().answered(request);
         let edited = asked.and_then(|asked| self.session_answer(&keys, chunk, asked));
         match edited {
-            Some(edited) => self.passage.replace(header, edited),
-            None => self.passage.pass(header),
+            Some(edited) => self.chunk_buffer.replace(header, edited),
+            None => self.chunk_buffer.pass(header),
         }
         self.connection.notify_answered();
         true

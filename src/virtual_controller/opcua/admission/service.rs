@@ -41,7 +41,7 @@ impl Gate {
     /// Serves one connection from its first byte to its last.
     async fn serve(self: Arc<Self>, client: TcpStream, address: SocketAddr) {
         let (stop, stopped) = watch::channel(None);
-        let Some(place) = self.connections.enter(address, stop) else {
+        let Some(slot) = self.connections.enter(address, stop) else {
             self.reporter.too_many(address);
             let fault = Fault::new(StatusCode::BadTcpNotEnoughResources, "too many connections");
             let _ = client.try_write(&fault.to_message());
@@ -51,7 +51,7 @@ impl Gate {
         // Both ends write whole messages.
         let _ = client.set_nodelay(true);
         let (mut from, mut to) = client.into_split();
-        if self.talk(place.connection(), &mut from, &mut to, stopped).await {
+        if self.talk(slot.connection(), &mut from, &mut to, stopped).await {
             // Closing while there is something unread could keep the last words from arriving.
             let _ = timeout(self.limits().linger, read_to_end(&mut from)).await;
         }

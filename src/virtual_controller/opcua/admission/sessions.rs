@@ -7,7 +7,7 @@ use parking_lot::Mutex;
 use super::connections::{Connection, Stop};
 use super::fault::Fault;
 use crate::pki::Certificate;
-use crate::virtual_controller::connection_limits::{Occupant as _, Source};
+use crate::virtual_controller::connection_limits::{LimitedConnection as _, Source};
 
 /// The sessions of the server, the oldest first, and how many more there may be.
 ///
@@ -33,7 +33,7 @@ struct Held {
     token: Option<NodeId>,
     /// The one that asked for it.
     connection: Arc<Connection>,
-    /// Another one takes its place.
+    /// Another one takes its slot.
     is_closing: bool,
 }
 

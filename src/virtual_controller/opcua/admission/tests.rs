@@ -21,7 +21,7 @@ use super::inner_server::InnerServer;
 use super::judge::Judge;
 use super::limits::Limits;
 use super::report::Reporter;
-use super::rewrap::Own;
+use super::rewrap::ServerKeyPair;
 use super::{frame, judge};
 use crate::model::SecurityPolicy;
 use crate::pki::{TrustLists, TrustPolicy};
@@ -45,7 +45,7 @@ impl Stand {
         let gate = Gate::new(
             Settings { limits, ..Settings::new(SecurityPolicy::ALL.into(), false) },
             InnerServer::standing_in(server.local_addr().unwrap()),
-            Own::new(&SERVER.der, &SERVER.key.serialize_pem()).unwrap(),
+            ServerKeyPair::new(&SERVER.der, &SERVER.key.serialize_pem()).unwrap(),
             Judge::new(TrustLists::default(), TrustPolicy::default(), judge::Clock::default()),
             PkiFolder::create(folder.path().join("pki")).unwrap(),
             Reporter::new(Events::default(), None),

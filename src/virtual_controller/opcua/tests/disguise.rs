@@ -8,7 +8,7 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::task::JoinHandle;
 
 use super::super::OpcUaServer;
-use super::super::admission::wire::{ChannelKeys, Envelope, Kind, Open, Passage, unseal};
+use super::super::admission::wire::{ChannelKeys, ChunkBuffer, Envelope, Kind, Open, unseal};
 use super::SERVER;
 use super::identity::Identity;
 
@@ -131,18 +131,18 @@ async fn pass(
     mut to: tokio::net::tcp::OwnedWriteHalf,
     edit: impl Fn(Kind, &[u8]) -> Option<Vec<u8>>,
 ) {
-    let mut passage = Passage::default();
-    while matches!(from.read_buf(passage.room()).await, Ok(1..)) {
-        while let Some(header) = passage.next(65_535).unwrap() {
-            let Some(chunk) = passage.chunk(header) else { break };
+    let mut chunk_buffer = ChunkBuffer::default();
+    while matches!(from.read_buf(chunk_buffer.room()).await, Ok(1..)) {
+        while let Some(header) = chunk_buffer.next(65_535).unwrap() {
+            let Some(chunk) = chunk_buffer.chunk(header) else { break };
             match edit(header.kind, chunk) {
-                Some(edited) => passage.replace(header, edited),
-                None => passage.pass(header),
+                Some(edited) => chunk_buffer.replace(header, edited),
+                None => chunk_buffer.pass(header),
             }
         }
-        if to.write_all(passage.good()).await.is_err() {
+        if to.write_all(chunk_buffer.good()).await.is_err() {
             return;
         }
-        passage.sent();
+        chunk_buffer.sent();
     }
 }

@@ -3,7 +3,7 @@ use std::net::Ipv4Addr;
 
 use chrono::DateTime;
 use opcua_configurator::model::ClientList;
-use opcua_configurator::virtual_controller::{Faults, State, Store, StoreError, Surroundings};
+use opcua_configurator::virtual_controller::{Faults, OperatingContext, State, Store, StoreError};
 use sha2::{Digest as _, Sha256};
 use tempfile::TempDir;
 
@@ -49,13 +49,13 @@ fn load(bytes: &[u8]) -> Option<State> {
 
 fn assert_state(state: &State) {
     state.check().expect("a state a controller may be in");
-    let around = Surroundings {
+    let context = OperatingContext {
         now: DateTime::from_timestamp(1_900_000_000, 0).expect("a time"),
         bind: Ipv4Addr::LOCALHOST.into(),
         management_port: 7943,
     };
-    let _ = state.check_start(&around);
-    drop((state.server_certificate(), state.server_names(&around), state.taken_ports(&around)));
+    let _ = state.check_start(&context);
+    drop((state.server_certificate(), state.server_names(&context), state.taken_ports(&context)));
     for list in [ClientList::Trusted, ClientList::Issuers, ClientList::Rejected] {
         state.list(list).iter().for_each(|listed| drop(listed.to_message()));
     }

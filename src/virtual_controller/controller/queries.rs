@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use tokio::task::spawn_blocking;
 
-use super::{Controller, Standing};
+use super::{Controller, ServerState};
 use crate::model::{
     Base64Bytes, Changed, ClientList, ControllerInfo, ErrorCode, FirmwareGeneration, HeldCertificate, HeldCertificates,
     ListedCertificate, ListedCrl, LogChunk, Problem, RevisionToken, Revisioned, ServerSettings, ServerStatus,
@@ -13,13 +13,13 @@ use crate::pki::RejectedClient;
 use crate::protocol::{SettingsExport, WireSecret};
 use crate::virtual_controller::ports::is_free;
 use crate::virtual_controller::settings_transfer;
-use crate::virtual_controller::state::Listed;
+use crate::virtual_controller::state::StoredCertificate;
 
 impl Controller {
     /// `reached`: the address the asking client used, which names the controller when it listens on every one.
     pub(in super::super) fn info(&self, reached: Option<IpAddr>) -> ControllerInfo {
         let (status, error) = self.status();
-        let (state, around) = (self.state(), self.surroundings());
+        let (state, around) = (self.state(), self.operating_context());
         ControllerInfo {
             name: state.identity.name.to_string(),
             serial: state.identity.serial.clone(),
@@ -71,7 +71,7 @@ impl Controller {
         if list == ClientList::Issuers && state.generation() == FirmwareGeneration::Legacy {
             return Err(ErrorCode::FirmwareTooOld.into());
         }
-        let value = state.list(list).iter().filter_map(Listed::to_message).collect();
+        let value = state.list(list).iter().filter_map(StoredCertificate::to_message).collect();
         Ok(Revisioned { revision: RevisionToken::new(state.revision), value })
     }
 
@@ -104,7 +104,7 @@ impl Controller {
 
     /// Settings, users and keys, sealed.
     pub(in super::super) async fn export(&self, passphrase: WireSecret) -> Result<SettingsExport, Problem> {
-        let (state, around) = (self.state(), self.surroundings());
+        let (state, around) = (self.state(), self.operating_context());
         spawn_blocking(move || settings_transfer::export(&state, &around, &passphrase.0))
             .await
             .unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error)))
@@ -116,16 +116,16 @@ impl Controller {
 
     /// A server that died by itself is noticed here.
     fn status(&self) -> (ServerStatus, Option<ErrorCode>) {
-        let standing = *self.standing.lock();
+        let server_state = *self.server_state.lock();
         let notice = self.state().settings.server_log.then_some(ErrorCode::ServerLogOn);
-        match standing {
-            Standing::Stopped => (ServerStatus::Stop, notice),
-            Standing::Failed { code, revision } => match self.lasts(code, revision) {
+        match server_state {
+            ServerState::Stopped => (ServerStatus::Stop, notice),
+            ServerState::Failed { code, revision } => match self.lasts(code, revision) {
                 Some(code) => (ServerStatus::Error, Some(code)),
                 None => (ServerStatus::Stop, notice),
             },
-            Standing::Running => match self.server.try_lock() {
-                Ok(plant) if !plant.is_running() => (ServerStatus::Error, Some(ErrorCode::ServerError)),
+            ServerState::Running => match self.server.try_lock() {
+                Ok(slot) if !slot.is_running() => (ServerStatus::Error, Some(ErrorCode::ServerError)),
                 _ => (ServerStatus::Run, notice),
             },
         }
@@ -138,7 +138,7 @@ impl Controller {
         let state = self.state();
         match failed {
             NotActivated | NoCertificate | InvalidParameter | PortConflict => {
-                if let Err(problem) = state.check_start(&self.surroundings()) {
+                if let Err(problem) = state.check_start(&self.operating_context()) {
                     return Some(problem.code);
                 }
                 let lasts = match failed {
@@ -158,7 +158,7 @@ impl Controller {
     pub(in super::super) fn endpoint(&self, reached: Option<IpAddr>) -> String {
         let host = match reached {
             Some(address) if self.bind.is_unspecified() => address.to_canonical(),
-            _ => self.surroundings().address(),
+            _ => self.operating_context().address(),
         };
         format!("opc.tcp://{}", SocketAddr::new(host, self.state().settings.port.get()))
     }

@@ -3,7 +3,7 @@ use super::frame::Header;
 
 /// Bytes on their way in one direction, chunk by chunk: first those that may go on, then those still to be looked at.
 #[derive(Debug, Default)]
-pub(in super::super) struct Passage {
+pub(in super::super) struct ChunkBuffer {
     bytes: Vec<u8>,
     /// How many at the front may go on.
     good: usize,
@@ -11,7 +11,7 @@ pub(in super::super) struct Passage {
     passing: usize,
 }
 
-impl Passage {
+impl ChunkBuffer {
     pub(in super::super) fn new(bytes: Vec<u8>) -> Self {
         Self { bytes, good: 0, passing: 0 }
     }
@@ -81,18 +81,18 @@ mod tests {
         chunk
     }
 
-    /// What arrives behind a passage that lets everything pass, fed with pieces of this size.
+    /// What arrives behind a chunk_buffer that lets everything pass, fed with pieces of this size.
     fn through(bytes: &[u8], piece: usize) -> Vec<u8> {
-        let (mut passage, mut out) = (Passage::default(), Vec::new());
+        let (mut chunk_buffer, mut out) = (ChunkBuffer::default(), Vec::new());
         for piece in bytes.chunks(piece) {
-            passage.room().extend(piece);
-            while let Some(header) = passage.next(1000).unwrap() {
-                passage.pass(header);
+            chunk_buffer.room().extend(piece);
+            while let Some(header) = chunk_buffer.next(1000).unwrap() {
+                chunk_buffer.pass(header);
             }
-            out.extend(passage.good());
-            passage.sent();
+            out.extend(chunk_buffer.good());
+            chunk_buffer.sent();
         }
-        assert!(passage.is_between_chunks());
+        assert!(chunk_buffer.is_between_chunks());
         out
     }
 
@@ -106,30 +106,30 @@ mod tests {
 
     #[test]
     fn nothing_passes_before_its_header_was_seen() {
-        let mut passage = Passage::new(chunk(1, 24)[..7].to_vec());
-        assert_eq!(passage.next(1000), Ok(None));
-        assert_eq!(passage.good(), b"");
-        passage.room().extend(&chunk(1, 24)[7..20]);
-        let header = passage.next(1000).unwrap().unwrap();
-        assert_eq!((header.size, passage.chunk(header)), (24, None));
-        assert_eq!(passage.good(), b"");
-        passage.pass(header);
-        assert_eq!(passage.next(1000), Ok(None));
-        assert_eq!(passage.good().len(), 20);
-        assert!(!passage.is_between_chunks());
+        let mut chunk_buffer = ChunkBuffer::new(chunk(1, 24)[..7].to_vec());
+        assert_eq!(chunk_buffer.next(1000), Ok(None));
+        assert_eq!(chunk_buffer.good(), b"");
+        chunk_buffer.room().extend(&chunk(1, 24)[7..20]);
+        let header = chunk_buffer.next(1000).unwrap().unwrap();
+        assert_eq!((header.size, chunk_buffer.chunk(header)), (24, None));
+        assert_eq!(chunk_buffer.good(), b"");
+        chunk_buffer.pass(header);
+        assert_eq!(chunk_buffer.next(1000), Ok(None));
+        assert_eq!(chunk_buffer.good().len(), 20);
+        assert!(!chunk_buffer.is_between_chunks());
     }
 
     #[test]
     fn a_chunk_can_be_replaced_by_another_one() {
-        let mut passage = Passage::new([chunk(1, 24), chunk(2, 40), chunk(3, 24)].concat());
-        let first = passage.next(1000).unwrap().unwrap();
-        passage.pass(first);
-        let second = passage.next(1000).unwrap().unwrap();
-        assert_eq!(passage.chunk(second), Some(&*chunk(2, 40)));
-        passage.replace(second, chunk(9, 33));
-        let third = passage.next(1000).unwrap().unwrap();
-        passage.pass(third);
-        assert_eq!(passage.next(1000), Ok(None));
-        assert_eq!(passage.good(), [chunk(1, 24), chunk(9, 33), chunk(3, 24)].concat());
+        let mut chunk_buffer = ChunkBuffer::new([chunk(1, 24), chunk(2, 40), chunk(3, 24)].concat());
+        let first = chunk_buffer.next(1000).unwrap().unwrap();
+        chunk_buffer.pass(first);
+        let second = chunk_buffer.next(1000).unwrap().unwrap();
+        assert_eq!(chunk_buffer.chunk(second), Some(&*chunk(2, 40)));
+        chunk_buffer.replace(second, chunk(9, 33));
+        let third = chunk_buffer.next(1000).unwrap().unwrap();
+        chunk_buffer.pass(third);
+        assert_eq!(chunk_buffer.next(1000), Ok(None));
+        assert_eq!(chunk_buffer.good(), [chunk(1, 24), chunk(9, 33), chunk(3, 24)].concat());
     }
 }

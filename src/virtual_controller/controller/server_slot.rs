@@ -7,17 +7,17 @@ use crate::pki::{Certificate, Crl, TrustLists, TrustPolicy};
 use crate::virtual_controller::opcua::{
     Clock, CutConnection, DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser,
 };
-use crate::virtual_controller::state::{Listed, State, Surroundings};
+use crate::virtual_controller::state::{OperatingContext, State, StoredCertificate};
 
 /// The OPC UA server, if it runs. Whoever holds it has its turn.
 #[derive(Debug)]
-pub(super) struct Plant {
+pub(super) struct ServerSlot {
     pub server: Option<OpcUaServer>,
     /// The controller is switched off; nothing begins any more.
     pub off: bool,
 }
 
-impl Plant {
+impl ServerSlot {
     pub fn admit(&self) -> Result<(), Problem> {
         if self.off { Err(Problem::with_detail(ErrorCode::Refused, "the controller is switched off")) } else { Ok(()) }
     }
@@ -55,16 +55,16 @@ impl Plant {
 
 const OPCUA_FOLDER: &str = "opcua";
 
-pub(super) fn opcua_config(state: &State, around: &Surroundings, folder: &Path) -> Result<OpcUaConfig, Problem> {
-    let pair = state.check_start(around)?;
-    let names = state.server_names(around);
+pub(super) fn opcua_config(state: &State, context: &OperatingContext, folder: &Path) -> Result<OpcUaConfig, Problem> {
+    let pair = state.check_start(context)?;
+    let names = state.server_names(context);
     // Clients insist that the server's URI is the one in its certificate, and a certificate from elsewhere has its own.
     let application_uri =
         pair.parse().ok().and_then(|certificate| certificate.application_uri()).unwrap_or(names.application_uri);
     Ok(OpcUaConfig {
-        application_name: state.application_name(around),
+        application_name: state.application_name(context),
         application_uri,
-        bind: around.bind,
+        bind: context.bind,
         port: state.settings.port.get(),
         policies: state.settings.security_policies.clone(),
         user_tokens: state.settings.user_tokens.clone(),
@@ -93,7 +93,7 @@ pub(super) fn opcua_config(state: &State, around: &Surroundings, folder: &Path) 
 
 /// What the state lists, parsed. Slow with large CRLs.
 pub(super) fn trust_lists(state: &State) -> Result<TrustLists, Problem> {
-    let certificates = |list: &[Listed]| -> Result<Vec<Certificate>, Problem> {
+    let certificates = |list: &[StoredCertificate]| -> Result<Vec<Certificate>, Problem> {
         Ok(list.iter().map(|listed| Certificate::from_der(&listed.certificate.0)).collect::<Result<_, _>>()?)
     };
     let crls = state.crls.iter().map(|held| Crl::from_der(&held.crl.0)).collect::<Result<_, _>>()?;
