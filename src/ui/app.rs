@@ -4,10 +4,10 @@ use std::time::Duration;
 use chrono::{DateTime, Utc};
 use egui::ThemePreference;
 
-use super::backend::{Backend, Command};
-use super::closing::CloseChoice;
-use super::model::{Message, Model, reduce};
-use super::{closing, dialogs, drops, fonts, keys, theme, views};
+use super::backend::Backend;
+use super::model::{CloseChoice, Command, Message, Model};
+use super::shell::dialogs;
+use super::{closing, drops, fonts, keys, reduce, theme, views};
 use crate::model::{Language, clock};
 use crate::workspace::ThemeChoice;
 

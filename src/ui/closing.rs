@@ -3,36 +3,14 @@
 
 use egui::{Align, Layout, ProgressBar, RichText, Ui};
 
-use super::backend::Command;
-use super::model::{CancelState, Message, Model};
 use super::theme::{self, palette};
-use super::widgets::{Answer, Buttons, dialog, note, primary};
+use super::widgets::{Buttons, dialog, note, primary};
 use crate::jobs::Summary;
 use crate::texts::{self, TextKey as T};
-
-/// How far closing the window is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Closing {
-    /// The dialog waits for a choice.
-    Asking,
-    /// The window closes when the running job has ended, unless a controller failed in it.
-    Finishing,
-    /// The job was told to stop after the step in hand; the window closes then.
-    Stopping,
-}
-
-/// What is chosen about closing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum CloseChoice {
-    /// The window was to be closed while work goes on.
-    Ask,
-    Finish,
-    Stop,
-    Stay,
-}
+use crate::ui::model::{Answer, CancelState, CloseChoice, Closing, Command, Message, Model};
 
 impl Model {
-    pub(super) fn choose_about_closing(&mut self, choice: CloseChoice) -> Vec<Command> {
+    pub(in crate::ui) fn choose_about_closing(&mut self, choice: CloseChoice) -> Vec<Command> {
         match (choice, self.closing) {
             (CloseChoice::Ask, None) => {
                 self.closing = Some(Closing::Asking);
@@ -54,14 +32,14 @@ impl Model {
     }
 
     /// The system ends the program, and there may be nobody to ask.
-    pub(super) fn stop_requested(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn stop_requested(&mut self) -> Vec<Command> {
         let mut commands = self.choose_about_closing(CloseChoice::Stop);
         commands.push(Command::Quit);
         commands
     }
 
     /// A failure has to be seen before the window closes, if somebody chose to finish first.
-    pub(super) fn keep_open_after(&mut self, summary: Summary) {
+    pub(in crate::ui) fn keep_open_after(&mut self, summary: Summary) {
         if summary.failed > 0 && self.closing == Some(Closing::Finishing) {
             self.closing = None;
         }

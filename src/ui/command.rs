@@ -2,8 +2,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 
-use super::model::{Model, Targets};
-use crate::model::{Feature, Language};
+use crate::model::Language;
 use crate::texts::TextKey as T;
 
 /// An action of the main window.
@@ -179,65 +178,5 @@ impl UiCommand {
             _ => return None,
         };
         Some(KeyboardShortcut::new(modifiers, key))
-    }
-
-    /// Why it cannot be done to the ticked controllers now; what a disabled item says on hover.
-    pub fn why_disabled(self, model: &Model) -> Option<T> {
-        self.why_disabled_for(model, Targets::Ticked)
-    }
-
-    /// Why it cannot be done to these controllers now.
-    pub fn why_disabled_for(self, model: &Model, targets: Targets) -> Option<T> {
-        let count = model.target_count(targets);
-        match self {
-            Self::DeleteControllers
-            | Self::Start
-            | Self::Stop
-            | Self::GetInfo
-            | Self::BasicSettings
-            | Self::Users
-            | Self::SelfSigned
-            | Self::CaSigned
-            | Self::ExportSelfSigned
-            | Self::TypeSelect
-            | Self::ClientLists
-            | Self::Crl
-            | Self::Verify => (count == 0).then_some(T::WhyTick),
-            Self::UserSpecified => match count {
-                0 => Some(T::WhyTick),
-                1 => model.any_target_lacks(targets, Feature::UserSpecifiedCertificate).then_some(T::WhyUserLegacy),
-                _ => Some(T::WhyUserOne),
-            },
-            Self::ConfirmIdentity if count == 0 => Some(T::WhyTick),
-            Self::ConfirmIdentity => model.all_targets_are_confirmed(targets).then_some(T::WhyConfirmed),
-            Self::Activation if count == 0 => Some(T::WhyTick),
-            Self::Activation => {
-                model.any_target_lacks(targets, Feature::ActivationKeys).then_some(T::WhyActivationOption)
-            }
-            Self::ExportSettings | Self::ImportSettings => match count {
-                0 => Some(T::WhyTick),
-                _ => model.any_target_lacks(targets, Feature::SettingsTransfer).then_some(T::WhyLegacyOnly),
-            },
-            Self::RestoreBackup => match count {
-                0 => Some(T::WhyTick),
-                _ => model.any_target_lacks(targets, Feature::KeyImport).then_some(T::WhyLegacyOnly),
-            },
-            Self::ServerLog => match count {
-                0 => Some(T::WhyTick),
-                1 => None,
-                _ => Some(T::WhyOne),
-            },
-            Self::TickAll | Self::Search | Self::RowDetails => model.rows.is_empty().then_some(T::WhyEmpty),
-            Self::AddController
-            | Self::ConnectionList
-            | Self::Quit
-            | Self::Backup
-            | Self::Options
-            | Self::CertificateAuthority
-            | Self::Shortcuts
-            | Self::Licences
-            | Self::About
-            | Self::CommandPalette => None,
-        }
     }
 }

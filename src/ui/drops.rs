@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use egui::{Align2, Area, Context, Frame, Id, Label, Order, RichText, Stroke, Ui};
 
-use super::model::{DropForm, DroppedFile, Message, Model};
 use super::theme::{self, palette};
 use crate::texts::{self, TextKey as T};
+use crate::ui::model::{DropForm, DroppedFile, Message, Model};
 
 /// Names shown before the rest is counted.
 const MOST: usize = 6;

@@ -67,8 +67,10 @@ fn wait(mut child: Child, program: &str) -> io::Result<()> {
     Ok(())
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
+    #![cfg(unix)]
+
     use super::*;
 
     /// A program that writes its arguments into a file, one a line, and ends like this.

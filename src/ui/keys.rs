@@ -3,8 +3,8 @@
 use egui::{Context, Key, Modifiers};
 
 use super::command::UiCommand;
-use super::model::{Message, Model};
 use super::views;
+use crate::ui::model::{Message, Model};
 
 /// How far Page Up and Page Down go.
 const PAGE: isize = 15;

@@ -1,34 +1,40 @@
-//! The window: a model without egui, a reducer, views and dialogs.
+//! The window.
 //!
 //! A frame takes in the backend's events, draws from `&Model`, and turns what the engineer did into
-//! [`Message`](model::Message)s. [`reduce`](model::reduce) alone changes the model, and gives back
-//! [`Command`](backend::Command)s; the [`Backend`](backend::Backend) does them elsewhere. A frame never waits, and
-//! without an event there is no frame.
+//! [`Message`](model::Message)s. [`reduce`] alone changes the model, and gives back [`Command`](model::Command)s; the
+//! [`Backend`](backend::Backend) does them elsewhere. A frame never waits, and without an event there is no frame.
 //!
-//! | module | what lives there |
+//! The modules. Each may use only those above it:
+//!
+//! | module | contents |
 //! |---|---|
-//! | [`app`](App) | one frame |
-//! | [`backend`] | jobs, saving |
-//! | [`closing`] | closing the window while work goes on |
-//! | [`command`] | what can be asked for: text, tooltip, key, and why it is disabled |
-//! | [`picker`] | the desktop's dialog for choosing a file, and its file manager |
-//! | `drops` | files dropped onto the window |
-//! | [`model`] | rows, dialogs and their forms, the running job, the reducer |
-//! | `views`, `dialogs`, `widgets` | what is drawn |
-//! | `theme`, `fonts` | every colour and size |
+//! | [`command`] | what can be asked for: its words, tooltip and key |
+//! | [`picker`], `theme`, `fonts` | the desktop's dialog for choosing a file and its file manager; every colour and size |
+//! | [`model`] | what the window knows: rows, the running job, the open dialogs; messages and commands |
+//! | `widgets` | what dialogs are made of |
+//! | [`shell`] | starting jobs; the dialogs that belong to no feature |
+//! | [`features`] | what the window can do, one file or folder each |
+//! | [`closing`], [`reduce`] | the one place where the model changes |
+//! | [`backend`] | does the commands: jobs, files, saving |
+//! | `views`, `keys`, `drops` | the main window |
+//! | `app` | one frame |
 
 mod app;
 pub mod backend;
 pub mod closing;
 pub mod command;
-mod dialogs;
 mod drops;
+pub mod features;
 mod file_manager;
 mod fonts;
 mod keys;
 pub mod model;
 mod notice;
 pub mod picker;
+mod reduce;
+pub mod shell;
+#[cfg(test)]
+mod tests;
 mod theme;
 mod views;
 mod widgets;
@@ -37,15 +43,17 @@ use std::cell::Cell;
 use std::rc::Rc;
 use std::sync::Arc;
 
-use crate::texts::TextKey;
-pub use app::App;
 use backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
 use model::Model;
-pub use notice::show_notice;
 
 use crate::model::{ErrorCode, Language, Problem, clock};
 use crate::session::Connectors;
+use crate::texts::TextKey;
 use crate::workspace::{Configuration, Passwords, Workspace, WorkspaceLock};
+
+pub use app::App;
+pub use notice::show_notice;
+pub use reduce::reduce;
 
 /// What the window works with.
 pub struct WindowOptions {

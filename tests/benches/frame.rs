@@ -17,7 +17,8 @@ use opcua_configurator::model::{CertificateStatus, FirmwareGeneration, Language}
 use opcua_configurator::ui::App;
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
 use opcua_configurator::ui::command::UiCommand;
-use opcua_configurator::ui::model::{Column, Message, Model, Row, reduce};
+use opcua_configurator::ui::model::{Column, Message, Model, Row};
+use opcua_configurator::ui::reduce;
 use opcua_configurator::workspace::{Configuration, Workspace};
 use trust_samples::{listed, refused};
 

@@ -4,8 +4,9 @@ use opcua_configurator::jobs::{TrustChange, TrustFile, TrustSnapshot, WatchEvent
 use opcua_configurator::model::{CertificateStatus, CutClient, ErrorCode, FirmwareGeneration, Problem, RevisionToken};
 use opcua_configurator::pki::{Certificate, read_bundle};
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
-use opcua_configurator::ui::model::trust::{DetailsView, ReadTrustFile, TrustAction};
-use opcua_configurator::ui::model::{Dialog, JobId, Message, reduce};
+use opcua_configurator::ui::features::trust::{DetailsView, TrustAction};
+use opcua_configurator::ui::model::{JobId, Message, ReadTrustFile};
+use opcua_configurator::ui::reduce;
 use opcua_configurator::workspace::ThemeChoice;
 
 use crate::authority::{Authority, p7b};
@@ -261,11 +262,9 @@ fn details_of_a_crl() {
 /// Opens the details. Keys are made anew for every picture; what follows from them must not be drawn even once, as that
 /// would already change the picture a little.
 fn details(window: &mut W) {
-    reduce(&mut window.state_mut().model, Message::Trust(TrustAction::Details));
-    let Some(Dialog::TrustDetails(view)) = window.state_mut().model.dialogs.last_mut() else {
-        panic!("no details are shown")
-    };
-    let fields = match view.as_mut() {
+    reduce(&mut window.state_mut().model, Message::act(|model| model.trust_action(TrustAction::Details)));
+    let Some(view) = window.state_mut().model.top_mut::<DetailsView>() else { panic!("no details are shown") };
+    let fields = match view {
         DetailsView::Certificate(view) => &mut view.fields,
         DetailsView::Crl(view) => {
             for (n, entry) in view.entries.iter_mut().enumerate() {

@@ -12,7 +12,8 @@ use image::{RgbaImage, imageops};
 use opcua_configurator::jobs::{OperationOutput, Report, Step, Summary};
 use opcua_configurator::model::{ControllerInfo, Language, Problem};
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
-use opcua_configurator::ui::model::{JobId, Message, Task, TaskEvent, reduce};
+use opcua_configurator::ui::model::{JobId, Message, Task, TaskEvent};
+use opcua_configurator::ui::reduce;
 
 use crate::harness::{Window, click, settle};
 

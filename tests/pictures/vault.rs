@@ -2,7 +2,8 @@
 
 use opcua_configurator::model::{ErrorCode, Problem};
 use opcua_configurator::ui::backend::{Event, RecordingBackend};
-use opcua_configurator::ui::model::{Message, VaultRequest};
+use opcua_configurator::ui::features::vault::VaultRequest;
+use opcua_configurator::ui::model::Message;
 use opcua_configurator::workspace::{PasswordPlace, StoreStatus, VaultState};
 
 use crate::harness::{SIZE, choose, click, now, type_into, window};
@@ -39,7 +40,7 @@ fn create() {
 #[test]
 fn wrong_passphrase() {
     let mut window = open(PasswordPlace::Vault, VaultState::Closed);
-    say(&mut window, Message::Vault(VaultRequest::Open));
+    say(&mut window, Message::act(|model| model.vault_request(VaultRequest::Open)));
     type_into(&mut window, "Passphrase", "correct house");
     click(&mut window, "Open");
     tell(&mut window, Event::VaultDone(Err(ErrorCode::VaultPassphrase.into())));
@@ -50,7 +51,7 @@ fn wrong_passphrase() {
 #[test]
 fn change() {
     let mut window = open(PasswordPlace::Vault, VaultState::Open { passwords: 4 });
-    say(&mut window, Message::Vault(VaultRequest::ChangePassphrase));
+    say(&mut window, Message::act(|model| model.vault_request(VaultRequest::ChangePassphrase)));
     assert_shows(&window, "Copies of the vault that were made before still open with the old passphrase.");
 }
 

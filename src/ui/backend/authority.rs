@@ -1,55 +1,8 @@
-use std::path::PathBuf;
-
-use secrecy::SecretString;
+//! The work of the small CA.
 
 use crate::model::{Problem, clock};
-use crate::pki::{Csr, IssueRequest, RevocationReason};
-use crate::workspace::authority::{AuthorityError, AuthorityFiles, AuthorityOverview, NewAuthority};
-
-/// Something for the small CA to do.
-#[derive(Debug, Clone)]
-pub enum AuthorityWork {
-    /// Needs no passphrase.
-    Look,
-    Create {
-        new: Box<NewAuthority>,
-        passphrase: SecretString,
-    },
-    Restore {
-        path: PathBuf,
-        passphrase: SecretString,
-    },
-    /// Finds out whether the passphrase is right.
-    Unlock {
-        passphrase: SecretString,
-    },
-    Sign {
-        csr: Box<Csr>,
-        request: Box<IssueRequest>,
-        passphrase: SecretString,
-    },
-    Revoke {
-        serial_numbers: Vec<String>,
-        reason: RevocationReason,
-        passphrase: SecretString,
-    },
-    PublishCrl {
-        passphrase: SecretString,
-    },
-    BackUp {
-        path: PathBuf,
-        passphrase: SecretString,
-    },
-}
-
-/// What the CA is like afterwards.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct AuthorityDone {
-    /// `None`: there is none.
-    pub overview: Option<Box<AuthorityOverview>>,
-    /// The file that was written for the engineer.
-    pub saved: Option<PathBuf>,
-}
+use crate::ui::model::{AuthorityDone, AuthorityWork};
+use crate::workspace::authority::{AuthorityError, AuthorityFiles};
 
 impl AuthorityWork {
     /// Blocks for as long as it takes.

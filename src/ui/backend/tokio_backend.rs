@@ -11,13 +11,13 @@ use tokio_util::sync::CancellationToken;
 
 use super::unfinished::{Unfinished, UnfinishedWork};
 use super::vault::StoreReporter;
-use super::{Backend, Command, Event, FileContents, VirtualFleetStarter, trust_files};
+use super::{Backend, VirtualFleetStarter, trust_files};
 use crate::jobs::{self, JobContext, JobController};
 use crate::model::{ControllerInfo, Credentials, ErrorCode, Problem};
 use crate::platform::display;
 use crate::platform::stop_signal::StopSignals;
 use crate::session::Connectors;
-use crate::ui::model::{DroppedFile, ExportFound, JobId, Task};
+use crate::ui::model::{Command, DroppedFile, Event, ExportFound, FileContents, JobId, Task};
 use crate::ui::picker::FilePicker;
 use crate::workspace::{self, Configuration, Passwords, SettingsFiles, Shown, StartRequests, Workspace, WorkspaceLock};
 

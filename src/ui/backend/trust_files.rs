@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use crate::jobs::TrustFile;
 use crate::model::{ErrorCode, Problem};
 use crate::pki::{self, MAX_BUNDLE_BYTES};
-use crate::ui::model::trust::ReadTrustFile;
+use crate::ui::model::ReadTrustFile;
 use crate::workspace;
 
 /// Blocks.

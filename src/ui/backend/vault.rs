@@ -1,33 +1,12 @@
+//! The work of the store of connection passwords.
+
 use std::sync::Arc;
 
 use parking_lot::Mutex;
-use secrecy::SecretString;
 
-use super::Event;
 use crate::model::{ErrorCode, Problem};
-use crate::pki::Fingerprint;
-use crate::workspace::{PasswordPlace, PasswordStore, Passwords, StoreStatus};
-
-/// Something for the store of connection passwords to do.
-#[derive(Debug, Clone)]
-pub enum VaultWork {
-    /// Makes a vault; passwords of these controllers are taken over from the keyring.
-    Create {
-        passphrase: SecretString,
-        controllers: Vec<Fingerprint>,
-    },
-    Open {
-        passphrase: SecretString,
-    },
-    ChangePassphrase {
-        passphrase: SecretString,
-        new: SecretString,
-    },
-    Use(PasswordPlace),
-    /// The passphrase is not asked for again.
-    Decline,
-    Close,
-}
+use crate::ui::model::{Event, VaultWork};
+use crate::workspace::{PasswordStore, Passwords, StoreStatus};
 
 impl VaultWork {
     /// Blocks for as long as it takes. The result of what a dialog waits for; `None` for the rest.

@@ -17,7 +17,7 @@ impl Model {
     }
 
     /// Moves a column so that it stands before the one that is at `position` now; at the end if there is none.
-    pub(super) fn move_column(&mut self, column: Column, position: usize) {
+    pub(in crate::ui) fn move_column(&mut self, column: Column, position: usize) {
         let mut columns = self.columns();
         let Some(from) = columns.iter().position(|c| *c == column) else { return };
         columns.remove(from);

@@ -44,7 +44,7 @@ impl CommandPalette {
     }
 
     /// Applies everything but [`PaletteAction::Close`].
-    pub(super) fn apply(&mut self, action: PaletteAction, language: Language) {
+    pub(in crate::ui) fn apply(&mut self, action: PaletteAction, language: Language) {
         match action {
             PaletteAction::Type(query) => *self = Self { query, selected: 0 },
             PaletteAction::Select(by) => {

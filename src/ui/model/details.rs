@@ -2,10 +2,9 @@
 
 use chrono::{DateTime, Utc};
 
-use super::{Model, RowId, RowState, Task};
+use super::{Command, Model, RowId, RowState, Task};
 use crate::jobs::{Overview, ReadOverview};
 use crate::texts::TextKey;
-use crate::ui::backend::Command;
 
 /// How the last job ended for a controller since the window was opened.
 #[derive(Debug, Clone)]
@@ -24,7 +23,7 @@ pub struct OverviewRead {
 }
 
 impl Model {
-    pub(super) fn show_details(&mut self, shown: bool) {
+    pub(in crate::ui) fn show_details(&mut self, shown: bool) {
         if self.options.window.details != shown {
             self.options.window.details = shown;
             self.unsaved = true;
@@ -32,7 +31,7 @@ impl Model {
     }
 
     /// Reads settings and lists of one controller for the pane.
-    pub(super) fn read_overview(&mut self, row: RowId) -> Vec<Command> {
+    pub(in crate::ui) fn read_overview(&mut self, row: RowId) -> Vec<Command> {
         if self.job.is_some() {
             return vec![];
         }
@@ -43,6 +42,6 @@ impl Model {
             }
             vec![]
         });
-        self.start(task.for_dialog(), vec![row], None)
+        self.start(task.in_background(), vec![row], None)
     }
 }

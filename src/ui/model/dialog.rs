@@ -1,251 +1,140 @@
-use std::collections::BTreeSet;
+//! What every dialog of the window does.
 
-use super::trust::{AddTrustForm, DeleteTrust, DetailsView, MoveTrust, TrustForm};
-use super::{
-    ActivationForm, AuthorityAction, AuthorityForm, AuthorityView, CaSignedForm, ConnectionListForm, DropForm,
-    ExportForm, FileForm, ImportReview, KeysForm, LicencesView, LogView, RestoreForm, RowId, SaveLogForm, Task,
-    TransferForm, TypeSelectForm, UserSpecifiedForm, VaultForm, VerifyView,
-};
-use crate::jobs::Confirmation;
-use crate::model::{
-    ConnectionKind, ControllerSeries, FileFormat, KeyLength, Problem, RevisionToken, SecurityPolicy, StartupMode,
-    UserName, UserTokenPolicy,
-};
-use crate::pki::Fingerprint;
+use std::any::Any;
+use std::fmt::Debug;
 
-/// A dialog with whatever is typed into it.
-#[derive(Debug)]
-pub enum Dialog {
-    AddController(AddController),
-    Delete { rows: Vec<RowId>, names: Vec<String> },
-    Password(PasswordForm),
-    Confirm { task: Task, rows: Vec<RowId>, names: Vec<String>, confirmation: Confirmation },
-    Processing(ProcessingView),
-    Settings(SettingsForm),
-    Users(UsersForm),
-    AddUser(AddUserForm),
-    SelfSigned(SelfSignedForm),
-    Activation(ActivationForm),
-    Verify(VerifyView),
-    ConnectionList(ConnectionListForm),
-    TypeSelect(TypeSelectForm),
-    ExportSelfSigned(ExportForm),
-    CaSigned(CaSignedForm),
-    UserSpecified(UserSpecifiedForm),
-    Restore(RestoreForm),
-    ImportReview(ImportReview),
-    Transfer(TransferForm),
-    ServerLog(LogView),
-    SaveLog(SaveLogForm),
-    Trust(Box<TrustForm>),
-    AddTrust(AddTrustForm),
-    DeleteTrust(DeleteTrust),
-    MoveTrust(MoveTrust),
-    TrustDetails(Box<DetailsView>),
-    Drop(DropForm),
-    Authority(AuthorityView),
-    AuthorityForm(AuthorityForm),
-    Vault(VaultForm),
-    Backup { on: bool },
-    Options,
-    Error(Problem),
-    Licences(LicencesView),
-    About,
-    Shortcuts,
+use chrono::{DateTime, Utc};
+use egui::Ui;
+
+use super::{Commands, FileForm, Message, Model};
+use crate::model::Problem;
+
+/// What the engineer decided in a dialog, if anything.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Answer {
+    None,
+    /// The main button.
+    Submit,
+    /// Cancel, Close or Esc.
+    Close,
 }
 
-impl Dialog {
-    /// A form whose work is done once what it asks for was agreed to.
-    pub(super) const fn is_done_by_confirming(&self) -> bool {
-        matches!(
-            self,
-            Self::Settings(_)
-                | Self::AddUser(_)
-                | Self::SelfSigned(_)
-                | Self::TypeSelect(_)
-                | Self::ExportSelfSigned(_)
-                | Self::Activation(_)
-                | Self::Transfer(_)
-                | Self::AddTrust(_)
-        )
+/// Where a dialog is among the open ones.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Place {
+    pub on_top: bool,
+    /// It has just been opened and takes the keyboard.
+    pub focus: bool,
+}
+
+/// A dialog with what is typed into it. A feature implements this, and opens it with [`Model::open`].
+///
+/// Drawing changes nothing but the dialog's own fields; everything else happens in the other methods, which the reducer
+/// calls.
+pub trait Dialog: Any + Debug {
+    /// Draws it, and says what was pressed. Further actions go into `messages`.
+    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer;
+
+    /// The main button was pressed. The dialog is taken out of the list of open ones and puts itself back with
+    /// [`Model::put_back`] where it stays open. Default: the main button is Close.
+    fn submit(self: Box<Self>, model: &mut Model) -> Commands {
+        self.close(model)
     }
 
-    /// A dialog whose job ends with it.
-    pub(super) fn has_a_job(&self) -> bool {
-        self.is_form() || matches!(self, Self::CaSigned(_) | Self::UserSpecified(_) | Self::Restore(_))
+    /// Cancel, Close or Esc was pressed; taken out as for [`Dialog::submit`]. Default: it is gone.
+    fn close(self: Box<Self>, _model: &mut Model) -> Commands {
+        vec![]
     }
 
-    /// A form that may wait for what is in a controller. At most one is open.
-    pub(super) fn is_form(&self) -> bool {
-        matches!(
-            self,
-            Self::Settings(_) | Self::Users(_) | Self::SelfSigned(_) | Self::TypeSelect(_) | Self::ServerLog(_)
-        )
+    /// Whether Enter presses the main button. Default: it does.
+    fn enter_submits(&self, _model: &Model) -> bool {
+        true
+    }
+
+    /// A form whose work is done once what it asks for was agreed to: the confirmation closes it. Default: it stays.
+    fn is_done_by_confirming(&self) -> bool {
+        false
+    }
+
+    /// What it waited for could not be read. Returns whether it stays open with what it has. Default: it does not.
+    fn stays_after_failure(&mut self) -> bool {
+        false
     }
 
     /// The file it asks for, if it does.
-    pub(super) fn file(&mut self) -> Option<&mut FileForm> {
-        match self {
-            Self::Activation(ActivationForm { keys: KeysForm::File { file, .. }, .. }) => Some(file),
-            Self::ConnectionList(form) => Some(&mut form.file),
-            Self::AuthorityForm(AuthorityForm { action: AuthorityAction::SignFile(form), .. }) => Some(&mut form.file),
-            _ => None,
-        }
+    fn file(&mut self) -> Option<&mut FileForm> {
+        None
     }
-}
 
-/// A new controller (manual 2.5.1).
-#[derive(Debug)]
-pub struct AddController {
-    pub name: String,
-    pub address: String,
-    pub password: Typed,
-    pub show_password: bool,
-    /// The field for the password has just appeared and takes the keyboard.
-    pub focus_password: bool,
-    pub series: ControllerSeries,
-    pub connection: ConnectionKind,
-    pub stage: AddStage,
-    /// Why the last attempt failed.
-    pub problem: Option<Problem>,
-    /// Apply was pressed once: mistakes are pointed out also in fields that are still empty.
-    pub tried: bool,
-    /// The controller is in the list already, without a fingerprint.
-    pub identity: Option<Identity>,
-}
-
-/// Controllers of the list whose identity is confirmed, one after the other.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Identity {
-    pub row: RowId,
-    /// Whose turn comes next, in order.
-    pub next: Vec<RowId>,
-    /// Counted from 1.
-    pub nth: usize,
-    /// Those to read information of in the end.
-    pub then_read: Vec<RowId>,
-}
-
-impl Identity {
-    pub fn all(&self) -> usize {
-        self.nth + self.next.len()
+    /// Takes in the content of that file.
+    fn take_in_file(&mut self, _bytes: &[u8], _model: &Model) -> Result<(), Problem> {
+        Ok(())
     }
+
+    /// Brings words that depend on the time up to date. Called each frame.
+    fn refresh(&mut self, _now: DateTime<Utc>) {}
 }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AddStage {
-    Form,
-    Probing,
-    /// A person compares.
-    Compare(Fingerprint),
-    Enrolling(Fingerprint),
+fn as_any(dialog: &dyn Dialog) -> &dyn Any {
+    dialog
 }
 
-/// The password of controllers whose password is not known.
-#[derive(Debug)]
-pub struct PasswordForm {
-    pub rows: Vec<RowId>,
-    pub names: Vec<String>,
-    pub password: Typed,
-    pub show_password: bool,
-    /// The one used last was refused.
-    pub wrong: bool,
-    /// What to do once it is there.
-    pub task: Task,
+fn as_any_mut(dialog: &mut dyn Dialog) -> &mut dyn Any {
+    dialog
 }
 
-/// What of the running job is looked at.
-#[derive(Debug, Default)]
-pub struct ProcessingView {
-    /// Index of the controller whose failure is explained.
-    pub selected: Option<usize>,
-    /// The one the list has scrolled to.
-    pub revealed: Option<usize>,
-    /// It lies over a form, which goes on when it is closed.
-    pub over_form: bool,
-}
-
-/// The basic settings (manual 2.6.1).
-#[derive(Debug)]
-pub struct SettingsForm {
-    pub rows: Vec<RowId>,
-    pub names: Vec<String>,
-    /// The settings of the one controller are being read.
-    pub reading: bool,
-    pub revision: Option<RevisionToken>,
-    pub port: String,
-    pub startup: StartupMode,
-    pub policies: BTreeSet<SecurityPolicy>,
-    pub tokens: BTreeSet<UserTokenPolicy>,
-    pub server_log: bool,
-    /// The log was on already: it may stay on without the password.
-    pub log_was_on: bool,
-    pub log_password: String,
-    pub delete_log: bool,
-    /// How many users the controller has, when known.
-    pub users: Option<usize>,
-    /// Ports of other functions of the controllers.
-    pub used_ports: BTreeSet<u16>,
-}
-
-/// The users of one controller (manual 2.6.2).
-#[derive(Debug)]
-pub struct UsersForm {
-    pub row: RowId,
-    pub name: String,
-    pub reading: bool,
-    pub revision: Option<RevisionToken>,
-    pub users: Vec<UserName>,
-    pub ticked: BTreeSet<UserName>,
-}
-
-/// One more user, for one controller or many.
-#[derive(Debug)]
-pub struct AddUserForm {
-    pub rows: Vec<RowId>,
-    pub names: Vec<String>,
-    pub revision: Option<RevisionToken>,
-    /// Users the one controller has already.
-    pub existing: Vec<UserName>,
-    pub name: String,
-    pub password: Typed,
-    pub show_password: bool,
-}
-
-/// A self-signed server certificate (manual 2.7.1.2), or the request for one that a CA signs (2.7.1.5).
-#[derive(Debug)]
-pub struct SelfSignedForm {
-    pub rows: Vec<RowId>,
-    pub names: Vec<String>,
-    pub reading: bool,
-    /// Used for one controller only; several make their own.
-    pub common_name: String,
-    /// ISO code, or empty.
-    pub country: &'static str,
-    pub country_search: String,
-    pub state: String,
-    pub locality: String,
-    pub organisation: String,
-    pub key_length: KeyLength,
-    pub offered: Vec<KeyLength>,
-    /// Of a self-signed certificate.
-    pub years: u8,
-    /// It is a request, to be saved in this format.
-    pub request: Option<FileFormat>,
-}
-
-/// A secret while it is typed: not shown by `Debug`, wiped when the dialog closes.
-#[derive(Default)]
-pub struct Typed(pub String);
-
-impl std::fmt::Debug for Typed {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Typed(…)")
+/// The open dialogs, by their type. A dialog that a result is for may have been closed meanwhile: then there is none.
+impl Model {
+    /// Opens a dialog on top of the others.
+    pub fn open(&mut self, dialog: impl Dialog) {
+        self.dialogs.push(Box::new(dialog));
     }
-}
 
-impl Drop for Typed {
-    fn drop(&mut self) {
-        zeroize::Zeroize::zeroize(&mut self.0);
+    /// Keeps a dialog open that was taken out to be submitted or closed.
+    pub fn put_back(&mut self, dialog: Box<dyn Dialog>) {
+        self.dialogs.push(dialog);
+    }
+
+    /// The dialog of this type, the uppermost of several.
+    pub fn dialog<D: Dialog>(&mut self) -> Option<&mut D> {
+        self.dialogs.iter_mut().rev().find_map(|dialog| as_any_mut(dialog.as_mut()).downcast_mut())
+    }
+
+    /// The dialog on top, if it is of this type.
+    pub fn top<D: Dialog>(&self) -> Option<&D> {
+        self.dialogs.last().and_then(|dialog| as_any(dialog.as_ref()).downcast_ref())
+    }
+
+    /// The dialog on top, if it is of this type.
+    pub fn top_mut<D: Dialog>(&mut self) -> Option<&mut D> {
+        self.dialogs.last_mut().and_then(|dialog| as_any_mut(dialog.as_mut()).downcast_mut())
+    }
+
+    /// Takes out the dialog of this type that fits.
+    pub fn take_out<D: Dialog>(&mut self, fits: impl Fn(&D) -> bool) -> Option<Box<D>> {
+        let is_it = |dialog: &Box<dyn Dialog>| as_any(dialog.as_ref()).downcast_ref().is_some_and(&fits);
+        let index = self.dialogs.iter().position(is_it)?;
+        let dialog: Box<dyn Any> = self.dialogs.remove(index);
+        dialog.downcast().ok()
+    }
+
+    /// Closes every dialog of this type.
+    pub fn close_all<D: Dialog>(&mut self) {
+        self.dialogs.retain(|dialog| !as_any(dialog.as_ref()).is::<D>());
+    }
+
+    /// Closes the dialog of this type after a failure, unless it stays open.
+    pub fn close_after_failure<D: Dialog>(&mut self) {
+        self.dialogs.retain_mut(|dialog| !as_any(dialog.as_ref()).is::<D>() || dialog.stays_after_failure());
+    }
+
+    /// Whether a dialog of this type is open and no other.
+    pub fn is_only<D: Dialog>(&self) -> bool {
+        self.dialogs.len() == 1 && self.top::<D>().is_some()
+    }
+
+    /// Whether a dialog is open that is not of this type.
+    pub fn is_other_open<D: Dialog>(&self) -> bool {
+        self.dialogs.iter().any(|dialog| !as_any(dialog.as_ref()).is::<D>())
     }
 }

@@ -1,38 +1,10 @@
 use std::path::PathBuf;
 
-use super::{RowId, Task};
-use crate::jobs::{Step, Summary, TrustUndo};
-use crate::model::{CutClient, ErrorCode, Problem};
+use super::{JobId, RowId, RowState, Task};
+use crate::jobs::{Summary, TrustUndo};
+use crate::model::{CutClient, Problem};
 
-/// Tells the events of one job from those of another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct JobId(pub u64);
-
-/// Where a job is with one controller.
-#[derive(Debug, Clone, PartialEq)]
-pub enum RowState {
-    Waiting,
-    Step(Step),
-    Done,
-    Failed(Problem),
-    NotStarted,
-}
-
-impl RowState {
-    pub fn problem(&self) -> Option<&Problem> {
-        match self {
-            Self::Failed(problem) => Some(problem),
-            _ => None,
-        }
-    }
-
-    /// The connection password is missing, in a closed vault, or no longer the right one.
-    pub fn needs_password(&self) -> bool {
-        use ErrorCode::{PasswordMissing, VaultLocked, WrongPassword};
-        self.problem().is_some_and(|p| matches!(p.code, PasswordMissing | WrongPassword | VaultLocked))
-    }
-}
-
+/// Whether a running job is to be stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CancelState {
     #[default]

@@ -1,72 +1,56 @@
-//! What the window knows. No egui type, no I/O: a [`Message`] goes in, [`Command`](super::backend::Command)s come out.
+//! What the window knows: the list of controllers, the running job, the open dialogs.
+//!
+//! A [`Message`] goes in, [`Command`]s for the backend come out. Nothing here knows the features, does I/O or draws.
 
-mod activation;
-mod authority;
-mod certificates;
+mod closing;
 mod columns;
+mod command;
 mod command_palette;
-mod connections;
 mod details;
 mod dialog;
 mod dropped;
+mod file_form;
 mod files;
-mod forms;
-mod identity;
-mod import;
 mod job;
-mod licences;
-mod reduce;
-mod reduce_dialogs;
+mod job_id;
 mod row_menu;
+mod row_state;
 mod rows;
-mod server_log;
+mod secret;
 mod task;
-mod transfer;
-pub mod trust;
-mod vault;
-mod verify;
-
-#[cfg(test)]
-mod tests;
 
 use std::collections::BTreeMap;
+use std::fmt;
 use std::path::PathBuf;
 
 use chrono::{DateTime, Utc};
 
-pub use activation::{ActivationForm, ActivationPreview, KeysForm, key_error};
-pub use authority::{
-    AuthorityAction, AuthorityForm, AuthorityView, CreateAuthorityForm, SignControllersForm, SignFileForm,
-};
-pub use certificates::{ExportForm, Held, TypeSelectForm};
-pub use command_palette::{CommandPalette, PaletteAction};
-pub use connections::{ConnectionListForm, FoundConnection, LeftOut};
-pub use details::{LastResult, OverviewRead};
-pub use dialog::{
-    AddController, AddStage, AddUserForm, Dialog, Identity, PasswordForm, ProcessingView, SelfSignedForm, SettingsForm,
-    Typed, UsersForm,
-};
-pub use dropped::{Choice, DropForm, DroppedFile, Hover, MAX_DROPPED};
-pub use files::{FileForm, PathField};
-pub use import::{CaSignedForm, Checks, ImportReview, ImportSource, RestoreForm, UserFiles, UserSpecifiedForm};
-pub use job::{CancelState, Job, JobId, JobRow, RowState};
-pub use licences::LicencesView;
-pub use reduce::reduce;
-pub use row_menu::{RowMenu, Targets};
-pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
-pub use server_log::{LogView, SaveLogForm};
-pub use task::{Task, TaskEvent, TaskFacts, TaskReport};
-pub use transfer::{ExportFound, Preview, Transfer, TransferForm};
-pub use vault::{VaultAction, VaultForm, VaultRequest};
-pub use verify::VerifyView;
-
-use super::backend::Event;
-use super::closing::{CloseChoice, Closing};
 use super::command::UiCommand;
 use crate::model::{Language, Problem};
 use crate::texts::Zone;
 use crate::workspace::{Configuration, Options, StoreStatus, ThemeChoice, Workspace};
-use trust::TrustAction;
+
+pub use closing::{CloseChoice, Closing};
+pub use command::{AuthorityDone, AuthorityWork, Command, Event, ExportFound, FileContents, ReadTrustFile, VaultWork};
+pub use command_palette::{CommandPalette, PaletteAction};
+pub use details::{LastResult, OverviewRead};
+pub use dialog::{Answer, Dialog, Place};
+pub use dropped::{Choice, DropForm, DroppedFile, Hover, MAX_DROPPED};
+pub use file_form::{BrowseField, FileForm};
+pub use files::first_path;
+pub use job::{CancelState, Job, JobRow};
+pub use job_id::JobId;
+pub use row_menu::{RowMenu, Targets};
+pub use row_state::RowState;
+pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
+pub use secret::SecretInput;
+pub use task::{Task, TaskEvent, TaskFacts, TaskReport};
+
+/// What a change of the model asks the backend for.
+pub type Commands = Vec<Command>;
+
+/// Draws what a feature adds to the processing dialog after the end of its job.
+pub type Footer = fn(&mut egui::Ui, &Job, &Model, &mut Vec<Message>);
 
 /// Everything the views draw from.
 #[derive(Debug)]
@@ -79,7 +63,7 @@ pub struct Model {
     pub options: Options,
     pub workspace: Workspace,
     /// The last one is on top and has the keyboard.
-    pub dialogs: Vec<Dialog>,
+    pub dialogs: Vec<Box<dyn Dialog>>,
     /// The job that runs, or the one whose summary is shown.
     pub job: Option<Job>,
     /// The context menu of a row.
@@ -99,23 +83,11 @@ pub struct Model {
     pub not_kept: Option<Problem>,
     /// Something the window remembers has changed since it was last saved.
     pub unsaved: bool,
-    last_job: u64,
+    pub(in crate::ui) last_job: u64,
     /// Files that were dropped are looked at.
-    dropping: Option<JobId>,
+    pub(in crate::ui) dropping: Option<JobId>,
     /// The desktop's dialog finds a file for this field.
-    browsing: Option<(JobId, PathField)>,
-}
-
-/// What the small CA can be asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum AuthorityCommand {
-    Create,
-    Restore,
-    SignControllers,
-    SignFile,
-    Revoke,
-    PublishCrl,
-    BackUp,
+    browsing: Option<(JobId, BrowseField)>,
 }
 
 /// What can happen: an engineer did something, or the backend reports.
@@ -162,14 +134,12 @@ pub enum Message {
     Submit,
     /// Cancel, Close or Esc.
     Close,
-    /// Delete the ticked users of the dialog on top.
-    DeleteUsers,
-    /// Open the dialog for one more user.
-    NewUser,
+    /// Something that one dialog offers.
+    Act(Action),
     /// Let the desktop's dialog find the file the dialog on top asks for.
     ChooseFile,
     /// Let the desktop's dialog find the file for a field of the dialog on top.
-    Browse(PathField),
+    Browse(BrowseField),
     /// Show a folder in the desktop's file manager.
     OpenFolder(PathBuf),
     /// These files are held over the window.
@@ -178,28 +148,8 @@ pub enum Message {
     Dropped(Vec<PathBuf>),
     /// Read the file whose path is typed into the dialog on top.
     ReadFile,
-    /// Put the controller into the list that cannot be reached now.
-    AddUnconfirmed,
-    /// About the vault for connection passwords.
-    Vault(VaultRequest),
-    /// Leave the controller out whose identity is asked for.
-    SkipIdentity,
-    /// Open the dialog for a certificate signing request.
-    NewCsr,
-    /// Read the server log again.
-    RefreshLog,
     /// Verify the servers that run anew after the ended job.
     VerifyChanged,
-    /// Put this program's certificate into the trusted lists that lack it.
-    TrustConfigurator,
-    /// Delete the server log that is shown.
-    DeleteLog,
-    /// Ask where the server log that is shown is to be saved.
-    SaveLog,
-    /// About client certificates and CRLs.
-    Trust(TrustAction),
-    /// Open the dialog for something the small CA is to do.
-    Authority(AuthorityCommand),
     /// Go on with the job after all.
     KeepGoing,
     /// Ask for the passwords the ended job lacked.
@@ -212,6 +162,22 @@ pub enum Message {
     Closing(CloseChoice),
     Save,
     Event(Event),
+}
+
+impl Message {
+    /// An action of one dialog: a function of its feature.
+    pub fn act(action: impl FnOnce(&mut Model) -> Vec<Command> + 'static) -> Self {
+        Self::Act(Action(Box::new(action)))
+    }
+}
+
+/// What a dialog offers besides its main button and Close.
+pub struct Action(pub(in crate::ui) Box<dyn FnOnce(&mut Model) -> Vec<Command>>);
+
+impl fmt::Debug for Action {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Action(…)")
+    }
 }
 
 impl Model {
@@ -256,21 +222,20 @@ impl Model {
         configuration
     }
 
-    /// Shows a failure on top of whatever is shown.
-    pub fn show_problem(&mut self, problem: Problem) {
-        self.dialogs.push(Dialog::Error(problem));
-    }
-
     /// Moves the window's clock.
     pub fn set_now(&mut self, now: DateTime<Utc>) {
         self.now = now;
         self.rows.refresh_expiry(now);
-        if let Some(form) = self.trust() {
-            form.refresh(now);
-        }
+        self.dialogs.iter_mut().for_each(|dialog| dialog.refresh(now));
     }
 
-    fn next_job(&mut self) -> JobId {
+    /// Asks the backend to save what the window remembers.
+    pub(in crate::ui) fn save(&mut self) -> Vec<Command> {
+        self.unsaved = false;
+        vec![Command::Save(Box::new(self.configuration()))]
+    }
+
+    pub(in crate::ui) fn next_job(&mut self) -> JobId {
         self.last_job += 1;
         JobId(self.last_job)
     }

@@ -1,10 +1,7 @@
 //! The context menu of a row, and for which controllers a command is.
 
-use super::{Model, RowId, reduce};
+use super::{Model, RowId};
 use crate::model::Feature;
-use crate::ui::backend::Command;
-use crate::ui::command::UiCommand;
-use crate::ui::model::Message;
 
 /// A context menu that is open.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,21 +51,8 @@ impl Model {
         }
     }
 
-    /// Does a command for the row's menu. The ticks are as before afterwards.
-    pub(super) fn invoke_for(&mut self, command: UiCommand, row: RowId) -> Vec<Command> {
-        match self.targets_of(row) {
-            Targets::Ticked => reduce(self, Message::Invoke(command)),
-            Targets::Row(row) => {
-                let ticked = self.rows.tick_only(row);
-                let commands = reduce(self, Message::Invoke(command));
-                self.rows.restore_ticks(&ticked);
-                commands
-            }
-        }
-    }
-
     /// Opens the menu of the row under the cursor.
-    pub(super) fn open_menu_at_cursor(&mut self) {
+    pub(in crate::ui) fn open_menu_at_cursor(&mut self) {
         let row = self.rows.at_cursor().map(|row| row.id);
         self.row_menu = row.map(|row| RowMenu { row, at: None });
     }

@@ -409,7 +409,7 @@ impl Rows {
     }
 
     /// Ticks this row and no other. Returns what was ticked before, for [`Rows::restore_ticks`].
-    pub(super) fn tick_only(&mut self, id: RowId) -> Vec<RowId> {
+    pub(in crate::ui) fn tick_only(&mut self, id: RowId) -> Vec<RowId> {
         let before = self.ticked();
         for row in &mut self.list {
             row.ticked = row.id == id;
@@ -418,7 +418,7 @@ impl Rows {
         before
     }
 
-    pub(super) fn restore_ticks(&mut self, ids: &[RowId]) {
+    pub(in crate::ui) fn restore_ticks(&mut self, ids: &[RowId]) {
         let ids: BTreeSet<&RowId> = ids.iter().collect();
         for row in &mut self.list {
             row.ticked = ids.contains(&row.id);

@@ -8,18 +8,17 @@ use std::sync::Arc;
 
 use tokio_util::sync::CancellationToken;
 
-use super::{Model, RowId};
+use super::{Commands, Dialog, Footer, Model, RowId};
 use crate::jobs::{
     self, Confirmation, JobContext, JobController, JobEvent, Operation, OperationOutput, Report, Step, Summary,
 };
 use crate::model::{ControllerInfo, Problem};
 use crate::texts::TextKey;
-use crate::ui::backend::Command;
 
 /// Takes in the result for one controller. Called on the window's thread.
-type OnResult<O> = Arc<dyn Fn(&mut Model, RowId, Result<O, Problem>) -> Vec<Command> + Send + Sync>;
+type OnResult<O> = Arc<dyn Fn(&mut Model, RowId, Result<O, Problem>) -> Commands + Send + Sync>;
 /// A step of a feature that takes in no result. Called on the window's thread.
-type Hook = Arc<dyn Fn(&mut Model) -> Vec<Command> + Send + Sync>;
+type Hook = Arc<dyn Fn(&mut Model) -> Commands + Send + Sync>;
 
 /// An operation, what the window calls it, and which functions of a feature get its results.
 ///
@@ -40,6 +39,8 @@ pub struct Task {
     pub restarts_server: bool,
     /// Whether passwords it lacks are asked for. Default: they are.
     pub asks_passwords: bool,
+    pub footer: Option<Footer>,
+    close_waiting: Option<fn(&mut Model)>,
     on_end: Option<Hook>,
     without_password: Option<Hook>,
     on_closed: Option<Hook>,
@@ -57,7 +58,7 @@ impl Task {
     pub fn with_results<O: OperationOutput>(
         title: TextKey,
         operation: impl Operation<Output = O> + 'static,
-        on_result: impl Fn(&mut Model, RowId, Result<O, Problem>) -> Vec<Command> + Send + Sync + 'static,
+        on_result: impl Fn(&mut Model, RowId, Result<O, Problem>) -> Commands + Send + Sync + 'static,
     ) -> Self {
         Self {
             title,
@@ -67,6 +68,8 @@ impl Task {
             is_quiet: false,
             restarts_server: false,
             asks_passwords: true,
+            footer: None,
+            close_waiting: None,
             on_end: None,
             without_password: None,
             on_closed: None,
@@ -92,14 +95,23 @@ impl Task {
         Self { restarts_server: true, ..self }
     }
 
-    /// A dialog waits for the results; the processing dialog is not opened.
-    pub fn for_dialog(self) -> Self {
+    /// The processing dialog is not opened.
+    pub fn in_background(self) -> Self {
         Self { is_shown: false, ..self }
+    }
+
+    /// A dialog of this type waits for the results; the processing dialog is not opened. A failure closes that dialog.
+    pub fn for_dialog<D: Dialog>(self) -> Self {
+        Self { close_waiting: Some(Model::close_after_failure::<D>), ..self.in_background() }
+    }
+
+    pub fn footer(self, footer: Footer) -> Self {
+        Self { footer: Some(footer), ..self }
     }
 
     /// Its failure is not shown, and no password is asked for.
     pub fn optional(self) -> Self {
-        Self { asks_passwords: false, is_shown: false, ..self }.on_end(|model| {
+        Self { asks_passwords: false, ..self.in_background() }.on_end(|model| {
             model.job = None;
             vec![]
         })
@@ -108,30 +120,37 @@ impl Task {
     /// Called when all controllers are finished, instead of what the window does by itself: for a task that is shown,
     /// the processing dialog stays open with the first failure; for one that a dialog waits for, a failure closes that
     /// dialog and is shown.
-    pub fn on_end(self, hook: impl Fn(&mut Model) -> Vec<Command> + Send + Sync + 'static) -> Self {
+    pub fn on_end(self, hook: impl Fn(&mut Model) -> Commands + Send + Sync + 'static) -> Self {
         Self { on_end: Some(Arc::new(hook)), ..self }
     }
 
     /// Called when passwords were asked for and none was given. Default: what [`Task::on_end`] does, or else the dialog
     /// that waits is closed.
-    pub fn without_password(self, hook: impl Fn(&mut Model) -> Vec<Command> + Send + Sync + 'static) -> Self {
+    pub fn without_password(self, hook: impl Fn(&mut Model) -> Commands + Send + Sync + 'static) -> Self {
         Self { without_password: Some(Arc::new(hook)), ..self }
     }
 
     /// Called when the processing dialog was closed after the end.
-    pub fn on_closed(self, hook: impl Fn(&mut Model) -> Vec<Command> + Send + Sync + 'static) -> Self {
+    pub fn on_closed(self, hook: impl Fn(&mut Model) -> Commands + Send + Sync + 'static) -> Self {
         Self { on_closed: Some(Arc::new(hook)), ..self }
     }
 
-    pub(super) fn end_hook(&self) -> Option<Hook> {
+    /// Closes the dialog that waits for the results.
+    pub(in crate::ui) fn close_waiting(&self, model: &mut Model) {
+        if let Some(close) = self.close_waiting {
+            close(model);
+        }
+    }
+
+    pub(in crate::ui) fn end_hook(&self) -> Option<Hook> {
         self.on_end.clone()
     }
 
-    pub(super) fn password_hook(&self) -> Option<Hook> {
+    pub(in crate::ui) fn password_hook(&self) -> Option<Hook> {
         self.without_password.clone().or_else(|| self.on_end.clone())
     }
 
-    pub(super) fn closed_hook(&self) -> Option<Hook> {
+    pub(in crate::ui) fn closed_hook(&self) -> Option<Hook> {
         self.on_closed.clone()
     }
 
@@ -192,12 +211,12 @@ pub struct TaskReport {
     pub result: Result<TaskFacts, Problem>,
     /// The controller's information after the operation; `None` if it was not reached.
     pub info: Option<ControllerInfo>,
-    deliver: Box<dyn FnOnce(&mut Model, RowId) -> Vec<Command> + Send>,
+    deliver: Box<dyn FnOnce(&mut Model, RowId) -> Commands + Send>,
 }
 
 impl TaskReport {
     /// Hands the result to the feature that started the task.
-    pub(super) fn deliver(self, model: &mut Model, row: RowId) -> Vec<Command> {
+    pub(in crate::ui) fn deliver(self, model: &mut Model, row: RowId) -> Commands {
         (self.deliver)(model, row)
     }
 }

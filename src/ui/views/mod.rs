@@ -9,12 +9,12 @@ mod table;
 mod toolbar;
 mod welcome;
 
-pub use toolbar::search_id;
-
 use egui::{CentralPanel, Frame, Panel, Ui};
 
-use super::model::{Message, Model};
 use super::theme::{self, palette};
+use crate::ui::model::{Message, Model};
+
+pub use toolbar::search_id;
 
 pub fn window(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     let palette = palette(ui);

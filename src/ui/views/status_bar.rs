@@ -1,7 +1,8 @@
 use egui::{Align, Button, Layout, RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Message, Model, VaultRequest};
+use crate::ui::features::vault::VaultRequest;
+use crate::ui::model::{Message, Model};
 use crate::ui::theme::{self, palette};
 
 pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
@@ -29,7 +30,7 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
             let text = small(T::PasswordsNotKept.text(language).to_owned()).color(palette.warning);
             let response = ui.add(Button::new(text).frame(false)).on_hover_text(T::PasswordsNotKeptTip.text(language));
             if response.clicked() {
-                messages.push(Message::Vault(VaultRequest::NotKept));
+                messages.push(Message::act(|model| model.vault_request(VaultRequest::NotKept)));
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -4,15 +4,8 @@ use egui::{
 };
 
 use super::primary;
+use crate::ui::model::Answer;
 use crate::ui::theme::{self, palette};
-
-/// What the engineer decided in a dialog, if anything.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Answer {
-    None,
-    Submit,
-    Close,
-}
 
 /// The buttons at the foot of a dialog.
 #[derive(Debug, Clone, Copy)]

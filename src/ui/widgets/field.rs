@@ -4,7 +4,7 @@ use egui::{Grid, Response, RichText, TextEdit, Ui, vec2};
 
 use crate::model::Language;
 use crate::texts::TextKey as T;
-use crate::ui::model::{Message, PathField};
+use crate::ui::model::{BrowseField, Message};
 use crate::ui::theme::{self, palette};
 
 /// A form: labels on the left, fields on the right. Each row is made by [`labelled`].
@@ -91,7 +91,7 @@ pub fn path_field(
     label: &str,
     path: &mut String,
     hint: &str,
-    field: PathField,
+    field: BrowseField,
     language: Language,
     messages: &mut Vec<Message>,
 ) {

@@ -5,7 +5,7 @@ use std::time::Duration;
 use egui::{ViewportCommand, ViewportEvent, ViewportId};
 use opcua_configurator::jobs::Step;
 use opcua_configurator::ui::backend::{Backend, Event, RecordingBackend};
-use opcua_configurator::ui::closing::Closing;
+use opcua_configurator::ui::model::Closing;
 use opcua_configurator::ui::model::RowState;
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::{Configuration, Workspace};

@@ -8,7 +8,7 @@ use opcua_configurator::jobs::{AddUser, SelfSigned, SelfSignedFields};
 use opcua_configurator::model::{Credential, KeyLength, Language, Problem, ServerStatus, UserPassword, Validity};
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::ui::backend::{NewVirtual, VirtualFleetStarter};
-use opcua_configurator::ui::model::Dialog;
+use opcua_configurator::ui::features::add_controller::AddController;
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{Configuration, ControllerEntry};
@@ -373,9 +373,9 @@ fn the_language_changes_at_once_and_is_remembered() {
 #[test]
 fn undo_does_not_bring_a_password_back() {
     let mut desk = Desk::empty(0, FleetFirmware::Current);
-    let password = |desk: &Desk| match desk.window.state().model.dialogs.last() {
-        Some(Dialog::AddController(form)) => form.password.0.clone(),
-        other => panic!("{other:?}"),
+    let password = |desk: &Desk| {
+        let form = desk.window.state().model.top::<AddController>().expect("the dialog is open");
+        form.password.0.clone()
     };
     choose(&mut desk.window, &["Controller", "Add controller…"]);
     type_into(&mut desk.window, "Connection password", "secret of the cell");

@@ -8,7 +8,7 @@ use opcua_configurator::jobs::{
     AddUser, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, StopServer,
 };
 use opcua_configurator::model::{Credential, KeyLength, SecurityPolicy, ServerSettings, UserPassword, Validity};
-use opcua_configurator::ui::model::Dialog;
+use opcua_configurator::ui::features::server_log::SaveLogForm;
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::FleetFirmware;
 
@@ -170,8 +170,8 @@ fn the_log_is_switched_on_and_deleted_in_one_step_and_saved() {
     desk.click("Browse…");
     let file = desk.folder.path().join("picked.txt");
     wait_until(&mut desk.window, PATIENCE, |window| {
-        let dialogs = &window.state().model.dialogs;
-        matches!(dialogs.last(), Some(Dialog::SaveLog(form)) if form.path == file.display().to_string())
+        let form = window.state().model.top::<SaveLogForm>();
+        form.is_some_and(|form| form.path == file.display().to_string())
     });
     desk.click("Save");
     desk.finish("1 done");

@@ -3,7 +3,9 @@
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable as _;
 use opcua_configurator::ui::backend::{Backend, RecordingBackend};
-use opcua_configurator::ui::model::{Column, Dialog};
+use opcua_configurator::ui::features::backup::BackupDialog;
+use opcua_configurator::ui::features::delete_controllers::DeleteControllers;
+use opcua_configurator::ui::model::Column;
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::Workspace;
 
@@ -71,10 +73,7 @@ fn the_menu_of_a_row_acts_on_that_row_or_on_all_that_are_ticked() {
     press(&mut window, row, PointerButton::Secondary, 1);
     assert!(shows(&window, "Only Weld 2"));
     click(&mut window, "Delete…");
-    match window.state().model.dialogs.last() {
-        Some(Dialog::Delete { names, .. }) => assert_eq!(names, &[LEGACY]),
-        other => panic!("{other:?}"),
-    }
+    assert_eq!(window.state().model.top::<DeleteControllers>().unwrap().names, [LEGACY]);
     click(&mut window, "Cancel");
     assert_eq!(ticked(&window), [CURRENT], "the ticks are as before");
 
@@ -82,7 +81,7 @@ fn the_menu_of_a_row_acts_on_that_row_or_on_all_that_are_ticked() {
     press(&mut window, row, PointerButton::Secondary, 1);
     assert!(shows(&window, "All 2 ticked controllers"));
     click(&mut window, "Delete…");
-    assert!(matches!(window.state().model.dialogs.last(), Some(Dialog::Delete { names, .. }) if names.len() == 2));
+    assert_eq!(window.state().model.top::<DeleteControllers>().unwrap().names.len(), 2);
 }
 
 #[test]
@@ -158,7 +157,7 @@ fn a_command_is_found_by_a_part_of_its_name_and_done_with_the_keyboard() {
     key(&mut window, Modifiers::NONE, Key::ArrowDown);
     key(&mut window, Modifiers::NONE, Key::Enter);
     assert!(window.state().model.command_palette.is_none());
-    assert!(matches!(window.state().model.dialogs.last(), Some(Dialog::Backup { .. })), "the second one found");
+    assert!(window.state().model.top::<BackupDialog>().is_some(), "the second one found");
 }
 
 #[test]

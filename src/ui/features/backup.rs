@@ -1,0 +1,40 @@
+//! Whether copies of certificates are kept (manual 2.8.1).
+
+use egui::{Label, RichText, Ui};
+
+use crate::texts::TextKey as T;
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place};
+use crate::ui::theme::{self, palette};
+use crate::ui::widgets::{Buttons, dialog, fine_print};
+
+/// Whether backups are kept.
+#[derive(Debug)]
+pub struct BackupDialog {
+    pub on: bool,
+}
+
+impl Dialog for BackupDialog {
+    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+        backup(ui, &mut self.on, model)
+    }
+
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+        model.options.backup = self.on;
+        model.save()
+    }
+}
+
+fn backup(ui: &Ui, on: &mut bool, model: &Model) -> Answer {
+    let text = |key: T| key.text(model.language);
+    let buttons = Buttons { submit: Some((text(T::Apply), None)), close: Some(text(T::Cancel)) };
+    dialog(ui, "backup", text(T::BackupTitle), theme::DIALOG, buttons, |ui| {
+        ui.checkbox(on, text(T::BackupOn));
+        ui.add_space(theme::SPACE);
+        ui.add(Label::new(text(T::BackupWhere)).wrap());
+        let folder = model.workspace.root().display().to_string();
+        ui.add(Label::new(RichText::new(folder).monospace().color(palette(ui).weak)).wrap().selectable(true));
+        ui.add_space(theme::SPACE);
+        fine_print(ui, text(T::BackupKeys));
+        fine_print(ui, text(T::BackupRestore));
+    })
+}

@@ -1,0 +1,47 @@
+//! Saving self-signed certificates on the PC (manual 2.7.1.3).
+
+mod view;
+
+use egui::Ui;
+
+use crate::jobs::ExportSelfSigned;
+use crate::model::FileFormat;
+use crate::texts::TextKey;
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task};
+use crate::workspace::Workspace;
+
+pub use view::format;
+
+/// Where the self-signed certificates are saved, and how (manual 2.7.1.3).
+#[derive(Debug)]
+pub struct ExportForm {
+    pub rows: Vec<RowId>,
+    pub names: Vec<String>,
+    pub format: FileFormat,
+}
+
+impl ExportForm {
+    pub fn new(rows: Vec<RowId>, model: &Model) -> Self {
+        Self { names: model.rows.names(&rows), rows, format: FileFormat::default() }
+    }
+
+    pub fn task(&self, workspace: &Workspace) -> Task {
+        let operation = ExportSelfSigned { format: self.format, files: workspace.certificate_files() };
+        Task::new(TextKey::ExportSelfSignedTitle, operation).act(TextKey::Export)
+    }
+}
+
+impl Dialog for ExportForm {
+    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+        view::show(ui, self, model, messages)
+    }
+
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+        let planned = Some((self.task(&model.workspace), self.rows.clone()));
+        model.ask(self, planned)
+    }
+
+    fn is_done_by_confirming(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,57 @@
+//! A self-signed server certificate (manual 2.7.1.2), and the request for one that a CA signs (2.7.1.5).
+
+mod form;
+mod view;
+
+use egui::Ui;
+
+use crate::jobs;
+use crate::model::FileFormat;
+use crate::texts::TextKey;
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task};
+
+pub use form::SelfSignedForm;
+
+impl Dialog for SelfSignedForm {
+    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+        view::show(ui, self, model)
+    }
+
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+        let planned = self.task(model).map(|task| (task, self.rows.clone()));
+        model.ask(self, planned)
+    }
+
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+        model.drop_job()
+    }
+
+    fn is_done_by_confirming(&self) -> bool {
+        true
+    }
+}
+
+impl Model {
+    /// For a certificate, or for a request in this format.
+    pub(in crate::ui) fn open_self_signed(&mut self, rows: Vec<RowId>, request: Option<FileFormat>) -> Vec<Command> {
+        let form = SelfSignedForm::new(rows.clone(), request, self);
+        let reading = form.reading;
+        self.open(form);
+        if reading { self.start(read_policies(), rows, None) } else { vec![] }
+    }
+}
+
+fn read_policies() -> Task {
+    Task::with_results(TextKey::SettingsTitle, jobs::ReadSettings, |model, row, result| {
+        let name = model.rows.get(row).and_then(|row| row.info()).map(|info| info.application_name.clone());
+        if let (Ok(settings), Some(form)) = (result, model.dialog::<SelfSignedForm>()) {
+            form.reading = false;
+            form.offer(&settings.value.security_policies);
+            if let Some(name) = name.filter(|_| form.common_name.is_empty()) {
+                form.common_name = name;
+            }
+        }
+        vec![]
+    })
+    .for_dialog::<SelfSignedForm>()
+}

@@ -1,0 +1,68 @@
+use super::{JobId, Model};
+use crate::model::Problem;
+use crate::texts::TextKey;
+use crate::ui::picker::FileKind;
+
+/// A field for the path of a file that is read or written later, by the operation itself.
+#[derive(Debug, Clone, Copy)]
+pub struct BrowseField {
+    pub kind: FileKind,
+    /// The title of the desktop's dialog if it asks where a file is saved; `None`: for a file that exists.
+    pub save_title: Option<TextKey>,
+    /// The text of the field; `None` if its dialog was closed.
+    pub text: fn(&mut Model) -> Option<&mut String>,
+}
+
+/// A file to be read.
+#[derive(Debug)]
+pub struct FileForm {
+    /// As it is typed.
+    pub path: String,
+    pub kind: FileKind,
+    /// A larger file is refused.
+    pub most: usize,
+    /// The path whose contents the dialog shows.
+    pub shown: Option<String>,
+    pub picking: Option<JobId>,
+    pub reading: Option<JobId>,
+    /// Why the last attempt failed.
+    pub problem: Option<Problem>,
+    /// It is tried first whether it exists; that there is none is no failure.
+    pub optional: bool,
+}
+
+impl FileForm {
+    pub fn new(kind: FileKind, most: usize) -> Self {
+        Self {
+            path: String::new(),
+            kind,
+            most,
+            shown: None,
+            picking: None,
+            reading: None,
+            problem: None,
+            optional: false,
+        }
+    }
+
+    /// What is shown is what is in the file whose path is in the field.
+    pub fn is_shown(&self) -> bool {
+        self.shown.as_deref() == Some(self.path.as_str())
+    }
+
+    /// Why it cannot be read now.
+    pub fn incomplete(&self) -> Option<TextKey> {
+        if self.reading.is_some() {
+            Some(TextKey::Reading)
+        } else if self.trimmed().is_empty() {
+            Some(TextKey::FileRule)
+        } else {
+            None
+        }
+    }
+
+    /// File managers put quotes around a path they copy.
+    pub(super) fn trimmed(&self) -> &str {
+        self.path.trim().trim_matches('"')
+    }
+}

@@ -1,0 +1,27 @@
+use crate::jobs::Step;
+use crate::model::{ErrorCode, Problem};
+
+/// Where a job is with one controller.
+#[derive(Debug, Clone, PartialEq)]
+pub enum RowState {
+    Waiting,
+    Step(Step),
+    Done,
+    Failed(Problem),
+    NotStarted,
+}
+
+impl RowState {
+    pub fn problem(&self) -> Option<&Problem> {
+        match self {
+            Self::Failed(problem) => Some(problem),
+            _ => None,
+        }
+    }
+
+    /// The connection password is missing, in a closed vault, or no longer the right one.
+    pub fn needs_password(&self) -> bool {
+        use ErrorCode::{PasswordMissing, VaultLocked, WrongPassword};
+        self.problem().is_some_and(|p| matches!(p.code, PasswordMissing | WrongPassword | VaultLocked))
+    }
+}
