@@ -13,6 +13,7 @@ mod base64_bytes;
 mod capabilities;
 mod certificate;
 mod certificate_status;
+mod changed;
 mod client_list;
 pub mod clock;
 mod connection_kind;
@@ -44,6 +45,7 @@ pub use certificate::{
     Validity, default_common_name, offered_key_lengths,
 };
 pub use certificate_status::{CertificateStatus, UnknownCertificateStatus};
+pub use changed::Changed;
 pub use client_list::{ClientList, ListLimits};
 pub use connection_kind::ConnectionKind;
 pub use controller::{
@@ -58,7 +60,7 @@ pub use info::{ControllerInfo, ServerCertificate, ServerStatus};
 pub use language::Language;
 pub use log_chunk::LogChunk;
 pub use problem::Problem;
-pub use revision::{Changed, RevisionToken, Revisioned};
+pub use revision::{RevisionToken, Revisioned};
 pub use settings::{
     PortError, SecurityPolicy, ServerPort, ServerSettings, SettingsError, SettingsWarning, StartupMode, UserTokenPolicy,
 };

@@ -2,8 +2,6 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::ServerStatus;
-
 /// Names the configuration that a value was read from. A change carries the token of the value that it is based on, so that
 /// a controller whose configuration was changed in between refuses the change
 /// ([`ErrorCode::ChangedMeanwhile`](super::ErrorCode::ChangedMeanwhile)).
@@ -37,13 +35,4 @@ impl fmt::Display for RevisionToken {
 pub struct Revisioned<T> {
     pub revision: RevisionToken,
     pub value: T,
-}
-
-/// A change was applied.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Changed {
-    /// The configuration after the change.
-    pub revision: RevisionToken,
-    /// The state of the OPC UA server after the change.
-    pub status: ServerStatus,
 }

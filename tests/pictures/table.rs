@@ -46,8 +46,8 @@ fn details() {
 #[test]
 fn details_in_a_small_window() {
     let mut window = open([900.0, 500.0]);
-    let row = details_of(&mut window, LONG);
-    say(&mut window, Message::ReadOverview(row));
+    details_of(&mut window, LONG);
+    click(&mut window, "Read settings and lists");
     let settings = ServerSettings::default();
     finish(&mut window, vec![Ok(Overview { settings, users: 3, trusted: 12, rejected: 1, issuers: Some(2), crls: 2 })]);
     say(&mut window, Message::SetTheme(ThemeChoice::Dark));

@@ -1,26 +1,8 @@
 //! What the details pane knows about a controller beyond its row.
 
-use chrono::{DateTime, Utc};
-
-use super::{Command, Model, RowId, RowState, Task};
-use crate::jobs::{Overview, ReadOverview};
+use super::{Command, Model, OverviewRead, RowId, Task};
+use crate::jobs::ReadOverview;
 use crate::texts::TextKey;
-
-/// How the last job ended for a controller since the window was opened.
-#[derive(Debug, Clone)]
-pub struct LastResult {
-    /// The job's name.
-    pub title: TextKey,
-    pub at: DateTime<Utc>,
-    pub state: RowState,
-}
-
-/// What was read for the pane, and when.
-#[derive(Debug, Clone)]
-pub struct OverviewRead {
-    pub at: DateTime<Utc>,
-    pub overview: Overview,
-}
 
 impl Model {
     pub(in crate::ui) fn show_details(&mut self, shown: bool) {

@@ -30,7 +30,7 @@ fn the_sample_file_activates_the_controllers_it_was_made_for() {
     }
     let people = desk.run(&["activate", "--file", MISTAKES, "--yes", "cell 1"]);
     assert_eq!(people.code, Some(0), "the other lines are not its business");
-    assert!(people.stderr.contains("line 7: it has 1 field;"), "{}", people.stderr);
+    assert!(people.stderr.contains("Line 7: it has 1 field;"), "{}", people.stderr);
     assert_eq!(desk.json(&["activate", "--file", SAMPLE, "--yes", "--all"]).0, Some(0));
     let (_, infos) = desk.json(&["info", "--all"]);
     assert!(infos.iter().all(|line| line["result"]["activated"] == true), "{infos:?}");

@@ -76,6 +76,9 @@ pub struct TrustForm {
 /// Certificates are judged by the controller's clock; a difference of so much is pointed out.
 const CLOCK_TOLERANCE: Duration = Duration::minutes(5);
 
+/// No read of the lists takes longer.
+const LONGEST_READ: Duration = Duration::minutes(2);
+
 impl TrustForm {
     pub fn new(row: RowId, name: String, shows: Shows, zone: Zone, now: DateTime<Utc>) -> Self {
         let kinds: &[PaneKind] = match shows {
@@ -108,9 +111,12 @@ impl TrustForm {
 
     /// What the controller has now.
     pub fn fill(&mut self, held: Box<TrustSnapshot>, now: DateTime<Utc>) {
-        // A change answers sooner than what was being read meanwhile.
-        let is_stale =
-            self.held.as_ref().is_some_and(|newer| newer.revision != held.revision && newer.clock > held.clock);
+        // A change may answer sooner than a read that was begun before it. A larger difference is a clock that was set
+        // back, and the lists are the newer ones.
+        let is_stale = self.held.as_ref().is_some_and(|newer| {
+            let behind = newer.clock - held.clock;
+            newer.revision != held.revision && behind > Duration::zero() && behind < LONGEST_READ
+        });
         if is_stale {
             return;
         }
