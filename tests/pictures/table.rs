@@ -45,9 +45,10 @@ fn details() {
 
 #[test]
 fn details_in_a_small_window() {
-    let mut window = open([900.0, 500.0]);
+    let mut window = open(SIZE);
     details_of(&mut window, LONG);
     click(&mut window, "Read settings and lists");
+    window.set_size([900.0, 500.0].into());
     let settings = ServerSettings::default();
     finish(&mut window, vec![Ok(Overview { settings, users: 3, trusted: 12, rejected: 1, issuers: Some(2), crls: 2 })]);
     say(&mut window, Message::SetTheme(ThemeChoice::Dark));

@@ -1,6 +1,7 @@
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use opcua::crypto::{CertificateStore, X509};
 use parking_lot::Mutex;
@@ -16,6 +17,9 @@ use crate::platform::{private, replace};
 #[derive(Debug)]
 pub(super) struct PkiFolder {
     root: PathBuf,
+    /// The file with the server's key. Its name is used once, because a server that was stopped is dropped together with
+    /// its last connection, which may be after the next server has started in the same folder.
+    key_file: String,
     /// The names of the files in the folder for trusted certificates, the one used longest ago first.
     admitted: Mutex<Vec<String>>,
 }
@@ -24,8 +28,14 @@ impl PkiFolder {
     /// Creates the folder, or empties it of what an earlier run left. Nobody but this account may look into it.
     pub(super) fn create(root: PathBuf) -> io::Result<Self> {
         create_private_folder(&root)?;
-        for name in [OWN_CERTIFICATE, OWN_KEY, NEW_CERTIFICATE] {
+        for name in [OWN_CERTIFICATE, NEW_CERTIFICATE] {
             remove_if_there(&root.join(name))?;
+        }
+        for entry in fs::read_dir(&root)? {
+            let path = entry?.path();
+            if path.extension().is_some_and(|extension| extension == KEY_EXTENSION) {
+                remove_if_there(&path)?;
+            }
         }
         for name in [TRUSTED, REJECTED] {
             let path = root.join(name);
@@ -37,16 +47,22 @@ impl PkiFolder {
             }
             create_private_folder(&path)?;
         }
-        Ok(Self { root, admitted: Mutex::default() })
+        let number = STARTED.fetch_add(1, Ordering::Relaxed);
+        Ok(Self { root, key_file: format!("own-{number}.{KEY_EXTENSION}"), admitted: Mutex::default() })
     }
 
     pub(super) fn root(&self) -> &Path {
         &self.root
     }
 
+    /// The name of the file with the server's key in this folder.
+    pub(super) fn key_file(&self) -> &str {
+        &self.key_file
+    }
+
     pub(super) fn write_own(&self, certificate_der: &[u8], key_pem: &str) -> io::Result<()> {
         write_private_file(&self.root.join(OWN_CERTIFICATE), certificate_der)?;
-        write_private_file(&self.root.join(OWN_KEY), key_pem.as_bytes())
+        write_private_file(&self.root.join(&self.key_file), key_pem.as_bytes())
     }
 
     /// Keeps what strangers send off the disk: the crate would store every unknown certificate in the folder for
@@ -100,7 +116,7 @@ impl PkiFolder {
 
 impl Drop for PkiFolder {
     fn drop(&mut self) {
-        if let Err(e) = remove_if_there(&self.root.join(OWN_KEY)) {
+        if let Err(e) = remove_if_there(&self.root.join(&self.key_file)) {
             tracing::warn!("the OPC UA server's key stays in {}: {e}", self.root.display());
         }
     }
@@ -130,9 +146,31 @@ fn write_private_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
 }
 
 pub(super) const OWN_CERTIFICATE: &str = "own.der";
-pub(super) const OWN_KEY: &str = "own.pem";
+const KEY_EXTENSION: &str = "pem";
+/// How many servers were started in this process.
+static STARTED: AtomicU64 = AtomicU64::new(0);
 const NEW_CERTIFICATE: &str = "new.der";
 const MAX_ADMITTED: usize = 256;
 // The crate's names.
 const TRUSTED: &str = "trusted";
 const REJECTED: &str = "rejected";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_server_that_is_dropped_late_leaves_the_key_of_the_next_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let keys = || fs::read_dir(folder.path()).unwrap().filter(|e| e.as_ref().unwrap().path().extension().is_some());
+        let stopped = PkiFolder::create(folder.path().to_owned()).unwrap();
+        stopped.write_own(b"certificate", "key").unwrap();
+        let next = PkiFolder::create(folder.path().to_owned()).unwrap();
+        next.write_own(b"certificate", "key").unwrap();
+        drop(stopped);
+        assert!(folder.path().join(next.key_file()).is_file());
+        assert_eq!(keys().count(), 2, "a certificate and a key");
+        drop(next);
+        assert_eq!(keys().count(), 1, "a certificate");
+    }
+}

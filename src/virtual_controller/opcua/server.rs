@@ -19,7 +19,7 @@ use super::address_space::Controller;
 use super::admission::{
     Attached, CutConnection, Gate, Guarded, InnerServer, Judge, Reporter, ServerKeyPair, Settings, deaf_listener,
 };
-use super::certificate_store::{OWN_CERTIFICATE, OWN_KEY, PkiFolder};
+use super::certificate_store::{OWN_CERTIFICATE, PkiFolder};
 use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
 use super::events::{Event, Events};
@@ -219,7 +219,7 @@ fn builder(
         .discovery_urls(vec![format!("{}/", endpoint(address))])
         .pki_dir(gate.pki().root())
         .certificate_path(OWN_CERTIFICATE)
-        .private_key_path(OWN_KEY)
+        .private_key_path(gate.pki().key_file())
         .create_sample_keypair(false)
         .trust_client_certs(false)
         // The gate has looked at it, by the controller's clock.
