@@ -291,6 +291,7 @@ fn a_failing_controller_is_explained_with_cause_and_remedy() {
     desk.click("Add");
     desk.click("Add user");
     desk.wait_for("The change was applied, but its answer was lost");
+    desk.wait_for("Completed");
     desk.click("Close");
     desk.wait_for("operator2");
 }
