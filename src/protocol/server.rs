@@ -13,7 +13,7 @@ requests! {
     GET "/v1/info" GetInfo { none } session -> ControllerInfo, "";
     POST "/v1/server/start" StartServer { none } session -> Changed, "";
     POST "/v1/server/stop" StopServer { none } session -> Changed, "";
-    GET "/v1/log" GetLog { none } session -> LogChunk, "query `from=` and an offset in bytes; without it, the end of the log", at GetLog::to_target;
+    GET "/v1/log" GetLog { none } session -> LogChunk, "query `from=` and an offset in bytes; without it, the end of the log", at GetLog::target_with_parameters;
 }
 
 /// Reads the state of the controller.
@@ -36,7 +36,7 @@ pub struct GetLog {
 }
 
 impl GetLog {
-    fn to_target(&self) -> String {
+    fn target_with_parameters(&self) -> String {
         match self.from {
             None => <Self as super::Request>::PATH.to_owned(),
             Some(from) => format!("{}?from={from}", <Self as super::Request>::PATH),

@@ -18,7 +18,7 @@ requests! {
     GET "/v1/clients/issuers" GetIssuers { none } session -> Revisioned<Vec<ListedCertificate>>, "current firmware";
     GET "/v1/clients/rejected" GetRejected { none } session -> Revisioned<Vec<RejectedClient>>, "seen last first";
     GET "/v1/crls" GetCrls { none } session -> Revisioned<Vec<ListedCrl>>, "";
-    GET "/v1/crls/{id}" GetCrl { none } session -> Base64Bytes, "the CRL in DER", at GetCrl::to_target;
+    GET "/v1/crls/{id}" GetCrl { none } session -> Base64Bytes, "the CRL in DER", at GetCrl::target_with_parameters;
     GET "/v1/trust" GetTrustStamp { none } session -> TrustStamp, "";
     POST "/v1/trust" EditTrust { json } revision -> TrustChanged, "all steps or none";
 }
@@ -52,7 +52,7 @@ pub struct GetCrl {
 }
 
 impl GetCrl {
-    fn to_target(&self) -> String {
+    fn target_with_parameters(&self) -> String {
         Self::PATH.replace("{id}", &self.id)
     }
 }

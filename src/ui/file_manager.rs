@@ -67,10 +67,8 @@ fn wait(mut child: Child, program: &str) -> io::Result<()> {
     Ok(())
 }
 
-#[cfg(test)]
+#[cfg(all(test, unix))]
 mod tests {
-    #![cfg(unix)]
-
     use super::*;
 
     /// A program that writes its arguments into a file, one a line, and ends like this.

@@ -125,7 +125,7 @@ impl Source {
                 self.folder(&path, &inner);
             } else if path.extension().is_some_and(|e| e == "rs") && name != "build" {
                 let text = std::fs::read_to_string(&path).unwrap();
-                let text = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+                let text = text.split("\nmod tests {").next().unwrap_or_default();
                 let module = if matches!(name.as_str(), "mod" | "lib") { module.to_vec() } else { inner };
                 self.files.insert(module, uses(text));
             }
@@ -208,7 +208,12 @@ fn expand(tree: &str, before: &[String], found: &mut dyn FnMut(Module)) {
     };
     let parts = prefix.split("::").map(str::trim).filter(|part| !part.is_empty()).map(str::to_owned);
     let path: Module = before.iter().cloned().chain(parts).collect();
-    let Some(group) = group else { return if path.is_empty() { () } else { found(path) } };
+    let Some(group) = group else {
+        if !path.is_empty() {
+            found(path);
+        }
+        return;
+    };
     let (mut depth, mut start) = (0, 0);
     for (at, c) in group.char_indices().chain([(group.len(), ',')]) {
         match c {

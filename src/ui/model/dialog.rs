@@ -112,8 +112,8 @@ impl Model {
 
     /// Takes out the dialog of this type that fits.
     pub fn take_out<D: Dialog>(&mut self, fits: impl Fn(&D) -> bool) -> Option<Box<D>> {
-        let is_it = |dialog: &Box<dyn Dialog>| as_any(dialog.as_ref()).downcast_ref().is_some_and(&fits);
-        let index = self.dialogs.iter().position(is_it)?;
+        let is_it = |dialog: &dyn Dialog| as_any(dialog).downcast_ref().is_some_and(&fits);
+        let index = self.dialogs.iter().position(|dialog| is_it(dialog.as_ref()))?;
         let dialog: Box<dyn Any> = self.dialogs.remove(index);
         dialog.downcast().ok()
     }

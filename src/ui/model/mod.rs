@@ -173,7 +173,9 @@ impl Message {
 }
 
 /// What a dialog offers besides its main button and Close.
-pub struct Action(pub(in crate::ui) Box<dyn FnOnce(&mut Model) -> Vec<Command>>);
+pub struct Action(pub(in crate::ui) Act);
+
+type Act = Box<dyn FnOnce(&mut Model) -> Commands>;
 
 impl fmt::Debug for Action {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

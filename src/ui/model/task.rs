@@ -17,6 +17,9 @@ use crate::texts::TextKey;
 
 /// Takes in the result for one controller. Called on the window's thread.
 type OnResult<O> = Arc<dyn Fn(&mut Model, RowId, Result<O, Problem>) -> Commands + Send + Sync>;
+/// Hands one result to the feature that started the task.
+type Deliver = Box<dyn FnOnce(&mut Model, RowId) -> Commands + Send>;
+
 /// A step of a feature that takes in no result. Called on the window's thread.
 type Hook = Arc<dyn Fn(&mut Model) -> Commands + Send + Sync>;
 
@@ -211,7 +214,7 @@ pub struct TaskReport {
     pub result: Result<TaskFacts, Problem>,
     /// The controller's information after the operation; `None` if it was not reached.
     pub info: Option<ControllerInfo>,
-    deliver: Box<dyn FnOnce(&mut Model, RowId) -> Commands + Send>,
+    deliver: Deliver,
 }
 
 impl TaskReport {

@@ -48,6 +48,6 @@ pub fn explanation(ui: &mut Ui, problem: &Problem, language: Language) {
     let code = problem.code.as_str();
     match &problem.detail {
         Some(detail) => part(T::Detail, &format!("{code}: {detail}"), true),
-        None => part(T::Detail, &code, true),
+        None => part(T::Detail, code, true),
     }
 }
