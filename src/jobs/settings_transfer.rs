@@ -13,7 +13,7 @@ use crate::workspace::{SettingsFiles, check_passphrase, check_protects_files};
 pub struct ExportSettings {
     pub files: SettingsFiles,
     /// `None`: each controller's connection password, as with its key files; an empty one is refused
-    /// ([`ErrorCode::UnprotectedFile`]).
+    /// ([`ErrorCode::UnprotectedFile`](crate::model::ErrorCode::UnprotectedFile)).
     pub passphrase: Option<SecretString>,
 }
 

@@ -48,7 +48,7 @@
 //! new connections as for open ones: those that would not be let in any more are ended, and the answer names them.
 //!
 //! The rejected list is filled by the controller with certificates that were refused. It is bounded and no part of the
-//! configuration: what only removes from it does not change the revision. [`TrustStamp`] tells cheaply whether it, or
+//! configuration: what only removes from it does not change the revision. [`TrustStamp`](crate::model::TrustStamp) tells cheaply whether it, or
 //! anything else of this, is another than before. A certificate that is put into another list leaves it.
 //!
 //! Limits of the lists are in [`ControllerInfo`](crate::model::ControllerInfo). Legacy firmware has no issuers list;

@@ -2,7 +2,7 @@
 //!
 //! A feature holds its form and its checks (without egui), what its main button does, what it does with results, and how
 //! it is drawn. Its dialog implements [`Dialog`](crate::ui::model::Dialog). It is registered here, in
-//! [`UiCommand::why_disabled`] and [`Model::invoke`]; its words, tooltip and key are in [`UiCommand`], its place in a
+//! [`UiCommand::why_disabled`] and `Model::invoke`; its words, tooltip and key are in [`UiCommand`], its place in a
 //! menu in `views/main_menu.rs`.
 //!
 //! | feature | what |
