@@ -6,7 +6,7 @@ use clap::Args;
 use super::batch::{Presentation, Shown};
 use super::output::say;
 use super::select::Select;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{Activate, Done, KeySource};
 use crate::model::activation::{self, ActivationFile, ActivationKeys, KeyError, MAX_ACTIVATION_FILE_BYTES};
 use crate::model::{ErrorCode, Problem};
@@ -40,8 +40,8 @@ const ACTIVATED: Presentation<Done> = Presentation {
     },
 };
 
-pub fn run(settled: &Settled, args: &ActivateArgs) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, args: &ActivateArgs) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let keys = match (&args.file, &args.license, &args.activation) {
         (Some(file), ..) => KeySource::File(Arc::new(read(file)?)),
@@ -61,10 +61,10 @@ pub fn run(settled: &Settled, args: &ActivateArgs) -> Result<Ending, Problem> {
     };
     if let KeySource::File(file) = &keys {
         for mistake in file.mistakes() {
-            say(&crate::texts::line_mistake(settled.output.language(), mistake));
+            say(&crate::texts::line_mistake(cli.output.language(), mistake));
         }
     }
-    settled.batch(&configuration, &chosen, Activate { keys }, &ACTIVATED)
+    cli.batch(&configuration, &chosen, Activate { keys }, &ACTIVATED)
 }
 
 fn read(path: &Path) -> Result<ActivationFile, Problem> {

@@ -2,7 +2,7 @@ use clap::Subcommand;
 use serde_json::json;
 
 use super::output::json_path;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::model::Problem;
 use crate::texts::cli as texts;
 
@@ -16,22 +16,22 @@ pub enum BackupCommand {
     Show,
 }
 
-pub fn run(settled: &Settled, command: BackupCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: BackupCommand) -> Result<Ending, Problem> {
     let backup = match command {
-        BackupCommand::Show => settled.configuration()?.options.backup,
+        BackupCommand::Show => cli.configuration()?.options.backup,
         BackupCommand::On | BackupCommand::Off => {
-            let lock = settled.lock()?;
-            let mut configuration = settled.configuration()?;
+            let lock = cli.lock()?;
+            let mut configuration = cli.configuration()?;
             configuration.options.backup = matches!(command, BackupCommand::On);
-            settled.workspace.save(&configuration, &lock)?;
+            cli.workspace.save(&configuration, &lock)?;
             configuration.options.backup
         }
     };
-    let root = settled.workspace.root();
-    if settled.output.is_json() {
-        settled.output.text(&json!({ "backup": backup, "folder": json_path(root) }).to_string());
+    let root = cli.workspace.root();
+    if cli.output.is_json() {
+        cli.output.text(&json!({ "backup": backup, "folder": json_path(root) }).to_string());
     } else {
-        settled.output.text(&texts::backup(settled.output.language(), backup, root.display()));
+        cli.output.text(&texts::backup(cli.output.language(), backup, root.display()));
     }
     Ok(Ending::AllDone)
 }

@@ -12,7 +12,7 @@ use tokio_util::sync::CancellationToken;
 use super::cell::Cell;
 use super::output::say;
 use super::table::table;
-use super::{Ending, Settled, runtime};
+use super::{CommandContext, Ending, runtime};
 use crate::jobs::{
     self, CertificateChecked, Confirmation, Done, JobContext, JobController, JobEvent, Operation, OperationOutput,
     Report,
@@ -59,7 +59,7 @@ impl Ending {
     }
 }
 
-impl Settled {
+impl CommandContext {
     pub fn configuration(&self) -> Result<Configuration, Problem> {
         let loaded = self.workspace.load()?;
         if let Some(notice) = loaded.notice() {
@@ -87,7 +87,7 @@ impl Settled {
         Ok(Ending::of(&reports))
     }
 
-    /// As [`Settled::batch`], but without `--json` the printing is left to the caller.
+    /// As [`CommandContext::batch`], but without `--json` the printing is left to the caller.
     pub fn reports<O: OperationOutput>(
         &self,
         configuration: &Configuration,
@@ -102,7 +102,7 @@ impl Settled {
         self.confirmed(configuration, chosen, operation, on_report)
     }
 
-    /// As [`Settled::reports`], once everything was agreed to.
+    /// As [`CommandContext::reports`], once everything was agreed to.
     fn confirmed<O: OperationOutput>(
         &self,
         configuration: &Configuration,

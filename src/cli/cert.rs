@@ -8,7 +8,7 @@ use super::cell::Cell;
 use super::output::{json_path, json_paths};
 use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{
     CaCertificateSource, CertificateExported, CertificateImported, CertificateMade, CertificateRestored,
     CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, CreateCsr, CsrFields, CsrSaved, ExportSelfSigned,
@@ -302,15 +302,15 @@ fn finding(finding: &Finding) -> Value {
     })
 }
 
-pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, command: CertCommand) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     match command {
-        CertCommand::SelfSigned(args) => self_signed(settled, &configuration, args),
-        CertCommand::Csr(args) => csr(settled, &configuration, args),
+        CertCommand::SelfSigned(args) => self_signed(cli, &configuration, args),
+        CertCommand::Csr(args) => csr(cli, &configuration, args),
         CertCommand::ImportCa { file, warnings, select } => {
             let chosen = select.resolve(&configuration)?;
             let source = match file {
-                None => CaCertificateSource::Folder(settled.workspace.certificate_files()),
+                None => CaCertificateSource::Folder(cli.workspace.certificate_files()),
                 Some(file) => {
                     one_only(&chosen)?;
                     // Read once before anything is sent, so that a wrong file is a wrong request.
@@ -321,7 +321,7 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
             };
             let check = CheckCaCertificate(source.clone());
             let import = |accept_warnings| ImportCaCertificate { source, accept_warnings };
-            settled.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
+            cli.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
         }
         CertCommand::ImportUser { password_file, warnings, arguments } => {
             let (files, chosen) = arguments.resolve(&configuration)?;
@@ -335,11 +335,11 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
             files.read(password.as_ref())?;
             let check = CheckUserCertificate { files: files.clone(), password: password.clone() };
             let import = |accept_warnings| ImportUserCertificate { files, password, accept_warnings };
-            settled.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
+            cli.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
         }
         CertCommand::SelectType { kind, select } => {
             let chosen = select.resolve(&configuration)?;
-            settled.batch(&configuration, &chosen, SelectCertificateType(kind.into()), &STATE)
+            cli.batch(&configuration, &chosen, SelectCertificateType(kind.into()), &STATE)
         }
         CertCommand::Restore { kind, file, password_file, warnings, select } => {
             let chosen = select.resolve(&configuration)?;
@@ -347,16 +347,15 @@ pub fn run(settled: &Settled, command: CertCommand) -> Result<Ending, Problem> {
                 one_only(&chosen)?;
             }
             let password = password_file.as_deref().map(read_secret).transpose()?;
-            let source =
-                KeyBackupSource { files: settled.workspace.certificate_files(), kind: kind.into(), chosen: file };
+            let source = KeyBackupSource { files: cli.workspace.certificate_files(), kind: kind.into(), chosen: file };
             let check = CheckCertificateBackup { source: source.clone(), password: password.clone() };
             let restore = |accept_warnings| RestoreCertificate { source, password, accept_warnings };
-            settled.import(&configuration, &chosen, check, restore, warnings.accept_warnings, &RESTORED)
+            cli.import(&configuration, &chosen, check, restore, warnings.accept_warnings, &RESTORED)
         }
         CertCommand::Export { format, select } => {
             let chosen = select.resolve(&configuration)?;
-            let files = settled.workspace.certificate_files();
-            settled.batch(&configuration, &chosen, ExportSelfSigned { format: format.into(), files }, &EXPORTED)
+            let files = cli.workspace.certificate_files();
+            cli.batch(&configuration, &chosen, ExportSelfSigned { format: format.into(), files }, &EXPORTED)
         }
     }
 }
@@ -365,7 +364,7 @@ fn one_only(chosen: &[ControllerEntry]) -> Result<(), Problem> {
     if chosen.len() > 1 { Err(ErrorCode::OneControllerOnly.into()) } else { Ok(()) }
 }
 
-fn csr(settled: &Settled, configuration: &Configuration, args: CsrArgs) -> Result<Ending, Problem> {
+fn csr(cli: &CommandContext, configuration: &Configuration, args: CsrArgs) -> Result<Ending, Problem> {
     let chosen = args.select.resolve(configuration)?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     if args.subject.cn.is_some() && chosen.len() > 1 {
@@ -383,13 +382,13 @@ fn csr(settled: &Settled, configuration: &Configuration, args: CsrArgs) -> Resul
     let operation = CreateCsr {
         fields,
         format: args.format.into(),
-        files: settled.workspace.certificate_files(),
+        files: cli.workspace.certificate_files(),
         backup: configuration.options.backup,
     };
-    settled.batch(configuration, &chosen, operation, &CSR)
+    cli.batch(configuration, &chosen, operation, &CSR)
 }
 
-fn self_signed(settled: &Settled, configuration: &Configuration, args: SelfSignedArgs) -> Result<Ending, Problem> {
+fn self_signed(cli: &CommandContext, configuration: &Configuration, args: SelfSignedArgs) -> Result<Ending, Problem> {
     let chosen = args.select.resolve(configuration)?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     if args.subject.cn.is_some() && chosen.len() > 1 {
@@ -405,6 +404,6 @@ fn self_signed(settled: &Settled, configuration: &Configuration, args: SelfSigne
         validity: Validity::try_from(args.years).map_err(|e| wrong(&e))?,
     };
     fields.request("x").subject.check().map_err(|e| wrong(&e))?;
-    let backup = configuration.options.backup.then(|| settled.workspace.certificate_files());
-    settled.batch(configuration, &chosen, SelfSigned { fields, backup }, &CERTIFICATE)
+    let backup = configuration.options.backup.then(|| cli.workspace.certificate_files());
+    cli.batch(configuration, &chosen, SelfSigned { fields, backup }, &CERTIFICATE)
 }

@@ -8,7 +8,7 @@ use super::batch::{Presentation, Shown};
 use super::cell::Cell;
 use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_move, show_plan};
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{AddTrust, Destination, ListTrust, MoveClients, RemoveClients, TrustChange, TrustSnapshot};
 use crate::model::{ClientList, ErrorCode, Language, ListedCertificate, Problem};
 use crate::pki::RejectedClient;
@@ -166,8 +166,8 @@ pub const CHANGE: Presentation<TrustChange> = Presentation {
     },
 };
 
-pub fn run(settled: &Settled, command: ClientsCommand) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, command: ClientsCommand) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     match command {
         ClientsCommand::List(ListArgs { list, select }) => {
             let presentation = match list {
@@ -176,7 +176,7 @@ pub fn run(settled: &Settled, command: ClientsCommand) -> Result<Ending, Problem
                 Some(List::Rejected) => &REJECTED,
                 Some(List::Issuers) => &ISSUERS,
             };
-            settled.batch(&configuration, &select.resolve(&configuration)?, ListTrust, presentation)
+            cli.batch(&configuration, &select.resolve(&configuration)?, ListTrust, presentation)
         }
         ClientsCommand::Add { list, arguments } => {
             let (files, chosen) = arguments.resolve(&configuration)?;
@@ -186,29 +186,29 @@ pub fn run(settled: &Settled, command: ClientsCommand) -> Result<Ending, Problem
                 Some(AddTo::Issuers) => Destination::Issuers,
             };
             let files = read_trust_files(files.iter().map(Path::new), destination)?;
-            show_plan(settled, &files, destination, &chosen)?;
+            show_plan(cli, &files, destination, &chosen)?;
             let operation = AddTrust { files: files.into(), destination, based_on: None };
-            settled.batch(&configuration, &chosen, operation, &CHANGE)
+            cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
         ClientsCommand::Remove(arguments) => {
             let (thumbprints, chosen) = arguments.resolve(&configuration)?;
             let thumbprints = hexadecimal(&thumbprints)?;
             let operation = RemoveClients { list: None, thumbprints, based_on: None };
-            settled.batch(&configuration, &chosen, operation, &CHANGE)
+            cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
         ClientsCommand::Trust(arguments) => {
             let (thumbprints, chosen) = arguments.resolve(&configuration)?;
             let (from, to, thumbprints) = (ClientList::Rejected, ClientList::Trusted, hexadecimal(&thumbprints)?);
-            let mut accept_notes = settled.yes;
-            if !settled.output.is_json() {
-                let reports = settled.reports(&configuration, &chosen, ListTrust, &REJECTED)?;
+            let mut accept_notes = cli.yes;
+            if !cli.output.is_json() {
+                let reports = cli.reports(&configuration, &chosen, ListTrust, &REJECTED)?;
                 let held = chosen.iter().zip(&reports);
                 let held = held.filter_map(|(entry, report)| Some((entry, report.result.as_ref().ok()?)));
-                show_move(settled, to, &thumbprints, &held.collect::<Vec<_>>())?;
+                show_move(cli, to, &thumbprints, &held.collect::<Vec<_>>())?;
                 accept_notes = true;
             }
             let operation = MoveClients { from, to, thumbprints, accept_notes, based_on: None };
-            settled.batch(&configuration, &chosen, operation, &CHANGE)
+            cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
     }
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 use secrecy::SecretString;
 use zeroize::Zeroizing;
 
-use super::Settled;
+use super::CommandContext;
 use super::passwords::passphrase;
 use super::secret_file::read_secret;
 use crate::model::{ControllerName, Credentials, ErrorCode, Problem, text};
@@ -50,7 +50,7 @@ impl Passwords for CommandPasswords {
     }
 }
 
-impl Settled {
+impl CommandContext {
     /// Everything that may know a connection password. Made once a command: a passphrase is asked for only once, and
     /// standard input can be read only once.
     pub fn passwords(&self) -> Result<Arc<dyn Passwords>, Problem> {

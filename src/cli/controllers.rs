@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::output::say;
 use super::table::table;
-use super::{Ending, Settled, runtime};
+use super::{CommandContext, Ending, runtime};
 use crate::jobs::{self, Enrolled};
 use crate::model::{Address, ConnectionKind, ControllerName, ControllerSeries, ErrorCode, Problem, clock};
 use crate::pki::Fingerprint;
@@ -81,21 +81,21 @@ pub struct TrustArgs {
     password_file: Option<PathBuf>,
 }
 
-pub fn run(settled: &Settled, command: ControllersCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: ControllersCommand) -> Result<Ending, Problem> {
     match command {
-        ControllersCommand::List => list(settled),
-        ControllersCommand::Add(args) => add(settled, &args),
-        ControllersCommand::Remove { names } => remove(settled, &names),
-        ControllersCommand::Import { file, series } => import(settled, file, &series),
-        ControllersCommand::Trust(args) => trust(settled, &args),
+        ControllersCommand::List => list(cli),
+        ControllersCommand::Add(args) => add(cli, &args),
+        ControllersCommand::Remove { names } => remove(cli, &names),
+        ControllersCommand::Import { file, series } => import(cli, file, &series),
+        ControllersCommand::Trust(args) => trust(cli, &args),
     }
 }
 
-fn list(settled: &Settled) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
-    if settled.output.is_json() {
+fn list(cli: &CommandContext) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
+    if cli.output.is_json() {
         for entry in &configuration.controllers {
-            settled.output.done(
+            cli.output.done(
                 entry.name.as_str(),
                 &json!({ "address": entry.address, "series": entry.series, "fingerprint": entry.fingerprint }),
             );
@@ -107,7 +107,7 @@ fn list(settled: &Settled) -> Result<Ending, Problem> {
             .map(|c| {
                 let seen = c.last.as_ref().map_or("-".into(), |l| l.at.format("%Y-%m-%d %H:%M UTC").to_string());
                 let identity = if c.fingerprint.is_some() { TextKey::Confirmed } else { TextKey::NotConfirmed };
-                let identity = identity.text(settled.output.language()).to_owned();
+                let identity = identity.text(cli.output.language()).to_owned();
                 vec![c.name.to_string(), c.series.to_string(), c.address.to_string(), identity, seen]
             })
             .collect();
@@ -118,32 +118,32 @@ fn list(settled: &Settled) -> Result<Ending, Problem> {
             TextKey::HeadingIdentity,
             TextKey::HeadingRetrieved,
         ];
-        settled.output.text(&table(&headings.map(|heading| heading.text(settled.output.language())), &rows));
+        cli.output.text(&table(&headings.map(|heading| heading.text(cli.output.language())), &rows));
     }
     Ok(Ending::AllDone)
 }
 
-fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
+fn add(cli: &CommandContext, args: &AddArgs) -> Result<Ending, Problem> {
     let bad = |code: ErrorCode, e: &dyn std::fmt::Display| Problem::with_detail(code, e);
     let name: ControllerName = args.name.parse().map_err(|e| bad(ErrorCode::BadName, &e))?;
     let address: Address = args.address.parse().map_err(|e| bad(ErrorCode::BadAddress, &e))?;
     let series: ControllerSeries = args.series.parse().map_err(|e| bad(ErrorCode::UnknownSeries, &e))?;
-    let language = settled.output.language();
+    let language = cli.output.language();
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
     // Held from the check to the save, so that two commands cannot add the same name.
-    let lock = settled.lock()?;
-    let mut configuration = settled.configuration()?;
+    let lock = cli.lock()?;
+    let mut configuration = cli.configuration()?;
     configuration.check_new(&name, &address)?;
     let (entry, shown, text) = if args.unconfirmed {
         let text = texts::added_unconfirmed(language, &name, &address);
         let entry = ControllerEntry::unconfirmed(name.clone(), address, series);
         (entry, json!({ "fingerprint": null }), text)
     } else {
-        let password = settled.first_password(&name, args.password_file.as_deref())?;
-        let (fingerprint, info) = match meet(settled, &name, &address, given, password)? {
+        let password = cli.first_password(&name, args.password_file.as_deref())?;
+        let (fingerprint, info) = match meet(cli, &name, &address, given, password)? {
             Ok(Enrolled { fingerprint, info, .. }) => (fingerprint, info),
             Err(code) => {
-                if code.is_unreached() && !settled.output.is_json() {
+                if code.is_unreached() && !cli.output.is_json() {
                     say(&format!("    {}", TextKey::CliAddUnconfirmed.text(language)));
                 }
                 return Ok(Ending::SomeFailed);
@@ -163,11 +163,11 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
         )
     };
     configuration.controllers.push(entry);
-    settled.workspace.save(&configuration, &lock)?;
-    if settled.output.is_json() {
-        settled.output.done(name.as_str(), &shown);
+    cli.workspace.save(&configuration, &lock)?;
+    if cli.output.is_json() {
+        cli.output.done(name.as_str(), &shown);
     } else {
-        settled.output.text(&text);
+        cli.output.text(&text);
     }
     Ok(Ending::AllDone)
 }
@@ -175,13 +175,13 @@ fn add(settled: &Settled, args: &AddArgs) -> Result<Ending, Problem> {
 /// Logs in for the first time, under the fingerprint given or else the one that is found. An inner error is the
 /// controller's, and is printed already.
 fn meet(
-    settled: &Settled,
+    cli: &CommandContext,
     name: &ControllerName,
     address: &Address,
     given: Option<Fingerprint>,
     password: SecretString,
 ) -> Result<Result<Enrolled, ErrorCode>, Problem> {
-    let (context, connection) = (settled.context(1)?, ConnectionKind::default());
+    let (context, connection) = (cli.context(1)?, ConnectionKind::default());
     let enrolled = runtime()?.block_on(async {
         let fingerprint = match given {
             Some(fingerprint) => fingerprint,
@@ -192,37 +192,37 @@ fn meet(
     match enrolled {
         Ok(enrolled) => {
             if let Some(problem) = &enrolled.password_not_kept {
-                let said = problem.code.explain(settled.output.language());
+                let said = problem.code.explain(cli.output.language());
                 eprintln!("{name}: {}. {}", said.message, said.remedy);
             }
             Ok(Ok(enrolled))
         }
         Err(problem) => {
-            failed(settled, name.as_str(), &problem);
+            failed(cli, name.as_str(), &problem);
             Ok(Err(problem.code))
         }
     }
 }
 
-fn failed(settled: &Settled, name: &str, problem: &Problem) {
-    if settled.output.is_json() {
-        settled.output.failed(name, problem);
+fn failed(cli: &CommandContext, name: &str, problem: &Problem) {
+    if cli.output.is_json() {
+        cli.output.failed(name, problem);
     } else {
-        settled.output.explain(Some(name), problem);
+        cli.output.explain(Some(name), problem);
     }
 }
 
-fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Ending, Problem> {
+fn import(cli: &CommandContext, file: Option<PathBuf>, series: &str) -> Result<Ending, Problem> {
     let series: ControllerSeries = series.parse().map_err(|e| Problem::with_detail(ErrorCode::UnknownSeries, e))?;
-    let language = settled.output.language();
-    let path = file.unwrap_or_else(|| settled.workspace.connection_list_path());
+    let language = cli.output.language();
+    let path = file.unwrap_or_else(|| cli.workspace.connection_list_path());
     let list = ConnectionList::parse(&super::read_bounded(&path, MAX_CONNECTION_LIST_BYTES)?)?;
-    let lock = settled.lock()?;
-    let mut configuration = settled.configuration()?;
+    let lock = cli.lock()?;
+    let mut configuration = cli.configuration()?;
     let plan = list.plan(&configuration);
     let new = plan.iter().filter_map(|planned| planned.verdict.clone().ok());
     configuration.controllers.extend(new.map(|new| new.entry(series)));
-    settled.workspace.save(&configuration, &lock)?;
+    cli.workspace.save(&configuration, &lock)?;
 
     let mut ending = Ending::AllDone;
     for PlannedConnection { line, name, verdict, .. } in &plan {
@@ -234,16 +234,16 @@ fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Endi
                     texts::left_out(language, name, *line, crate::texts::skipped(language, skipped)),
                 ),
                 Some(problem) => {
-                    failed(settled, name, &problem);
+                    failed(cli, name, &problem);
                     ending = Ending::SomeFailed;
                     continue;
                 }
             },
         };
-        if settled.output.is_json() {
-            settled.output.done(name, &said.0);
+        if cli.output.is_json() {
+            cli.output.done(name, &said.0);
         } else {
-            settled.output.text(&said.1);
+            cli.output.text(&said.1);
         }
     }
     Ok(ending)
@@ -251,10 +251,10 @@ fn import(settled: &Settled, file: Option<PathBuf>, series: &str) -> Result<Endi
 
 /// An entry whose fingerprint was accepted already keeps it: a controller that comes with another one has to be
 /// removed and added again, on purpose.
-fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
+fn trust(cli: &CommandContext, args: &TrustArgs) -> Result<Ending, Problem> {
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
-    let lock = settled.lock()?;
-    let mut configuration = settled.configuration()?;
+    let lock = cli.lock()?;
+    let mut configuration = cli.configuration()?;
     let unknown = || Problem::with_detail(ErrorCode::UnknownController, &args.name);
     let entry = configuration.controllers.iter_mut().find(|c| c.name.as_str() == args.name).ok_or_else(unknown)?;
     if let (Some(known), Some(given)) = (entry.fingerprint, given)
@@ -263,50 +263,50 @@ fn trust(settled: &Settled, args: &TrustArgs) -> Result<Ending, Problem> {
         let detail = format!("expected {}, given {}", known.grouped(), given.grouped());
         return Err(Problem::with_detail(ErrorCode::FingerprintChanged, detail));
     }
-    let password = settled.first_password(&entry.name, args.password_file.as_deref())?;
-    let Ok(enrolled) = meet(settled, &entry.name, &entry.address, given.or(entry.fingerprint), password)? else {
+    let password = cli.first_password(&entry.name, args.password_file.as_deref())?;
+    let Ok(enrolled) = meet(cli, &entry.name, &entry.address, given.or(entry.fingerprint), password)? else {
         return Ok(Ending::SomeFailed);
     };
     let shown = json!({ "fingerprint": enrolled.fingerprint, "info": enrolled.info });
     let Enrolled { fingerprint, info, .. } = enrolled;
     let what = format!("{} {} {fingerprint}", info.series, info.serial);
-    let text = texts::trusted(settled.output.language(), &entry.name, what);
+    let text = texts::trusted(cli.output.language(), &entry.name, what);
     entry.series = info.series;
     entry.fingerprint = Some(fingerprint);
     entry.last = Some(Retrieved { at: clock::now(), info });
-    settled.workspace.save(&configuration, &lock)?;
-    if settled.output.is_json() {
-        settled.output.done(&args.name, &shown);
+    cli.workspace.save(&configuration, &lock)?;
+    if cli.output.is_json() {
+        cli.output.done(&args.name, &shown);
     } else {
-        settled.output.text(&text);
+        cli.output.text(&text);
     }
     Ok(Ending::AllDone)
 }
 
-fn remove(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
-    let lock = settled.lock()?;
-    let mut configuration = settled.configuration()?;
+fn remove(cli: &CommandContext, names: &[String]) -> Result<Ending, Problem> {
+    let lock = cli.lock()?;
+    let mut configuration = cli.configuration()?;
     if let Some(unknown) = names.iter().find(|n| configuration.find(n).is_none()) {
         return Err(Problem::with_detail(ErrorCode::UnknownController, unknown));
     }
-    let passwords = settled.passwords()?;
+    let passwords = cli.passwords()?;
     let (removed, kept): (Vec<_>, Vec<_>) =
         configuration.controllers.into_iter().partition(|c| names.iter().any(|n| n == c.name.as_str()));
     configuration.controllers = kept;
-    settled.workspace.save(&configuration, &lock)?;
+    cli.workspace.save(&configuration, &lock)?;
     for entry in &removed {
         if let Some(fingerprint) = entry.fingerprint {
             passwords.forget(fingerprint);
         }
-        if settled.output.is_json() {
-            settled.output.done(entry.name.as_str(), &json!({}));
+        if cli.output.is_json() {
+            cli.output.done(entry.name.as_str(), &json!({}));
         } else {
-            settled.output.text(&texts::removed(settled.output.language(), &entry.name));
+            cli.output.text(&texts::removed(cli.output.language(), &entry.name));
         }
     }
     let vault = passwords.store().map(|store| store.status().vault);
     if matches!(vault, Some(VaultState::Closed | VaultState::Declined)) {
-        say(TextKey::CliVaultKeeps.text(settled.output.language()));
+        say(TextKey::CliVaultKeeps.text(cli.output.language()));
     }
     Ok(Ending::AllDone)
 }

@@ -8,7 +8,7 @@ use super::cell::Cell;
 use super::clients::{CHANGE, hexadecimal, listing};
 use super::select::{Select, ThingsThenSelect};
 use super::trust_files::{read_trust_files, show_plan};
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{AddTrust, Destination, ListTrust, RemoveCrls, TrustSnapshot};
 use crate::model::{Language, ListedCrl, Problem};
 use crate::pki::CrlHealth;
@@ -47,22 +47,22 @@ fn line(crl: &ListedCrl, health: &CrlHealth, language: Language) -> String {
     texts::crl_line(language, &summary.id, &summary.issuer, summary.entries, until, &crl_flaws(health))
 }
 
-pub fn run(settled: &Settled, command: CrlCommand) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, command: CrlCommand) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     match command {
-        CrlCommand::List(select) => settled.batch(&configuration, &select.resolve(&configuration)?, ListTrust, &CRLS),
+        CrlCommand::List(select) => cli.batch(&configuration, &select.resolve(&configuration)?, ListTrust, &CRLS),
         CrlCommand::Add(arguments) => {
             let (files, chosen) = arguments.resolve(&configuration)?;
             let destination = Destination::Crls;
             let files = read_trust_files(files.iter().map(Path::new), destination)?;
-            show_plan(settled, &files, destination, &chosen)?;
+            show_plan(cli, &files, destination, &chosen)?;
             let operation = AddTrust { files: files.into(), destination, based_on: None };
-            settled.batch(&configuration, &chosen, operation, &CHANGE)
+            cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
         CrlCommand::Remove(arguments) => {
             let (ids, chosen) = arguments.resolve(&configuration)?;
             let operation = RemoveCrls { ids: hexadecimal(&ids)?, based_on: None };
-            settled.batch(&configuration, &chosen, operation, &CHANGE)
+            cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
     }
 }

@@ -5,7 +5,7 @@ use clap::Args;
 
 use super::output::say;
 use super::virtual_plant::VirtualPlant;
-use super::{Ending, Settled, window};
+use super::{CommandContext, Ending, window};
 use crate::model::{ErrorCode, Language, Problem};
 use crate::texts::cli as texts;
 use crate::virtual_controller::DEMO_COUNT;
@@ -22,23 +22,23 @@ pub struct DemoArgs {
 }
 
 /// The window over virtual controllers, in a folder that is removed at the end.
-pub fn run(settled: &Settled, args: &DemoArgs, language: Option<Language>) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, args: &DemoArgs, language: Option<Language>) -> Result<Ending, Problem> {
     let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
     let workspace = Workspace::new(folder.path().join("OPCUA"));
     let lock = workspace.lock()?;
     let plant = VirtualPlant::new(folder.path().join("virtual"), args.controllers, args.seed)?;
     let passwords: Arc<dyn Passwords> = Arc::new(MemoryPasswords::default());
     let mut configuration = Configuration::default();
-    say(&texts::starting_virtual(settled.output.language(), args.controllers));
+    say(&texts::starting_virtual(cli.output.language(), args.controllers));
     plant.enter(&mut configuration, passwords.as_ref())?;
-    let settled = Settled {
+    let cli = CommandContext {
         workspace,
-        output: settled.output,
-        yes: settled.yes,
+        output: cli.output,
+        yes: cli.yes,
         connection_password_file: None,
         connection_password_list: None,
         vault_passphrase_file: None,
         passwords: OnceCell::new(),
     };
-    window::open(&settled, language, configuration, lock, passwords, None, plant)
+    window::open(&cli, language, configuration, lock, passwords, None, plant)
 }

@@ -2,7 +2,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::table::table;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::licences::{Component, Licences};
 use crate::model::{ErrorCode, Problem};
 use crate::texts::TextKey;
@@ -14,7 +14,7 @@ pub struct LicencesArgs {
     components: Vec<String>,
 }
 
-pub fn run(settled: &Settled, args: &LicencesArgs) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, args: &LicencesArgs) -> Result<Ending, Problem> {
     let licences = Licences::get();
     let all = args.components.iter().any(|name| name.eq_ignore_ascii_case("all"));
     let is_asked =
@@ -28,26 +28,26 @@ pub fn run(settled: &Settled, args: &LicencesArgs) -> Result<Ending, Problem> {
         return Err(Problem::with_detail(ErrorCode::UnknownComponent, unknown));
     }
     if args.components.is_empty() {
-        list(settled, licences.components());
+        list(cli, licences.components());
         return Ok(Ending::AllDone);
     }
     for component in chosen {
         let texts: Vec<&str> = licences.texts_of(component).collect();
         let Component { name, version, licence, .. } = component;
-        if settled.output.is_json() {
+        if cli.output.is_json() {
             let line = json!({ "name": name, "version": version, "licence": licence, "texts": texts });
-            settled.output.text(&line.to_string());
+            cli.output.text(&line.to_string());
         } else {
-            settled.output.text(&format!("==> {name} {version} ({licence}) <==\n\n{}\n", texts.join("\n\n")));
+            cli.output.text(&format!("==> {name} {version} ({licence}) <==\n\n{}\n", texts.join("\n\n")));
         }
     }
     Ok(Ending::AllDone)
 }
 
-fn list(settled: &Settled, components: &[Component]) {
-    if settled.output.is_json() {
+fn list(cli: &CommandContext, components: &[Component]) {
+    if cli.output.is_json() {
         for Component { name, version, licence, .. } in components {
-            settled.output.text(&json!({ "name": name, "version": version, "licence": licence }).to_string());
+            cli.output.text(&json!({ "name": name, "version": version, "licence": licence }).to_string());
         }
         return;
     }
@@ -56,5 +56,5 @@ fn list(settled: &Settled, components: &[Component]) {
         .map(|component| vec![component.name.clone(), component.version.clone(), component.licence.clone()])
         .collect();
     let headings = [TextKey::HeadingName, TextKey::HeadingVersion, TextKey::HeadingLicence];
-    settled.output.text(&table(&headings.map(|heading| heading.text(settled.output.language())), &rows));
+    cli.output.text(&table(&headings.map(|heading| heading.text(cli.output.language())), &rows));
 }

@@ -4,7 +4,7 @@ use serde_json::json;
 use super::batch::{Presentation, STATE, Shown};
 use super::output::say;
 use super::select::Select;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{LogPart, ReadLog, SetSettings, SettingsChange};
 use crate::model::{LogChunk, Problem, foreign_text};
 use crate::texts::{TextKey, cli as texts};
@@ -31,29 +31,29 @@ const LOG: Presentation<LogChunk> = Presentation {
     },
 };
 
-pub fn run(settled: &Settled, command: LogCommand) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, command: LogCommand) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     match command {
         LogCommand::Show { end, select } => {
             let part = if end { LogPart::End } else { LogPart::From(0) };
             let chosen = select.resolve(&configuration)?;
-            let reports = settled.reports(&configuration, &chosen, ReadLog { part }, &LOG)?;
-            if !settled.output.is_json() {
+            let reports = cli.reports(&configuration, &chosen, ReadLog { part }, &LOG)?;
+            if !cli.output.is_json() {
                 for (entry, report) in chosen.iter().zip(&reports) {
                     match &report.result {
                         Ok(log) if chosen.len() > 1 => {
                             let text = foreign_text::lines(&log.text);
-                            settled.output.text(&format!("==> {} <==\n{text}", entry.name));
+                            cli.output.text(&format!("==> {} <==\n{text}", entry.name));
                         }
                         Ok(log) if log.text.is_empty() => {}
-                        Ok(log) => settled.output.text(&foreign_text::lines(&log.text)),
-                        Err(problem) => settled.output.explain(Some(entry.name.as_str()), problem),
+                        Ok(log) => cli.output.text(&foreign_text::lines(&log.text)),
+                        Err(problem) => cli.output.explain(Some(entry.name.as_str()), problem),
                     }
                     if let Ok(log) = &report.result
                         && log.next < log.size
                     {
                         let read = log.next - log.from;
-                        say(&texts::log_read(settled.output.language(), entry.name.as_str(), read, log.size));
+                        say(&texts::log_read(cli.output.language(), entry.name.as_str(), read, log.size));
                     }
                 }
             }
@@ -62,7 +62,7 @@ pub fn run(settled: &Settled, command: LogCommand) -> Result<Ending, Problem> {
         LogCommand::Delete(select) => {
             let change = SettingsChange { delete_log: true, ..SettingsChange::default() };
             let operation = SetSettings { change, ..SetSettings::default() };
-            settled.batch(&configuration, &select.resolve(&configuration)?, operation, &STATE)
+            cli.batch(&configuration, &select.resolve(&configuration)?, operation, &STATE)
         }
     }
 }

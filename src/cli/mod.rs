@@ -181,7 +181,7 @@ fn parse_language(code: &str) -> Option<Language> {
 }
 
 /// What every subcommand needs to know.
-struct Settled {
+struct CommandContext {
     workspace: Workspace,
     output: Output,
     yes: bool,
@@ -217,7 +217,7 @@ pub fn main() -> ExitCode {
     init_log(cli.verbose);
     let output = Output::new(cli.json, language);
     let root = cli.workspace.clone();
-    let settled = Settled {
+    let context = CommandContext {
         workspace: Workspace::new(root.unwrap_or_else(Workspace::default_root)),
         output,
         yes: cli.yes,
@@ -228,28 +228,28 @@ pub fn main() -> ExitCode {
     };
     let is_window = !cli.json && matches!(cli.command, None | Some(Command::Demo(_)));
     let ending = match cli.command {
-        None => window::run(&settled, cli.lang),
-        Some(Command::Demo(args)) => demo::run(&settled, &args, cli.lang),
+        None => window::run(&context, cli.lang),
+        Some(Command::Demo(args)) => demo::run(&context, &args, cli.lang),
         Some(Command::Virtual(args)) => virtual_fleet::run(&args),
-        Some(Command::Activate(args)) => activate::run(&settled, &args),
-        Some(Command::Controllers(command)) => controllers::run(&settled, command),
-        Some(Command::Info(select)) => server::info(&settled, &select),
-        Some(Command::Start(select)) => server::start(&settled, &select),
-        Some(Command::Stop(select)) => server::stop(&settled, &select),
-        Some(Command::Settings(command)) => settings::run(&settled, command),
-        Some(Command::Users(command)) => users::run(&settled, command),
-        Some(Command::Cert(command)) => cert::run(&settled, command),
-        Some(Command::Pki(command)) => pki::run(&settled, command),
-        Some(Command::Ca(command)) => ca::run(&settled, command),
-        Some(Command::Clients(command)) => clients::run(&settled, command),
-        Some(Command::Crl(command)) => crl::run(&settled, command),
-        Some(Command::Log(command)) => log::run(&settled, command),
-        Some(Command::ExportSettings(args)) => settings_transfer::export(&settled, &args),
-        Some(Command::ImportSettings(args)) => settings_transfer::import(&settled, &args),
-        Some(Command::Verify(args)) => verify::run(&settled, &args),
-        Some(Command::Backup(command)) => backup::run(&settled, command),
-        Some(Command::Vault(command)) => vault::run(&settled, command),
-        Some(Command::Licences(args)) => licences::run(&settled, &args),
+        Some(Command::Activate(args)) => activate::run(&context, &args),
+        Some(Command::Controllers(command)) => controllers::run(&context, command),
+        Some(Command::Info(select)) => server::info(&context, &select),
+        Some(Command::Start(select)) => server::start(&context, &select),
+        Some(Command::Stop(select)) => server::stop(&context, &select),
+        Some(Command::Settings(command)) => settings::run(&context, command),
+        Some(Command::Users(command)) => users::run(&context, command),
+        Some(Command::Cert(command)) => cert::run(&context, command),
+        Some(Command::Pki(command)) => pki::run(&context, command),
+        Some(Command::Ca(command)) => ca::run(&context, command),
+        Some(Command::Clients(command)) => clients::run(&context, command),
+        Some(Command::Crl(command)) => crl::run(&context, command),
+        Some(Command::Log(command)) => log::run(&context, command),
+        Some(Command::ExportSettings(args)) => settings_transfer::export(&context, &args),
+        Some(Command::ImportSettings(args)) => settings_transfer::import(&context, &args),
+        Some(Command::Verify(args)) => verify::run(&context, &args),
+        Some(Command::Backup(command)) => backup::run(&context, command),
+        Some(Command::Vault(command)) => vault::run(&context, command),
+        Some(Command::Licences(args)) => licences::run(&context, &args),
         Some(Command::Completions { shell }) => {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut script);
@@ -261,7 +261,7 @@ pub fn main() -> ExitCode {
         Ok(Ending::AllDone) => ExitCode::SUCCESS,
         Ok(Ending::SomeFailed) => ExitCode::from(1),
         Err(problem) => {
-            settled.output.request_wrong(&problem);
+            context.output.request_wrong(&problem);
             start_failure::show(&problem, language, is_window);
             ExitCode::from(2)
         }

@@ -43,7 +43,7 @@ impl Output {
     }
 
     /// The same about something that is no controller: with `--json`, or as text and an explanation.
-    pub fn settled(self, what: &str, name: &str, result: &Result<(Value, String), Problem>) {
+    pub fn cli(self, what: &str, name: &str, result: &Result<(Value, String), Problem>) {
         match result {
             Ok((result, _)) if self.json => line(&json!({ what: name, "ok": true, "result": result }).to_string()),
             Err(problem) if self.json => {

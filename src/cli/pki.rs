@@ -6,7 +6,7 @@ use serde_json::json;
 
 use super::output::{json_path, say};
 use super::secret_file::read_secret;
-use super::{Ending, Settled, read_bounded};
+use super::{CommandContext, Ending, read_bounded};
 use crate::model::{ErrorCode, Language, Problem, SecurityPolicy, clock};
 use crate::pki::{
     self, Bundle, Certificate, MAX_BUNDLE_BYTES, PkiError, Presented, Rejection, Role, TrustLists, TrustPolicy,
@@ -87,24 +87,24 @@ fn parse_policy(text: &str) -> Result<SecurityPolicy, String> {
     text.parse().map_err(|e: crate::model::SettingsError| e.to_string())
 }
 
-pub fn run(settled: &Settled, command: PkiCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: PkiCommand) -> Result<Ending, Problem> {
     match command {
-        PkiCommand::Show { file, password_file } => show(settled, &file, password_file.as_deref()),
-        PkiCommand::Verify(args) => verify(settled, &args),
+        PkiCommand::Show { file, password_file } => show(cli, &file, password_file.as_deref()),
+        PkiCommand::Verify(args) => verify(cli, &args),
     }
 }
 
-fn show(settled: &Settled, file: &Path, password_file: Option<&Path>) -> Result<Ending, Problem> {
+fn show(cli: &CommandContext, file: &Path, password_file: Option<&Path>) -> Result<Ending, Problem> {
     let password = password_file.map(read_secret).transpose()?;
     let password = password.as_ref().map(secrecy::ExposeSecret::expose_secret);
     let bytes = read_bounded(file, MAX_BUNDLE_BYTES)?;
     let contents = pki::describe(&bytes, password).map_err(|error| of_file(file, error))?;
     let contents = json!({ "file": json_path(file), "contents": contents });
-    settled.output.text(&if settled.output.is_json() { contents.to_string() } else { format!("{contents:#}") });
+    cli.output.text(&if cli.output.is_json() { contents.to_string() } else { format!("{contents:#}") });
     Ok(Ending::AllDone)
 }
 
-fn verify(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
+fn verify(cli: &CommandContext, args: &VerifyArgs) -> Result<Ending, Problem> {
     let mut trusted = folder(args.trusted.as_deref())?;
     let mut issuers = folder(args.issuers.as_deref())?;
     let crls = folder(args.crls.as_deref())?;
@@ -121,7 +121,7 @@ fn verify(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
     let sent = match read_bundle(&bytes) {
         Ok(sent) => sent,
         Err(error) if is_wrong_file(&error) => return Err(of_file(&args.certificate, error)),
-        Err(error) => return Ok(rejected(settled, &unreadable(&args.certificate, &error))),
+        Err(error) => return Ok(rejected(cli, &unreadable(&args.certificate, &error))),
     };
     let Some((certificate, chain)) = sent.certificates.split_first() else {
         return Err(of_file(&args.certificate, PkiError::NoCertificate));
@@ -138,22 +138,22 @@ fn verify(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
     };
     match lists.validate(&presented, &policy) {
         Ok(chain) => {
-            if settled.output.is_json() {
+            if cli.output.is_json() {
                 let chain: Vec<String> = chain.iter().map(Certificate::thumbprint_sha1).collect();
-                settled.output.text(&json!({ "status": "Good", "chain": chain }).to_string());
+                cli.output.text(&json!({ "status": "Good", "chain": chain }).to_string());
             } else {
-                settled.output.text("Good");
+                cli.output.text("Good");
             }
             Ok(Ending::AllDone)
         }
-        Err(rejection) => Ok(rejected(settled, &rejection)),
+        Err(rejection) => Ok(rejected(cli, &rejection)),
     }
 }
 
-fn rejected(settled: &Settled, rejection: &Rejection) -> Ending {
-    let (status, language) = (rejection.status(), settled.output.language());
+fn rejected(cli: &CommandContext, rejection: &Rejection) -> Ending {
+    let (status, language) = (rejection.status(), cli.output.language());
     let Rejection { flaw, subject, depth } = rejection;
-    if settled.output.is_json() {
+    if cli.output.is_json() {
         let line = json!({
             "status": status,
             "subject": subject,
@@ -162,9 +162,9 @@ fn rejected(settled: &Settled, rejection: &Rejection) -> Ending {
             "cause": rejection.cause(),
             "remedy": flaw.remedy(Language::En),
         });
-        settled.output.text(&line.to_string());
+        cli.output.text(&line.to_string());
     } else {
-        settled.output.text(status.as_str());
+        cli.output.text(status.as_str());
     }
     say(&format!("{subject}: {}\n    {}", flaw.reason(language), flaw.remedy(language)));
     Ending::SomeFailed

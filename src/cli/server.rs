@@ -3,7 +3,7 @@ use serde_json::json;
 use super::batch::{Presentation, STATE, Shown};
 use super::cell::Cell;
 use super::select::Select;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{Done, GetInfo, StartServer, StopServer};
 use crate::model::{Problem, ServerCertificate};
 use crate::texts::TextKey;
@@ -45,17 +45,17 @@ const INFO: Presentation<Done> = Presentation {
     },
 };
 
-pub fn info(settled: &Settled, select: &Select) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
-    settled.batch(&configuration, &select.resolve(&configuration)?, GetInfo, &INFO)
+pub fn info(cli: &CommandContext, select: &Select) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
+    cli.batch(&configuration, &select.resolve(&configuration)?, GetInfo, &INFO)
 }
 
-pub fn start(settled: &Settled, select: &Select) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
-    settled.batch(&configuration, &select.resolve(&configuration)?, StartServer, &STATE)
+pub fn start(cli: &CommandContext, select: &Select) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
+    cli.batch(&configuration, &select.resolve(&configuration)?, StartServer, &STATE)
 }
 
-pub fn stop(settled: &Settled, select: &Select) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
-    settled.batch(&configuration, &select.resolve(&configuration)?, StopServer, &STATE)
+pub fn stop(cli: &CommandContext, select: &Select) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
+    cli.batch(&configuration, &select.resolve(&configuration)?, StopServer, &STATE)
 }

@@ -9,7 +9,7 @@ use super::batch::{Presentation, STATE, Shown};
 use super::passwords::ask_secret;
 use super::secret_file::read_secret;
 use super::select::Select;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{ReadSettings, SetSettings, SettingsChange};
 use crate::model::{
     ErrorCode, Language, PortError, Problem, Revisioned, SecurityPolicy, ServerPort, ServerSettings, StartupMode,
@@ -99,11 +99,11 @@ const SETTINGS: Presentation<Revisioned<ServerSettings>> = Presentation {
     },
 };
 
-pub fn run(settled: &Settled, command: SettingsCommand) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, command: SettingsCommand) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     match command {
         SettingsCommand::Show(select) => {
-            settled.batch(&configuration, &select.resolve(&configuration)?, ReadSettings, &SETTINGS)
+            cli.batch(&configuration, &select.resolve(&configuration)?, ReadSettings, &SETTINGS)
         }
         SettingsCommand::Set { port, startup, policies, tokens, server_log, log_password_file, delete_log, select } => {
             let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadSettings, e);
@@ -128,11 +128,11 @@ pub fn run(settled: &Settled, command: SettingsCommand) -> Result<Ending, Proble
                 return Err(ErrorCode::NothingToChange.into());
             }
             let log_password = match server_log {
-                Some(true) => Some(log_password(log_password_file.as_deref(), settled.output.language())?),
+                Some(true) => Some(log_password(log_password_file.as_deref(), cli.output.language())?),
                 _ => None,
             };
             let operation = SetSettings { change, based_on: None, log_password };
-            settled.batch(&configuration, &select.resolve(&configuration)?, operation, &STATE)
+            cli.batch(&configuration, &select.resolve(&configuration)?, operation, &STATE)
         }
     }
 }

@@ -7,7 +7,7 @@ use super::batch::{Presentation, Shown};
 use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{ExportSettings, ImportSettings, SettingsExported, SettingsImported};
 use crate::model::Problem;
 use crate::texts::TextKey;
@@ -39,19 +39,19 @@ const IMPORTED: Presentation<SettingsImported> = Presentation {
     },
 };
 
-pub fn export(settled: &Settled, args: &TransferArgs) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn export(cli: &CommandContext, args: &TransferArgs) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
     passphrase.as_ref().map_or(Ok(()), check_passphrase)?;
-    let operation = ExportSettings { files: settled.workspace.settings_files(), passphrase };
-    settled.batch(&configuration, &chosen, operation, &EXPORTED)
+    let operation = ExportSettings { files: cli.workspace.settings_files(), passphrase };
+    cli.batch(&configuration, &chosen, operation, &EXPORTED)
 }
 
-pub fn import(settled: &Settled, args: &TransferArgs) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn import(cli: &CommandContext, args: &TransferArgs) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
-    let operation = ImportSettings { files: settled.workspace.settings_files(), passphrase };
-    settled.batch(&configuration, &chosen, operation, &IMPORTED)
+    let operation = ImportSettings { files: cli.workspace.settings_files(), passphrase };
+    cli.batch(&configuration, &chosen, operation, &IMPORTED)
 }

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use super::output::say;
 use super::table::table;
-use super::{Settled, read_bounded};
-use crate::jobs::{Destination, Fate, Note, Target, Thing, TrustFile, TrustPlan, TrustSnapshot};
+use super::{CommandContext, read_bounded};
+use crate::jobs::{Destination, ItemContent, Note, PlannedAction, Target, TrustFile, TrustPlan, TrustSnapshot};
 use crate::model::{Capabilities, ClientList, ErrorCode, Feature, Language, ListLimits, MissingReason, Problem, clock};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
 use crate::session;
@@ -39,14 +39,14 @@ pub fn read_trust_files<'a>(
 /// One plan for the chosen controllers with an issuers list and one for those without; what the controllers already hold is
 /// found out later.
 pub fn show_plan(
-    settled: &Settled,
+    cli: &CommandContext,
     files: &[TrustFile],
     destination: Destination,
     chosen: &[ControllerEntry],
 ) -> Result<(), Problem> {
     let now = clock::now();
     let mut unclear = false;
-    let language = settled.output.language();
+    let language = cli.output.language();
     let without = Capabilities::all().without(&[Feature::IssuersList], MissingReason::FirmwareTooOld);
     for (capabilities, limits) in [(Capabilities::all(), ListLimits::LARGEST), (without, ListLimits::WITHOUT_ISSUERS)] {
         let has_issuers_list = capabilities.offers(Feature::IssuersList);
@@ -62,24 +62,24 @@ pub fn show_plan(
         }
         let plan = TrustPlan::new(files, destination, &capabilities, limits, now, None);
         unclear |= plan.needs_a_look();
-        if plan.needs_a_look() && !settled.output.is_json() {
+        if plan.needs_a_look() && !cli.output.is_json() {
             let headings = [TextKey::HeadingFile, TextKey::HeadingWhat, TextKey::HeadingGoesTo, TextKey::HeadingNote];
             let plan = table(&headings.map(|heading| heading.text(language)), &rows(&plan, language));
             say(&texts::over_plan(language, texts::controllers_with(has_issuers_list), &plan));
         }
     }
-    if unclear { agreed(settled) } else { Ok(()) }
+    if unclear { agreed(cli) } else { Ok(()) }
 }
 
 /// Whether somebody agrees to what was just said: with `--yes`, or at the terminal.
-fn agreed(settled: &Settled) -> Result<(), Problem> {
-    if settled.yes {
+fn agreed(cli: &CommandContext) -> Result<(), Problem> {
+    if cli.yes {
         return Ok(());
     }
     if !std::io::stdin().is_terminal() {
         return Err(ErrorCode::NotConfirmed.into());
     }
-    eprint!("{} ", TextKey::CliGoOn.text(settled.output.language()));
+    eprint!("{} ", TextKey::CliGoOn.text(cli.output.language()));
     let mut answer = String::new();
     let read = std::io::stderr().flush().and_then(|()| std::io::stdin().read_line(&mut answer));
     match (read, answer.trim()) {
@@ -90,7 +90,7 @@ fn agreed(settled: &Settled) -> Result<(), Problem> {
 
 /// Says what there is to think about before these certificates are moved into a list, and asks if there is anything.
 pub fn show_move(
-    settled: &Settled,
+    cli: &CommandContext,
     to: ClientList,
     thumbprints: &[String],
     held: &[(&ControllerEntry, &TrustSnapshot)],
@@ -98,30 +98,32 @@ pub fn show_move(
     let mut rows = Vec::new();
     for (entry, lists) in held {
         for (thumbprint, notes) in lists.notes_of_move(to, thumbprints) {
-            rows.push(vec![entry.name.to_string(), thumbprint, words(&notes, settled.output.language())]);
+            rows.push(vec![entry.name.to_string(), thumbprint, words(&notes, cli.output.language())]);
         }
     }
     if rows.is_empty() {
         return Ok(());
     }
     let headings = [TextKey::HeadingName, TextKey::HeadingCertificates, TextKey::HeadingNote];
-    say(&table(&headings.map(|heading| heading.text(settled.output.language())), &rows));
-    agreed(settled)
+    say(&table(&headings.map(|heading| heading.text(cli.output.language())), &rows));
+    agreed(cli)
 }
 
 fn rows(plan: &TrustPlan, language: Language) -> Vec<Vec<String>> {
     plan.items
         .iter()
         .map(|item| {
-            let what = match &item.thing {
-                Thing::Certificate { summary, authority: true, .. } => texts::authority(language, &summary.issued_to),
-                Thing::Certificate { summary, .. } => texts::application(language, &summary.issued_to),
-                Thing::Crl { summary, .. } => texts::crl_of(language, &summary.issuer),
+            let what = match &item.content {
+                ItemContent::Certificate { summary, authority: true, .. } => {
+                    texts::authority(language, &summary.issued_to)
+                }
+                ItemContent::Certificate { summary, .. } => texts::application(language, &summary.issued_to),
+                ItemContent::Crl { summary, .. } => texts::crl_of(language, &summary.issuer),
             };
-            let (to, note) = match &item.fate {
-                Fate::Goes { to, notes } => (target(*to).text(language), words(notes, language)),
-                Fate::Skipped(reason) => ("-", crate::texts::skipped_thing(*reason).text(language).to_owned()),
-                Fate::Refused(problem) => ("-", problem.in_one_line(language)),
+            let (to, note) = match &item.action {
+                PlannedAction::Send { to, notes } => (target(*to).text(language), words(notes, language)),
+                PlannedAction::Skipped(reason) => ("-", crate::texts::skipped_thing(*reason).text(language).to_owned()),
+                PlannedAction::Refused(problem) => ("-", problem.in_one_line(language)),
             };
             vec![item.file_name.clone(), what, to.to_owned(), note]
         })

@@ -7,7 +7,7 @@ use serde_json::json;
 use super::batch::{Presentation, STATE, Shown};
 use super::secret_file::read_secret;
 use super::select::{Select, ThingsThenSelect};
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::{AddUser, ListUsers, RemoveUsers};
 use crate::model::{Credential, CredentialError, ErrorCode, Problem, Revisioned, UserName, UserPassword};
 use crate::texts::TextKey;
@@ -41,23 +41,21 @@ fn bad(error: CredentialError) -> Problem {
     Problem::with_detail(ErrorCode::BadCredential, error)
 }
 
-pub fn run(settled: &Settled, command: UsersCommand) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, command: UsersCommand) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     match command {
-        UsersCommand::List(select) => {
-            settled.batch(&configuration, &select.resolve(&configuration)?, ListUsers, &USERS)
-        }
+        UsersCommand::List(select) => cli.batch(&configuration, &select.resolve(&configuration)?, ListUsers, &USERS),
         UsersCommand::Add { user, password_file, select } => {
             let chosen = select.resolve(&configuration)?;
             let name = user.parse::<UserName>().map_err(bad)?;
             let password = UserPassword::new(read_secret(&password_file)?.expose_secret()).map_err(bad)?;
             let operation = AddUser { credential: Credential { name, password }, based_on: None };
-            settled.batch(&configuration, &chosen, operation, &STATE)
+            cli.batch(&configuration, &chosen, operation, &STATE)
         }
         UsersCommand::Remove(arguments) => {
             let (users, chosen) = arguments.resolve(&configuration)?;
             let names = users.iter().map(|u| u.parse()).collect::<Result<Vec<UserName>, _>>().map_err(bad)?;
-            settled.batch(&configuration, &chosen, RemoveUsers { names, based_on: None }, &STATE)
+            cli.batch(&configuration, &chosen, RemoveUsers { names, based_on: None }, &STATE)
         }
     }
 }

@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::connection_passwords::read_password_list;
 use super::passwords::passphrase;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Fingerprint;
 use crate::texts::{TextKey, cli as texts};
@@ -44,46 +44,46 @@ pub enum VaultCommand {
     Off,
 }
 
-pub fn run(settled: &Settled, command: VaultCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: VaultCommand) -> Result<Ending, Problem> {
     match command {
-        VaultCommand::Init => init(settled),
-        VaultCommand::Status => status(settled),
-        VaultCommand::Import { file } => import(settled, &file),
-        VaultCommand::Forget { names } => forget(settled, &names),
-        VaultCommand::Passphrase { new_passphrase_file } => change_passphrase(settled, new_passphrase_file),
-        VaultCommand::On => use_place(settled, PasswordPlace::Vault),
-        VaultCommand::Off => use_place(settled, PasswordPlace::Keyring),
+        VaultCommand::Init => init(cli),
+        VaultCommand::Status => status(cli),
+        VaultCommand::Import { file } => import(cli, &file),
+        VaultCommand::Forget { names } => forget(cli, &names),
+        VaultCommand::Passphrase { new_passphrase_file } => change_passphrase(cli, new_passphrase_file),
+        VaultCommand::On => use_place(cli, PasswordPlace::Vault),
+        VaultCommand::Off => use_place(cli, PasswordPlace::Keyring),
     }
 }
 
-fn init(settled: &Settled) -> Result<Ending, Problem> {
-    let lock = settled.lock()?;
-    let mut configuration = settled.configuration()?;
-    let store = settled.store(&configuration);
+fn init(cli: &CommandContext) -> Result<Ending, Problem> {
+    let lock = cli.lock()?;
+    let mut configuration = cli.configuration()?;
+    let store = cli.store(&configuration);
     if store.status().vault != VaultState::None {
-        return Err(Problem::with_detail(ErrorCode::VaultExists, path(settled)));
+        return Err(Problem::with_detail(ErrorCode::VaultExists, path(cli)));
     }
-    let passphrase = settled.vault_passphrase(true)?;
+    let passphrase = cli.vault_passphrase(true)?;
     let known: Vec<Fingerprint> = configuration.controllers.iter().filter_map(|entry| entry.fingerprint).collect();
     let passwords = store.create_vault(&passphrase, &known)?;
     configuration.options.passwords = PasswordPlace::Vault;
-    settled.workspace.save(&configuration, &lock)?;
-    let text = texts::vault_created(settled.output.language(), &path(settled), passwords);
-    settled.output.finished(&json!({ "vault": path(settled), "passwords": passwords }), &text);
+    cli.workspace.save(&configuration, &lock)?;
+    let text = texts::vault_created(cli.output.language(), &path(cli), passwords);
+    cli.output.finished(&json!({ "vault": path(cli), "passwords": passwords }), &text);
     Ok(Ending::AllDone)
 }
 
-fn status(settled: &Settled) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
-    let store = settled.store(&configuration);
-    if settled.vault_passphrase_file.is_some() {
-        store.open_vault(&settled.vault_passphrase(false)?)?;
+fn status(cli: &CommandContext) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
+    let store = cli.store(&configuration);
+    if cli.vault_passphrase_file.is_some() {
+        store.open_vault(&cli.vault_passphrase(false)?)?;
     }
     let status = store.status();
     let place = status.place;
     let exists = status.vault != VaultState::None;
-    let mut result = json!({ "vault": path(settled), "exists": exists, "passwords_in": place });
-    let (language, path) = (settled.output.language(), path(settled));
+    let mut result = json!({ "vault": path(cli), "exists": exists, "passwords_in": place });
+    let (language, path) = (cli.output.language(), path(cli));
     let mut text = match (exists, place) {
         (false, _) => texts::vault_missing(language, &path),
         (true, PasswordPlace::Vault) => texts::vault_used(language, &path),
@@ -96,7 +96,7 @@ fn status(settled: &Settled) -> Result<Ending, Problem> {
         result["controllers"] = json!(names);
         result["unlisted"] = json!(unlisted);
     }
-    settled.output.finished(&result, &text);
+    cli.output.finished(&result, &text);
     Ok(Ending::AllDone)
 }
 
@@ -114,21 +114,21 @@ fn named(configuration: &Configuration, controllers: &[Fingerprint]) -> (Vec<Str
     (names, unlisted)
 }
 
-fn import(settled: &Settled, file: &std::path::Path) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+fn import(cli: &CommandContext, file: &std::path::Path) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     let list = read_password_list(file)?;
     let found: Vec<_> = list
         .iter()
         .map(|(name, password)| Ok((fingerprint(&configuration, name)?, password.clone())))
         .collect::<Result<_, Problem>>()?;
     let count = found.len();
-    opened(settled, &configuration)?.put_into_vault(found)?;
-    settled.output.finished(&json!({ "passwords": count }), &texts::vault_imported(settled.output.language(), count));
+    opened(cli, &configuration)?.put_into_vault(found)?;
+    cli.output.finished(&json!({ "passwords": count }), &texts::vault_imported(cli.output.language(), count));
     Ok(Ending::AllDone)
 }
 
-fn forget(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+fn forget(cli: &CommandContext, names: &[String]) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     let wanted: Vec<Fingerprint> = names
         .iter()
         .map(|name| match name.parse() {
@@ -136,51 +136,49 @@ fn forget(settled: &Settled, names: &[String]) -> Result<Ending, Problem> {
             _ => fingerprint(&configuration, name),
         })
         .collect::<Result<_, _>>()?;
-    let store = opened(settled, &configuration)?;
+    let store = opened(cli, &configuration)?;
     let known = store.in_vault().unwrap_or_default();
     store.forget_in_vault(&wanted)?;
     for (name, controller) in names.iter().zip(&wanted) {
         let forgotten = known.contains(controller);
-        if settled.output.is_json() {
-            settled.output.done(name, &json!({ "forgotten": forgotten }));
+        if cli.output.is_json() {
+            cli.output.done(name, &json!({ "forgotten": forgotten }));
         } else {
             let text = if forgotten { texts::vault_forgot } else { texts::vault_has_none };
-            settled.output.text(&text(settled.output.language(), name));
+            cli.output.text(&text(cli.output.language(), name));
         }
     }
     Ok(Ending::AllDone)
 }
 
-fn change_passphrase(settled: &Settled, file: Option<PathBuf>) -> Result<Ending, Problem> {
-    let store = settled.store(&settled.configuration()?);
-    let present = settled.vault_passphrase(false)?;
+fn change_passphrase(cli: &CommandContext, file: Option<PathBuf>) -> Result<Ending, Problem> {
+    let store = cli.store(&cli.configuration()?);
+    let present = cli.vault_passphrase(false)?;
     // Not after the new one was entered twice.
     store.open_vault(&present)?;
-    let new = passphrase(TextKey::CliAskNewVaultPassphrase, file.as_deref(), true, settled.output.language())?;
+    let new = passphrase(TextKey::CliAskNewVaultPassphrase, file.as_deref(), true, cli.output.language())?;
     store.change_passphrase(&present, &new)?;
-    settled
-        .output
-        .finished(&json!({ "vault": path(settled) }), TextKey::VaultPassphraseChanged.text(settled.output.language()));
+    cli.output.finished(&json!({ "vault": path(cli) }), TextKey::VaultPassphraseChanged.text(cli.output.language()));
     Ok(Ending::AllDone)
 }
 
-fn use_place(settled: &Settled, place: PasswordPlace) -> Result<Ending, Problem> {
-    if place == PasswordPlace::Vault && !settled.workspace.vault().exists() {
-        return Err(Problem::with_detail(ErrorCode::VaultMissing, path(settled)));
+fn use_place(cli: &CommandContext, place: PasswordPlace) -> Result<Ending, Problem> {
+    if place == PasswordPlace::Vault && !cli.workspace.vault().exists() {
+        return Err(Problem::with_detail(ErrorCode::VaultMissing, path(cli)));
     }
-    let lock = settled.lock()?;
-    let mut configuration = settled.configuration()?;
+    let lock = cli.lock()?;
+    let mut configuration = cli.configuration()?;
     configuration.options.passwords = place;
-    settled.workspace.save(&configuration, &lock)?;
-    status(settled)
+    cli.workspace.save(&configuration, &lock)?;
+    status(cli)
 }
 
-fn opened(settled: &Settled, configuration: &Configuration) -> Result<PasswordStore, Problem> {
-    let store = settled.store(configuration);
+fn opened(cli: &CommandContext, configuration: &Configuration) -> Result<PasswordStore, Problem> {
+    let store = cli.store(configuration);
     if store.status().vault == VaultState::None {
-        return Err(Problem::with_detail(ErrorCode::VaultMissing, path(settled)));
+        return Err(Problem::with_detail(ErrorCode::VaultMissing, path(cli)));
     }
-    store.open_vault(&settled.vault_passphrase(false)?)?;
+    store.open_vault(&cli.vault_passphrase(false)?)?;
     Ok(store)
 }
 
@@ -189,6 +187,6 @@ fn fingerprint(configuration: &Configuration, name: &str) -> Result<Fingerprint,
     entry.fingerprint.ok_or_else(|| Problem::with_detail(ErrorCode::FingerprintUnknown, name))
 }
 
-fn path(settled: &Settled) -> String {
-    settled.workspace.vault().path().display().to_string()
+fn path(cli: &CommandContext) -> String {
+    cli.workspace.vault().path().display().to_string()
 }

@@ -9,11 +9,11 @@ use super::output::json_path;
 use super::secret_file::read_secret;
 use super::select::Select;
 use super::table::table;
-use super::{Ending, Settled};
-use crate::jobs::{Refusal, Verdict, Verify, VerifyReport};
+use super::{CommandContext, Ending};
+use crate::jobs::{Refusal, TokenOutcome, Verify, VerifyReport};
 use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword, foreign_text};
 use crate::pki::{Rejection, Severity};
-use crate::session::opcua_client::{MessageSecurity, Patience};
+use crate::session::opcua_client::{ConnectTimeouts, MessageSecurity};
 use crate::texts::{TextKey, cli as texts};
 
 /// Exit code 1 if anything that is offered does not work.
@@ -35,8 +35,8 @@ pub struct VerifyArgs {
     select: Select,
 }
 
-pub fn run(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, args: &VerifyArgs) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let login = match (&args.user, &args.user_password_file) {
         (Some(user), Some(file)) => {
@@ -47,18 +47,18 @@ pub fn run(settled: &Settled, args: &VerifyArgs) -> Result<Ending, Problem> {
         _ => None,
     };
     let verify = Verify {
-        identity: settled.workspace.own_identity(),
+        identity: cli.workspace.own_identity(),
         login,
         trust_first: args.trust_me,
-        patience: Patience::default(),
+        patience: ConnectTimeouts::default(),
     };
-    let language = settled.output.language();
-    let reports = settled.reports(&configuration, &chosen, verify, &REPORT)?;
-    if !settled.output.is_json() {
+    let language = cli.output.language();
+    let reports = cli.reports(&configuration, &chosen, verify, &REPORT)?;
+    if !cli.output.is_json() {
         for (entry, report) in chosen.iter().zip(&reports) {
             match &report.result {
-                Ok(report) => settled.output.text(&format!("{}: {}", entry.name, words(report, language))),
-                Err(problem) => settled.output.explain(Some(entry.name.as_str()), problem),
+                Ok(report) => cli.output.text(&format!("{}: {}", entry.name, words(report, language))),
+                Err(problem) => cli.output.explain(Some(entry.name.as_str()), problem),
             }
         }
     }
@@ -121,12 +121,12 @@ fn as_json(report: &VerifyReport, language: Language) -> Value {
                         "result": token.verdict.code(),
                         "message": token.verdict.explain(language),
                     });
-                    if let Verdict::Fails(Refusal::OwnCertificate(Some(told))) = &token.verdict {
+                    if let TokenOutcome::Fails(Refusal::OwnCertificate(Some(told))) = &token.verdict {
                         json["status"] = json!(told.status);
                         json["reason"] = json!(told.reason);
                         json["cause"] = json!(told.cause);
                     }
-                    if let Verdict::Fails(Refusal::Status { name, .. }) = &token.verdict {
+                    if let TokenOutcome::Fails(Refusal::Status { name, .. }) = &token.verdict {
                         json["status"] = json!(name);
                     }
                     json
@@ -174,9 +174,9 @@ fn words(report: &VerifyReport, language: Language) -> String {
     for endpoint in &report.endpoints {
         for token in &endpoint.tokens {
             let mark = match token.verdict {
-                Verdict::Works => "✓",
-                Verdict::Fails(_) => "✗",
-                Verdict::NotTried(_) => "-",
+                TokenOutcome::Works => "✓",
+                TokenOutcome::Fails(_) => "✗",
+                TokenOutcome::NotTried(_) => "-",
             };
             let said = token.verdict.explain(language);
             rows.push(vec![endpoint.name(), token.kind.text(language).to_owned(), format!("{mark} {said}")]);

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 
 use super::virtual_plant::VirtualPlant;
-use super::{Ending, Settled, system_language};
+use super::{CommandContext, Ending, system_language};
 use crate::model::{Language, Problem};
 use crate::platform::console;
 use crate::session::Connectors;
@@ -15,27 +15,27 @@ use crate::workspace::{
 };
 
 /// The window on the workspace.
-pub fn run(settled: &Settled, language: Option<Language>) -> Result<Ending, Problem> {
-    let Some(lock) = lock_or_show(&settled.workspace)? else {
-        let text = TextKey::CliWindowBroughtToFront.text(settled.output.language());
-        settled.output.finished(&json!({ "window": "shown" }), text);
+pub fn run(cli: &CommandContext, language: Option<Language>) -> Result<Ending, Problem> {
+    let Some(lock) = lock_or_show(&cli.workspace)? else {
+        let text = TextKey::CliWindowBroughtToFront.text(cli.output.language());
+        cli.output.finished(&json!({ "window": "shown" }), text);
         return Ok(Ending::AllDone);
     };
-    let loaded = settled.workspace.load()?;
+    let loaded = cli.workspace.load()?;
     let mut notice = loaded.notice();
     let mut configuration = loaded.configuration;
-    let store = settled.store(&configuration);
-    if settled.vault_passphrase_file.is_some() {
-        store.open_vault(&settled.vault_passphrase(false)?)?;
+    let store = cli.store(&configuration);
+    if cli.vault_passphrase_file.is_some() {
+        store.open_vault(&cli.vault_passphrase(false)?)?;
     }
     let passwords: Arc<dyn Passwords> = Arc::new(store);
-    let plant = VirtualPlant::in_workspace(settled.workspace.root())?;
+    let plant = VirtualPlant::in_workspace(cli.workspace.root())?;
     if plant.is_inhabited()
         && let Err(problem) = plant.enter(&mut configuration, passwords.as_ref())
     {
         notice.get_or_insert(problem);
     }
-    open(settled, language, configuration, lock, passwords, notice, plant)
+    open(cli, language, configuration, lock, passwords, notice, plant)
 }
 
 /// The lock of the workspace; `None` if another window has it and was brought to the front.
@@ -61,7 +61,7 @@ const PAUSE: Duration = Duration::from_millis(100);
 
 /// Opens the window and waits until it is closed.
 pub fn open(
-    settled: &Settled,
+    cli: &CommandContext,
     language: Option<Language>,
     mut configuration: Configuration,
     lock: WorkspaceLock,
@@ -73,7 +73,7 @@ pub fn open(
         configuration.options.language = language;
     }
     let options = WindowOptions {
-        workspace: settled.workspace.clone(),
+        workspace: cli.workspace.clone(),
         lock,
         configuration,
         passwords,

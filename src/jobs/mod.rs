@@ -74,12 +74,12 @@ pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings, SettingsExported, SettingsImported};
 pub use sign_csrs::{SharedAuthority, SignCsrs};
 pub use trust::{
-    AddTrust, Destination, Fate, ListTrust, MoveClients, Note, Planned, RemoveClients, RemoveCrls, SkipReason, Target,
-    Thing, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust, WATCH_INTERVAL, WatchEvent,
-    watch_trust,
+    AddTrust, Destination, ItemContent, ListTrust, MoveClients, Note, PlannedAction, PlannedItem, RemoveClients,
+    RemoveCrls, SkipReason, Target, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust,
+    WATCH_INTERVAL, WatchEvent, watch_trust,
 };
 pub use users::{AddUser, ListUsers, RemoveUsers};
 pub use verify::{
-    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, TrustConfigurator, Verdict,
-    Verify, VerifyFinding, VerifyReport,
+    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict,
+    TrustConfigurator, Verify, VerifyFinding, VerifyReport,
 };

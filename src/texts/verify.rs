@@ -1,7 +1,7 @@
 //! What is said of reports about connecting as a client.
 
 use super::explain_refusal;
-use crate::jobs::{Counts, NotTried, Refusal, Told, Verdict, VerifyFinding};
+use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, TokenOutcome, VerifyFinding};
 use crate::model::Language;
 use crate::session::opcua_client::TokenKind;
 
@@ -13,7 +13,7 @@ in_every_language! {
     fn endpoints_named(names: &[String]) -> String;
 }
 
-impl Verdict {
+impl TokenOutcome {
     /// One sentence: what works, or why not and what helps.
     pub fn explain(&self, language: Language) -> String {
         match self {
@@ -24,7 +24,7 @@ impl Verdict {
     }
 }
 
-impl Told {
+impl RefusalDetails {
     pub fn explain(&self, language: Language) -> String {
         explain_refusal(self.status, self.cause.as_ref(), language)
     }
@@ -61,8 +61,8 @@ mod tests {
     use crate::model::{CertificateStatus, ErrorCode, SecurityPolicy, ServerStatus, UserTokenPolicy};
     use chrono::TimeDelta;
 
-    fn told(status: CertificateStatus) -> Told {
-        Told { status, cause: None, reason: "why".into() }
+    fn told(status: CertificateStatus) -> RefusalDetails {
+        RefusalDetails { status, cause: None, reason: "why".into() }
     }
 
     #[test]

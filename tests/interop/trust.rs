@@ -8,7 +8,7 @@ use std::{fs, thread};
 use chrono::Utc;
 use opcua_configurator::model::{CertificateStatus, SecurityPolicy};
 use opcua_configurator::pki::{Bundle, Presented, Role, TrustLists, TrustPolicy, read_bundle};
-use opcua_configurator::session::opcua_client::{Login, OpcUaClient, Patience, Target};
+use opcua_configurator::session::opcua_client::{ConnectTimeouts, Login, OpcUaClient, Target};
 use opcua_configurator::workspace::Workspace;
 use serde_json::Value;
 
@@ -320,7 +320,7 @@ async fn the_verifying_client_judges_the_servers_of_asyncua() {
     let (root, crl) = (ca.certificate(), ca.crl());
     let both = held(&[&root, &crl, &selfsigned.files.certificate]);
     let identity = Workspace::new(folder.path()).own_identity().load_or_make(Utc::now()).expect("an identity");
-    let client = OpcUaClient::new(&identity, Patience::default()).expect("a client");
+    let client = OpcUaClient::new(&identity, ConnectTimeouts::default()).expect("a client");
 
     use CertificateStatus::{ChainIncomplete, RevocationUnknown, Revoked, TimeInvalid, Untrusted, UriInvalid};
     for (index, lists, expected) in [

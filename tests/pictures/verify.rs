@@ -4,7 +4,8 @@ use std::path::PathBuf;
 
 use chrono::Duration;
 use opcua_configurator::jobs::{
-    CertificateVerdict, EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding, VerifyReport,
+    CertificateVerdict, EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict, VerifyFinding,
+    VerifyReport,
 };
 use opcua_configurator::model::{
     CertificateStatus, CertificateSummary, ControllerSeries, ErrorCode, Problem, SecurityPolicy, ServerStatus,
@@ -57,7 +58,12 @@ fn own() -> OwnIdentity {
     }
 }
 
-fn endpoint(policy: SecurityPolicy, mode: MessageSecurity, anonymous: Verdict, user: Verdict) -> EndpointVerdict {
+fn endpoint(
+    policy: SecurityPolicy,
+    mode: MessageSecurity,
+    anonymous: TokenOutcome,
+    user: TokenOutcome,
+) -> EndpointVerdict {
     let token = |kind, verdict| TokenVerdict { kind, verdict };
     let tokens = vec![token(TokenKind::Anonymous, anonymous), token(TokenKind::UserName, user)];
     EndpointVerdict { policy: Ok(policy), mode: Some(mode), tokens }
@@ -67,7 +73,7 @@ fn endpoint(policy: SecurityPolicy, mode: MessageSecurity, anonymous: Verdict, u
 fn troubled() -> VerifyReport {
     let untrusted = || {
         let reason = "neither it nor any of its issuers is in the trust list".to_owned();
-        Verdict::Fails(Refusal::OwnCertificate(Some(Told {
+        TokenOutcome::Fails(Refusal::OwnCertificate(Some(RefusalDetails {
             status: CertificateStatus::Untrusted,
             cause: None,
             reason,
@@ -76,14 +82,14 @@ fn troubled() -> VerifyReport {
     let mut endpoints = vec![endpoint(
         SecurityPolicy::None,
         MessageSecurity::None,
-        Verdict::Works,
-        Verdict::NotTried(NotTried::NoPassword),
+        TokenOutcome::Works,
+        TokenOutcome::NotTried(NotTried::NoPassword),
     )];
     for policy in
         [SecurityPolicy::Basic256Sha256, SecurityPolicy::Aes128Sha256RsaOaep, SecurityPolicy::Aes256Sha256RsaPss]
     {
         for mode in [MessageSecurity::Sign, MessageSecurity::SignAndEncrypt] {
-            endpoints.push(endpoint(policy, mode, untrusted(), Verdict::NotTried(NotTried::NoPassword)));
+            endpoints.push(endpoint(policy, mode, untrusted(), TokenOutcome::NotTried(NotTried::NoPassword)));
         }
     }
     VerifyReport {
@@ -105,7 +111,7 @@ fn expired() -> CertificateFlaw {
 
 fn fine() -> VerifyReport {
     let summary = CertificateSummary { not_after: now() + Duration::days(400), ..summary() };
-    let works = |mode| endpoint(SecurityPolicy::Basic256Sha256, mode, Verdict::Works, Verdict::Works);
+    let works = |mode| endpoint(SecurityPolicy::Basic256Sha256, mode, TokenOutcome::Works, TokenOutcome::Works);
     VerifyReport {
         findings: vec![],
         certificate: Some(CertificateVerdict { summary, refused: None, findings: vec![] }),

@@ -2,7 +2,7 @@ use clap::Args;
 
 use super::{PassphraseArgs, show};
 use crate::cli::passwords::ca_passphrase;
-use crate::cli::{Ending, Settled};
+use crate::cli::{CommandContext, Ending};
 use crate::model::{AuthorityRequest, AuthorityValidity, ErrorCode, KeyLength, Problem, Subject, clock};
 use crate::pki::MAX_CRL_DAYS;
 use crate::workspace::authority::{DEFAULT_CRL_DAYS, NewAuthority};
@@ -69,7 +69,7 @@ impl InitArgs {
     }
 }
 
-pub fn run(settled: &Settled, args: InitArgs) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, args: InitArgs) -> Result<Ending, Problem> {
     let intermediate = args
         .intermediate
         .then(|| {
@@ -78,11 +78,11 @@ pub fn run(settled: &Settled, args: InitArgs) -> Result<Ending, Problem> {
         })
         .transpose()?;
     let new = NewAuthority { root: args.request(args.cn.clone(), args.years)?, intermediate, crl_days: args.crl_days };
-    let files = settled.workspace.authority();
+    let files = cli.workspace.authority();
     files.check_absent()?;
-    let passphrase = ca_passphrase(args.passphrase.passphrase_file.as_deref(), true, settled.output.language())?;
+    let passphrase = ca_passphrase(args.passphrase.passphrase_file.as_deref(), true, cli.output.language())?;
     check_passphrase(&passphrase)?;
     let overview = files.create(&new, &passphrase, clock::now())?.overview()?;
-    settled.output.finished(&show::json(&overview), &show::text(&overview, settled.output.language()));
+    cli.output.finished(&show::json(&overview), &show::text(&overview, cli.output.language()));
     Ok(Ending::AllDone)
 }

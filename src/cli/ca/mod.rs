@@ -15,7 +15,7 @@ use serde_json::json;
 
 use super::output::json_path;
 use super::passwords::ca_passphrase;
-use super::{Ending, Settled};
+use super::{CommandContext, Ending};
 use crate::jobs::SharedAuthority;
 use crate::model::{Problem, clock};
 use crate::pki::{REVOCATION_REASONS, RevocationReason};
@@ -85,55 +85,55 @@ fn parse_reason(text: &str) -> Result<RevocationReason, String> {
 
 impl PassphraseArgs {
     /// The same for a job. A wrong passphrase is found out now, before any controller is asked.
-    fn shared(&self, settled: &Settled) -> Result<SharedAuthority, Problem> {
-        let files = settled.workspace.authority();
+    fn shared(&self, cli: &CommandContext) -> Result<SharedAuthority, Problem> {
+        let files = cli.workspace.authority();
         files.overview()?;
-        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false, settled.output.language())?;
+        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false, cli.output.language())?;
         files.open(&passphrase)?;
         Ok(SharedAuthority::new(files, passphrase))
     }
 
     /// Takes the CA up. Asks only where there is a CA.
-    fn open(&self, settled: &Settled) -> Result<Authority, Problem> {
-        let files = settled.workspace.authority();
+    fn open(&self, cli: &CommandContext) -> Result<Authority, Problem> {
+        let files = cli.workspace.authority();
         files.overview()?;
-        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false, settled.output.language())?;
+        let passphrase = ca_passphrase(self.passphrase_file.as_deref(), false, cli.output.language())?;
         Ok(files.open(&passphrase)?)
     }
 }
 
-pub fn run(settled: &Settled, command: CaCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: CaCommand) -> Result<Ending, Problem> {
     match command {
-        CaCommand::Init(args) => init::run(settled, args),
-        CaCommand::Sign(args) => sign::run(settled, &args),
-        CaCommand::SignControllers(args) => sign_controllers::run(settled, args),
-        CaCommand::Revoke(args) => revoke(settled, &args),
-        CaCommand::Crl(args) => publish::run(settled, &args),
-        CaCommand::Show => show::run(settled),
+        CaCommand::Init(args) => init::run(cli, args),
+        CaCommand::Sign(args) => sign::run(cli, &args),
+        CaCommand::SignControllers(args) => sign_controllers::run(cli, args),
+        CaCommand::Revoke(args) => revoke(cli, &args),
+        CaCommand::Crl(args) => publish::run(cli, &args),
+        CaCommand::Show => show::run(cli),
         CaCommand::Backup { out, passphrase } => {
-            passphrase.open(settled)?.back_up(&out, clock::now())?;
-            settled.output.finished(&json!({ "backup": json_path(&out) }), &out.display().to_string());
+            passphrase.open(cli)?.back_up(&out, clock::now())?;
+            cli.output.finished(&json!({ "backup": json_path(&out) }), &out.display().to_string());
             Ok(Ending::AllDone)
         }
         CaCommand::Restore { file, passphrase } => {
-            let files = settled.workspace.authority();
+            let files = cli.workspace.authority();
             files.check_absent()?;
-            let passphrase = ca_passphrase(passphrase.passphrase_file.as_deref(), false, settled.output.language())?;
+            let passphrase = ca_passphrase(passphrase.passphrase_file.as_deref(), false, cli.output.language())?;
             let overview = files.restore(&file, &passphrase)?;
-            settled.output.finished(&show::json(&overview), &show::text(&overview, settled.output.language()));
+            cli.output.finished(&show::json(&overview), &show::text(&overview, cli.output.language()));
             Ok(Ending::AllDone)
         }
     }
 }
 
-fn revoke(settled: &Settled, args: &RevokeArgs) -> Result<Ending, Problem> {
-    let mut authority = args.passphrase.open(settled)?;
+fn revoke(cli: &CommandContext, args: &RevokeArgs) -> Result<Ending, Problem> {
+    let mut authority = args.passphrase.open(cli)?;
     authority.revoke(&args.serials, args.reason, clock::now())?;
     let overview = authority.overview()?;
     let crl = show::crl(&overview.folder, "ca", &overview.signing);
-    settled.output.finished(
+    cli.output.finished(
         &json!({ "revoked": args.serials, "reason": args.reason, "crl": crl }),
-        &texts::revoked(settled.output.language(), &args.serials),
+        &texts::revoked(cli.output.language(), &args.serials),
     );
     Ok(Ending::AllDone)
 }

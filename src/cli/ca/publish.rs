@@ -8,7 +8,7 @@ use super::{PassphraseArgs, show};
 use crate::cli::clients::CHANGE;
 use crate::cli::output::json_paths;
 use crate::cli::select::Select;
-use crate::cli::{Ending, Settled};
+use crate::cli::{CommandContext, Ending};
 use crate::jobs::PushAuthority;
 use crate::model::{ErrorCode, Problem, clock};
 use crate::pki::{Crl, MAX_CRL_DAYS};
@@ -37,9 +37,9 @@ pub struct CrlArgs {
     passphrase: PassphraseArgs,
 }
 
-pub fn run(settled: &Settled, args: &CrlArgs) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, args: &CrlArgs) -> Result<Ending, Problem> {
     // Whatever is wrong with the controllers is found before anything is published.
-    let configuration = settled.configuration()?;
+    let configuration = cli.configuration()?;
     let chosen = match &args.push {
         None => Vec::new(),
         Some(names) if names.is_empty() && !args.all => {
@@ -47,10 +47,10 @@ pub fn run(settled: &Settled, args: &CrlArgs) -> Result<Ending, Problem> {
         }
         Some(names) => Select::new(names.clone(), args.all).resolve(&configuration)?,
     };
-    if args.push.is_some() && !settled.yes && !std::io::stdin().is_terminal() {
+    if args.push.is_some() && !cli.yes && !std::io::stdin().is_terminal() {
         return Err(ErrorCode::NotConfirmed.into());
     }
-    let mut authority = args.passphrase.open(settled)?;
+    let mut authority = args.passphrase.open(cli)?;
     authority.publish_crl(args.days, clock::now())?;
     let overview = authority.overview()?;
     drop(authority);
@@ -70,11 +70,11 @@ pub fn run(settled: &Settled, args: &CrlArgs) -> Result<Ending, Problem> {
         "root_crl": overview.root.as_ref().map(|root| show::crl(&overview.folder, "root", root)),
         "saved": json_paths(&saved),
     });
-    settled.output.finished(&published, &show::text(&overview, settled.output.language()));
+    cli.output.finished(&published, &show::text(&overview, cli.output.language()));
     if chosen.is_empty() {
         return Ok(Ending::AllDone);
     }
-    settled.batch(&configuration, &chosen, PushAuthority::new(&overview, args.trust), &CHANGE)
+    cli.batch(&configuration, &chosen, PushAuthority::new(&overview, args.trust), &CHANGE)
 }
 
 fn save(path: &Path, crl: &Crl) -> Result<(), Problem> {

@@ -5,15 +5,15 @@ use serde_json::{Value, json};
 
 use crate::cli::output::json_path;
 use crate::cli::table::table;
-use crate::cli::{Ending, Settled};
+use crate::cli::{CommandContext, Ending};
 use crate::model::{Language, Problem, clock};
 use crate::pki::{CrlFlaw, crl_date_flaw, validity_flaw};
 use crate::texts::TextKey;
 use crate::workspace::authority::{AuthorityOverview, IssuedCertificate, PublishedAuthority};
 
-pub fn run(settled: &Settled) -> Result<Ending, Problem> {
-    let overview = settled.workspace.authority().overview()?;
-    settled.output.finished(&json(&overview), &text(&overview, settled.output.language()));
+pub fn run(cli: &CommandContext) -> Result<Ending, Problem> {
+    let overview = cli.workspace.authority().overview()?;
+    cli.output.finished(&json(&overview), &text(&overview, cli.output.language()));
     Ok(Ending::AllDone)
 }
 

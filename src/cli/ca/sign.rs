@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::PassphraseArgs;
 use crate::cli::cert::Format;
 use crate::cli::output::json_path;
-use crate::cli::{Ending, Settled};
+use crate::cli::{CommandContext, Ending};
 use crate::model::{CertificateProfile, ErrorCode, FileFormat, Problem, Validity, clock};
 use crate::pki::{Csr, IssueRequest, MAX_CERTIFICATE_FILE_BYTES, ServerNames};
 use crate::workspace::authority::Authority;
@@ -79,17 +79,17 @@ impl SignArgs {
     }
 }
 
-pub fn run(settled: &Settled, args: &SignArgs) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, args: &SignArgs) -> Result<Ending, Problem> {
     let request = args.request()?;
     let targets: Vec<_> = args.files.iter().filter_map(|file| args.target(file)).collect();
     if targets.iter().collect::<BTreeSet<_>>().len() < targets.len() {
         return Err(Problem::with_detail(ErrorCode::SeveralFiles, "two certificates would get the same name in --out"));
     }
-    let mut authority = args.passphrase.open(settled)?;
+    let mut authority = args.passphrase.open(cli)?;
     let mut ending = Ending::AllDone;
     for file in &args.files {
         let result = sign(&mut authority, args, file, &request);
-        settled.output.settled("file", &file.display().to_string(), &result);
+        cli.output.cli("file", &file.display().to_string(), &result);
         if result.is_err() {
             ending = Ending::SomeFailed;
         }

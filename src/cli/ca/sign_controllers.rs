@@ -5,7 +5,7 @@ use clap::Args;
 use super::PassphraseArgs;
 use crate::cli::cert::{IMPORTED, WarningsArgs};
 use crate::cli::select::Select;
-use crate::cli::{Ending, Settled};
+use crate::cli::{CommandContext, Ending};
 use crate::jobs::{CreateCsr, CsrFields, SignCsrs};
 use crate::model::{ErrorCode, FileFormat, KeyLength, Problem, Validity};
 
@@ -46,8 +46,8 @@ pub struct SignControllersArgs {
     select: Select,
 }
 
-pub fn run(settled: &Settled, args: SignControllersArgs) -> Result<Ending, Problem> {
-    let configuration = settled.configuration()?;
+pub fn run(cli: &CommandContext, args: SignControllersArgs) -> Result<Ending, Problem> {
+    let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     let fields = CsrFields {
@@ -62,12 +62,12 @@ pub fn run(settled: &Settled, args: SignControllersArgs) -> Result<Ending, Probl
     let request = CreateCsr {
         fields,
         format: FileFormat::Der,
-        files: settled.workspace.certificate_files(),
+        files: cli.workspace.certificate_files(),
         backup: configuration.options.backup,
     };
     let validity = Validity::try_from(args.years).map_err(|e| wrong(&e))?;
     let operation = SignCsrs {
-        authority: Arc::new(args.passphrase.shared(settled)?),
+        authority: Arc::new(args.passphrase.shared(cli)?),
         request,
         new_key: args.new_key,
         renew: args.renew,
@@ -75,5 +75,5 @@ pub fn run(settled: &Settled, args: SignControllersArgs) -> Result<Ending, Probl
         allow_short_keys: args.allow_short_keys,
         accept_warnings: args.warnings.accept_warnings,
     };
-    settled.batch(&configuration, &chosen, operation, &IMPORTED)
+    cli.batch(&configuration, &chosen, operation, &IMPORTED)
 }

@@ -30,7 +30,7 @@ mod watch;
 pub use add::AddTrust;
 pub use change::TrustChange;
 pub use notes::Note;
-pub use plan::{Destination, Fate, Planned, SkipReason, Thing, TrustFile, TrustPlan};
+pub use plan::{Destination, ItemContent, PlannedAction, PlannedItem, SkipReason, TrustFile, TrustPlan};
 pub use relist::MoveClients;
 pub use remove::{RemoveClients, RemoveCrls};
 pub use snapshot::{ListTrust, TrustSnapshot};

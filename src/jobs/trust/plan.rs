@@ -41,33 +41,33 @@ pub enum Destination {
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrustPlan {
     /// In the order of the files.
-    pub items: Vec<Planned>,
+    pub items: Vec<PlannedItem>,
     have: [usize; 3],
     limits: ListLimits,
 }
 
 /// One certificate or CRL of a file.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Planned {
+pub struct PlannedItem {
     /// The file it came from.
     pub file_name: String,
     /// The name the controller will show it under: the file's, with a number where a file holds several.
     pub shown_as: String,
-    pub thing: Thing,
-    pub fate: Fate,
+    pub content: ItemContent,
+    pub action: PlannedAction,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub enum Thing {
+pub enum ItemContent {
     Certificate { der: Vec<u8>, summary: CertificateSummary, authority: bool },
     Crl { der: Vec<u8>, summary: CrlSummary },
 }
 
 /// What becomes of it.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Fate {
+pub enum PlannedAction {
     /// It is sent; a person may want to think about the notes first.
-    Goes { to: Target, notes: Vec<Note> },
+    Send { to: Target, notes: Vec<Note> },
     /// It is left out, and nothing is wrong.
     Skipped(SkipReason),
     /// It makes the whole request wrong.
@@ -112,15 +112,15 @@ impl TrustPlan {
         for file in files {
             let several = file.bundle.certificates.len() + file.bundle.crls.len() > 1;
             let mut number = 0;
-            let mut plan = |id: String, thing: Thing, fate: Fate| {
+            let mut plan = |id: String, content: ItemContent, action: PlannedAction| {
                 number += 1;
-                let extension = if matches!(thing, Thing::Crl { .. }) { "crl" } else { "der" };
+                let extension = if matches!(content, ItemContent::Crl { .. }) { "crl" } else { "der" };
                 let shown_as = shown_as(&file.file_name, several.then_some((number, extension)));
-                let fate = match fate {
-                    Fate::Goes { .. } if !seen.insert(id) => Fate::Skipped(SkipReason::Repeated),
-                    fate => fate,
+                let action = match action {
+                    PlannedAction::Send { .. } if !seen.insert(id) => PlannedAction::Skipped(SkipReason::Repeated),
+                    action => action,
                 };
-                items.push(Planned { file_name: file.file_name.clone(), shown_as, thing, fate });
+                items.push(PlannedItem { file_name: file.file_name.clone(), shown_as, content, action });
             };
             let judged: Vec<(&Certificate, bool)> =
                 file.bundle.certificates.iter().map(|c| (c, is_authority(c, &at_hand))).collect();
@@ -128,15 +128,15 @@ impl TrustPlan {
             let with_authority = judged.iter().any(|(_, authority)| *authority);
             for (certificate, authority) in judged {
                 let summary = certificate.summary();
-                let fate =
+                let action =
                     sorter.certificate(certificate, &summary.thumbprint, authority, with_application, with_authority);
                 let id = summary.thumbprint.clone();
-                plan(id, Thing::Certificate { der: certificate.der().to_vec(), summary, authority }, fate);
+                plan(id, ItemContent::Certificate { der: certificate.der().to_vec(), summary, authority }, action);
             }
             for crl in &file.bundle.crls {
                 let summary = crl.summary();
-                let fate = sorter.crl(crl, &summary, !file.bundle.certificates.is_empty());
-                plan(summary.id.clone(), Thing::Crl { der: crl.der().to_vec(), summary }, fate);
+                let action = sorter.crl(crl, &summary, !file.bundle.certificates.is_empty());
+                plan(summary.id.clone(), ItemContent::Crl { der: crl.der().to_vec(), summary }, action);
             }
         }
         let have = held.map_or([0; 3], |held| [held.trusted.len(), held.issuers.len(), held.crls.len()]);
@@ -151,10 +151,10 @@ impl TrustPlan {
     /// Whether something is there that a person should agree to: a note, or something left out. What is refused is not
     /// sent anyhow.
     pub fn needs_a_look(&self) -> bool {
-        self.items.iter().any(|item| match &item.fate {
-            Fate::Goes { notes, .. } => !notes.is_empty(),
-            Fate::Skipped(_) => true,
-            Fate::Refused(_) => false,
+        self.items.iter().any(|item| match &item.action {
+            PlannedAction::Send { notes, .. } => !notes.is_empty(),
+            PlannedAction::Skipped(_) => true,
+            PlannedAction::Refused(_) => false,
         })
     }
 
@@ -166,7 +166,7 @@ impl TrustPlan {
     /// Why nothing of this may be sent: something is refused, nothing is new, it does not fit.
     pub fn check(&self) -> Result<(), Problem> {
         for item in &self.items {
-            if let Fate::Refused(problem) = &item.fate {
+            if let PlannedAction::Refused(problem) = &item.action {
                 return Err(problem.clone());
             }
         }
@@ -184,7 +184,7 @@ impl TrustPlan {
                 return Err(Problem::with_detail(code, format!("{total} > {limit}")));
             }
         }
-        let bytes: usize = self.going().map(|(_, item)| ENTRY_BYTES + item.thing.der().len().div_ceil(3) * 4).sum();
+        let bytes: usize = self.going().map(|(_, item)| ENTRY_BYTES + item.content.der().len().div_ceil(3) * 4).sum();
         if bytes > MAX_REQUEST_BYTES { Err(ErrorCode::RequestTooLarge.into()) } else { Ok(()) }
     }
 
@@ -193,7 +193,7 @@ impl TrustPlan {
         let of = |target: Target| -> Vec<(String, Base64Bytes)> {
             self.going()
                 .filter(|(to, _)| *to == target)
-                .map(|(_, item)| (item.shown_as.clone(), Base64Bytes(item.thing.der().to_vec())))
+                .map(|(_, item)| (item.shown_as.clone(), Base64Bytes(item.content.der().to_vec())))
                 .collect()
         };
         let mut steps = Vec::new();
@@ -211,8 +211,8 @@ impl TrustPlan {
     }
 
     fn why_nothing_goes(&self) -> ErrorCode {
-        let nothing_but_crls = self.items.iter().all(|item| matches!(item.thing, Thing::Crl { .. }));
-        let not_asked_for = |item: &Planned| item.fate == Fate::Skipped(SkipReason::NotAskedFor);
+        let nothing_but_crls = self.items.iter().all(|item| matches!(item.content, ItemContent::Crl { .. }));
+        let not_asked_for = |item: &PlannedItem| item.action == PlannedAction::Skipped(SkipReason::NotAskedFor);
         match self.items.first() {
             None => ErrorCode::BadCertificate,
             Some(_) if nothing_but_crls => ErrorCode::DuplicateCrl,
@@ -222,9 +222,9 @@ impl TrustPlan {
         }
     }
 
-    fn going(&self) -> impl Iterator<Item = (Target, &Planned)> {
-        self.items.iter().filter_map(|item| match item.fate {
-            Fate::Goes { to, .. } => Some((to, item)),
+    fn going(&self) -> impl Iterator<Item = (Target, &PlannedItem)> {
+        self.items.iter().filter_map(|item| match item.action {
+            PlannedAction::Send { to, .. } => Some((to, item)),
             _ => None,
         })
     }
@@ -233,13 +233,13 @@ impl TrustPlan {
 /// Generous for what stands around one certificate in a request: its name, brackets.
 const ENTRY_BYTES: usize = 300;
 
-impl Planned {
+impl PlannedItem {
     fn replaces(&self) -> bool {
-        matches!(&self.fate, Fate::Goes { notes, .. } if notes.contains(&Note::ReplacesOlder))
+        matches!(&self.action, PlannedAction::Send { notes, .. } if notes.contains(&Note::ReplacesOlder))
     }
 }
 
-impl Thing {
+impl ItemContent {
     pub fn der(&self) -> &[u8] {
         match self {
             Self::Certificate { der, .. } | Self::Crl { der, .. } => der,
@@ -266,16 +266,16 @@ impl Sorter<'_> {
         authority: bool,
         with_application: bool,
         with_authority: bool,
-    ) -> Fate {
+    ) -> PlannedAction {
         if let (Destination::Issuers, Some(reason)) = (self.destination, self.no_issuers_list) {
-            return Fate::Refused(reason.into());
+            return PlannedAction::Refused(reason.into());
         }
         let has_issuers_list = self.no_issuers_list.is_none();
         let (to, completes_a_chain) = match (self.destination, authority) {
-            (Destination::Crls, _) => return Fate::Skipped(SkipReason::NotAskedFor),
-            (Destination::Issuers, false) if with_authority => return Fate::Skipped(SkipReason::NotAskedFor),
+            (Destination::Crls, _) => return PlannedAction::Skipped(SkipReason::NotAskedFor),
+            (Destination::Issuers, false) if with_authority => return PlannedAction::Skipped(SkipReason::NotAskedFor),
             (Destination::Issuers, false) => {
-                return Fate::Refused(Problem::with_detail(ErrorCode::NotAnAuthority, thumbprint));
+                return PlannedAction::Refused(Problem::with_detail(ErrorCode::NotAnAuthority, thumbprint));
             }
             (Destination::Issuers, true) => (Target::Issuers, false),
             (Destination::ByKind | Destination::Trusted, false) => (Target::Trusted, false),
@@ -286,17 +286,17 @@ impl Sorter<'_> {
         };
         let list = if to == Target::Issuers { ClientList::Issuers } else { ClientList::Trusted };
         if self.held.is_some_and(|held| held.holds(list, thumbprint)) {
-            return Fate::Skipped(SkipReason::AlreadyHeld);
+            return PlannedAction::Skipped(SkipReason::AlreadyHeld);
         }
         let mut notes = notes::of_certificate(certificate, authority, to, self.now);
         if completes_a_chain {
             notes.insert(0, Note::OnlyCompletesAChain);
         }
-        Fate::Goes { to, notes }
+        PlannedAction::Send { to, notes }
     }
 
-    fn crl(&self, crl: &Crl, summary: &CrlSummary, among_certificates: bool) -> Fate {
-        let refused = |code, detail: &dyn fmt::Display| Fate::Refused(Problem::with_detail(code, detail));
+    fn crl(&self, crl: &Crl, summary: &CrlSummary, among_certificates: bool) -> PlannedAction {
+        let refused = |code, detail: &dyn fmt::Display| PlannedAction::Refused(Problem::with_detail(code, detail));
         if let Some(why) = crl.unusable() {
             return refused(ErrorCode::BadCrl, &why);
         }
@@ -305,11 +305,11 @@ impl Sorter<'_> {
             return refused(ErrorCode::RequestTooLarge, &detail);
         }
         if self.held.is_some_and(|held| held.holds_crl(&summary.id)) {
-            return Fate::Skipped(SkipReason::AlreadyHeld);
+            return PlannedAction::Skipped(SkipReason::AlreadyHeld);
         }
         let newer_stands_by = |other: &&Crl| crl.has_same_scope_as(other) && other.is_newer_than(crl);
         if self.offered_crls.iter().any(newer_stands_by) {
-            return Fate::Skipped(SkipReason::Outdated);
+            return PlannedAction::Skipped(SkipReason::Outdated);
         }
         let mut notes = Vec::new();
         let asked_for = self.destination == Destination::Crls || !among_certificates;
@@ -320,7 +320,7 @@ impl Sorter<'_> {
                 let (new, old) = (crl.number_and_date(), held.number_and_date());
                 return refused(ErrorCode::CrlOutdated, &format!("{}: {new} < {old}", summary.issuer));
             } else {
-                return Fate::Skipped(SkipReason::Outdated);
+                return PlannedAction::Skipped(SkipReason::Outdated);
             }
         }
         notes.extend(self.number_starts_again(crl));
@@ -332,7 +332,7 @@ impl Sorter<'_> {
         } else if summary.this_update > self.now {
             notes.push(Note::NotYetValid);
         }
-        Fate::Goes { to: Target::Crls, notes }
+        PlannedAction::Send { to: Target::Crls, notes }
     }
 
     /// Compared with what is held and with what comes along.
@@ -380,16 +380,16 @@ mod tests {
         TrustPlan::for_controller(files, destination, &snapshot(generation))
     }
 
-    fn fates(plan: &TrustPlan) -> Vec<Fate> {
-        plan.items.iter().map(|item| item.fate.clone()).collect()
+    fn fates(plan: &TrustPlan) -> Vec<PlannedAction> {
+        plan.items.iter().map(|item| item.action.clone()).collect()
     }
 
-    fn goes(to: Target, notes: &[Note]) -> Fate {
-        Fate::Goes { to, notes: notes.to_vec() }
+    fn goes(to: Target, notes: &[Note]) -> PlannedAction {
+        PlannedAction::Send { to, notes: notes.to_vec() }
     }
 
-    use Fate::Skipped;
     use FirmwareGeneration::{Current, Legacy};
+    use PlannedAction::Skipped;
 
     #[test]
     fn a_chain_with_its_crl_is_sorted_by_kind() {
@@ -525,7 +525,7 @@ mod tests {
         assert_eq!(fates(&planned), [Skipped(SkipReason::Outdated), goes(Target::Crls, &[note])], "both come at once");
         held.crls = vec![listed_crl(&after)];
         let planned = TrustPlan::for_controller(&files[..1], Destination::Crls, &held);
-        let [Fate::Refused(problem)] = &fates(&planned)[..] else { panic!("{planned:?}") };
+        let [PlannedAction::Refused(problem)] = &fates(&planned)[..] else { panic!("{planned:?}") };
         assert_eq!(problem.code, ErrorCode::CrlOutdated);
     }
 

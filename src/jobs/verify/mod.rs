@@ -16,8 +16,8 @@ use std::time::Duration;
 use async_trait::async_trait;
 
 pub use report::{
-    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding,
-    VerifyReport,
+    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict,
+    VerifyFinding, VerifyReport,
 };
 
 pub use trust::TrustConfigurator;
@@ -27,7 +27,7 @@ use crate::model::{
     ControllerInfo, Credential, ErrorCode, Problem, ServerSettings, ServerStatus, UserTokenPolicy, clock,
 };
 use crate::pki::{Certificate, Expected, check_server};
-use crate::session::opcua_client::{Endpoint, OpcUaClient, Patience, Target, is_reachable};
+use crate::session::opcua_client::{ConnectTimeouts, Endpoint, OpcUaClient, Target, is_reachable};
 use crate::workspace::OwnIdentityFiles;
 use probe::{Probe, clock, compare, offered_policies, refusal_of};
 
@@ -46,7 +46,7 @@ pub struct Verify {
     pub login: Option<Credential>,
     /// Put this program's certificate into the trusted list first.
     pub trust_first: bool,
-    pub patience: Patience,
+    pub patience: ConnectTimeouts,
 }
 
 impl OperationOutput for VerifyReport {

@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use chrono::{DateTime, TimeDelta, Utc};
 
-use super::report::{EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, Verdict, VerifyFinding};
+use super::report::{EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict, VerifyFinding};
 use crate::jobs::{Run, Step};
 use crate::model::{CertificateStatus, Credential, Problem, SecurityPolicy, ServerSettings, UserTokenPolicy};
 use crate::pki::{Certificate, RejectedClient};
@@ -36,12 +36,12 @@ impl Probe<'_> {
             run.begin(Step::Verify)?;
             let login = self.login_for(endpoint, token.kind, token.protected);
             let verdict = match (login, &shut) {
-                (Err(why), _) => Verdict::NotTried(why),
-                (Ok(_), Some(refusal)) => Verdict::Fails(refusal.clone()),
+                (Err(why), _) => TokenOutcome::NotTried(why),
+                (Ok(_), Some(refusal)) => TokenOutcome::Fails(refusal.clone()),
                 (Ok((expected, login)), None) => {
                     match self.client.attempt(self.target, endpoint, expected, &login).await {
-                        Ok(welcome) if welcome.state == RUNNING => Verdict::Works,
-                        Ok(welcome) => Verdict::Fails(Refusal::State(welcome.state)),
+                        Ok(welcome) if welcome.state == RUNNING => TokenOutcome::Works,
+                        Ok(welcome) => TokenOutcome::Fails(Refusal::State(welcome.state)),
                         Err(failure) => {
                             let refusal = self.refusal(run, endpoint, token.kind, &failure).await;
                             if failure.stage < Stage::Login {
@@ -51,7 +51,7 @@ impl Probe<'_> {
                             if matches!(refusal, Refusal::OwnCertificate(Some(_))) {
                                 self.certificate_refused = Some(refusal.clone());
                             }
-                            Verdict::Fails(refusal)
+                            TokenOutcome::Fails(refusal)
                         }
                     }
                 }
@@ -124,13 +124,13 @@ impl Probe<'_> {
     }
 
     /// Why the controller refused this program's certificate just now, if it did and says so.
-    async fn told_why(&self, run: &mut Run<'_>) -> Option<Told> {
+    async fn told_why(&self, run: &mut Run<'_>) -> Option<RefusalDetails> {
         let rejected = run.session.rejected_clients().await.inspect_err(|problem| {
             tracing::info!(%problem, "the controller does not tell whom it refused");
         });
         let own = |client: &RejectedClient| client.certificate.0 == self.own.der() && client.last_seen >= self.since;
         let client = rejected.ok()?.value.into_iter().find(own)?;
-        Some(Told { status: client.status, reason: printable(&client.reason), cause: client.cause })
+        Some(RefusalDetails { status: client.status, reason: printable(&client.reason), cause: client.cause })
     }
 }
 
@@ -157,9 +157,9 @@ fn is_about_a_user(status: &str) -> bool {
 }
 
 /// A server that tells the client itself, which the standard advises against.
-fn told_plainly(failure: &Failure) -> Option<Told> {
+fn told_plainly(failure: &Failure) -> Option<RefusalDetails> {
     let status = failure.status()?.parse().ok().filter(|status| *status != CertificateStatus::SecurityChecksFailed)?;
-    Some(Told { status, cause: None, reason: failure.cause.to_string() })
+    Some(RefusalDetails { status, cause: None, reason: failure.cause.to_string() })
 }
 
 /// What the endpoints lack, and have too much, compared with the basic settings.

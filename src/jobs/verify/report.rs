@@ -43,11 +43,11 @@ pub struct EndpointVerdict {
 #[derive(Debug, Clone, PartialEq)]
 pub struct TokenVerdict {
     pub kind: TokenKind,
-    pub verdict: Verdict,
+    pub verdict: TokenOutcome,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-pub enum Verdict {
+pub enum TokenOutcome {
     /// A session was activated, and values were read.
     Works,
     Fails(Refusal),
@@ -66,7 +66,7 @@ pub enum Refusal {
     Closed,
     /// The server refuses this program's certificate. The true reason is that of the controller's rejected list, `None`
     /// where that does not tell it.
-    OwnCertificate(Option<Told>),
+    OwnCertificate(Option<RefusalDetails>),
     /// The certificate in the answer is another than the one of the endpoint.
     OtherCertificate,
     /// User name or password.
@@ -86,7 +86,7 @@ pub enum Refusal {
 
 /// Why a certificate was refused, as far as it is told.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Told {
+pub struct RefusalDetails {
     pub status: CertificateStatus,
     pub cause: Option<RefusalCause>,
     /// In English.
@@ -148,7 +148,7 @@ impl VerifyReport {
     pub fn all_works(&self) -> bool {
         self.findings.iter().all(|finding| finding.severity() == Severity::Warning)
             && self.certificate.as_ref().is_none_or(|certificate| certificate.refused.is_none())
-            && !self.verdicts().any(|verdict| matches!(verdict, Verdict::Fails(_)))
+            && !self.verdicts().any(|verdict| matches!(verdict, TokenOutcome::Fails(_)))
     }
 
     /// What was offered: how much of it works, fails, was not tried.
@@ -156,9 +156,9 @@ impl VerifyReport {
         let mut counts = Counts::default();
         for verdict in self.verdicts() {
             match verdict {
-                Verdict::Works => counts.work += 1,
-                Verdict::Fails(_) => counts.fail += 1,
-                Verdict::NotTried(_) => counts.not_tried += 1,
+                TokenOutcome::Works => counts.work += 1,
+                TokenOutcome::Fails(_) => counts.fail += 1,
+                TokenOutcome::NotTried(_) => counts.not_tried += 1,
             }
         }
         counts
@@ -167,7 +167,7 @@ impl VerifyReport {
     /// The server refuses this program because nobody has trusted its certificate yet, or for a reason nobody knows.
     pub fn lacks_trust(&self) -> bool {
         self.verdicts().any(|verdict| match verdict {
-            Verdict::Fails(Refusal::OwnCertificate(why)) => {
+            TokenOutcome::Fails(Refusal::OwnCertificate(why)) => {
                 why.as_ref().is_none_or(|told| told.status == CertificateStatus::Untrusted)
             }
             _ => false,
@@ -176,10 +176,10 @@ impl VerifyReport {
 
     /// Something was left out that a user and a password would let try.
     pub fn lacks_password(&self) -> bool {
-        self.verdicts().any(|verdict| *verdict == Verdict::NotTried(NotTried::NoPassword))
+        self.verdicts().any(|verdict| *verdict == TokenOutcome::NotTried(NotTried::NoPassword))
     }
 
-    fn verdicts(&self) -> impl Iterator<Item = &Verdict> {
+    fn verdicts(&self) -> impl Iterator<Item = &TokenOutcome> {
         self.endpoints.iter().flat_map(|endpoint| &endpoint.tokens).map(|token| &token.verdict)
     }
 }
@@ -245,7 +245,7 @@ impl VerifyFinding {
     }
 }
 
-impl Verdict {
+impl TokenOutcome {
     /// As `--json` writes it.
     pub const fn code(&self) -> &'static str {
         match self {

@@ -16,4 +16,4 @@ pub use file::{
     Mistake, begins, parse,
 };
 pub use keys::{ActivationKey, ActivationKeys, KeyError, LicenceKey};
-pub use plan::{Plan, PlannedActivation, Verdict, plan};
+pub use plan::{ActivationDecision, Plan, PlannedActivation, plan};

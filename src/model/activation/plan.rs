@@ -14,12 +14,12 @@ pub struct Plan {
 pub struct PlannedActivation {
     pub name: ControllerName,
     pub serial: SerialNumber,
-    pub verdict: Verdict,
+    pub decision: ActivationDecision,
 }
 
 /// What will happen to one controller.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Verdict {
+pub enum ActivationDecision {
     /// It gets the keys of this line.
     Activate { line: usize },
     /// The file does not mention it: it fails alone, and nothing is sent to it.
@@ -33,30 +33,30 @@ pub enum Verdict {
 impl Plan {
     /// How many controllers get keys.
     pub fn ready(&self) -> usize {
-        self.controllers.iter().filter(|c| matches!(c.verdict, Verdict::Activate { .. })).count()
+        self.controllers.iter().filter(|c| matches!(c.decision, ActivationDecision::Activate { .. })).count()
     }
 }
 
 /// Looks every ticked controller up in the file.
 pub fn plan(file: &ActivationFile, controllers: &[(ControllerName, SerialNumber, FirmwareVersion)]) -> Plan {
-    let verdict = |serial, firmware: FirmwareVersion| match (firmware.generation(), file.find(serial)) {
-        (FirmwareGeneration::Current, _) => Verdict::FirmwareTooNew,
-        (FirmwareGeneration::Legacy, Entry::Line(line)) => Verdict::Activate { line: line.line },
-        (FirmwareGeneration::Legacy, Entry::Mistake(mistake)) => Verdict::Mistake(mistake.clone()),
-        (FirmwareGeneration::Legacy, Entry::Missing) => Verdict::Missing,
+    let decision = |serial, firmware: FirmwareVersion| match (firmware.generation(), file.find(serial)) {
+        (FirmwareGeneration::Current, _) => ActivationDecision::FirmwareTooNew,
+        (FirmwareGeneration::Legacy, Entry::Line(line)) => ActivationDecision::Activate { line: line.line },
+        (FirmwareGeneration::Legacy, Entry::Mistake(mistake)) => ActivationDecision::Mistake(mistake.clone()),
+        (FirmwareGeneration::Legacy, Entry::Missing) => ActivationDecision::Missing,
     };
     let controllers: Vec<PlannedActivation> = controllers
         .iter()
         .map(|(name, serial, firmware)| PlannedActivation {
             name: name.clone(),
             serial: serial.clone(),
-            verdict: verdict(serial, *firmware),
+            decision: decision(serial, *firmware),
         })
         .collect();
     let needed: std::collections::HashSet<usize> = controllers
         .iter()
-        .filter_map(|c| match c.verdict {
-            Verdict::Activate { line } => Some(line),
+        .filter_map(|c| match c.decision {
+            ActivationDecision::Activate { line } => Some(line),
             _ => None,
         })
         .collect();
@@ -92,10 +92,12 @@ mod tests {
                 ticked("pack", "RC80000001", "8.0.0"),
             ],
         );
-        let verdicts: Vec<&Verdict> = plan.controllers.iter().map(|c| &c.verdict).collect();
-        assert_eq!(verdicts[0], &Verdict::Activate { line: 2 });
-        assert!(matches!(verdicts[1], Verdict::Mistake(m) if m.line == 3 && m.mistake == Mistake::Fields(4)));
-        assert_eq!(verdicts[2..], [&Verdict::Missing, &Verdict::FirmwareTooNew]);
+        let verdicts: Vec<&ActivationDecision> = plan.controllers.iter().map(|c| &c.decision).collect();
+        assert_eq!(verdicts[0], &ActivationDecision::Activate { line: 2 });
+        assert!(
+            matches!(verdicts[1], ActivationDecision::Mistake(m) if m.line == 3 && m.mistake == Mistake::Fields(4))
+        );
+        assert_eq!(verdicts[2..], [&ActivationDecision::Missing, &ActivationDecision::FirmwareTooNew]);
         assert_eq!(plan.ready(), 1);
         assert_eq!(plan.unused, [(4, "R7A0000003".parse().unwrap()), (5, "RC80000001".parse().unwrap())]);
     }

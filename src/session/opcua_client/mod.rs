@@ -40,7 +40,7 @@ use crate::workspace::{KeyFile, OwnIdentity};
 
 /// How long a client waits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Patience {
+pub struct ConnectTimeouts {
     /// For the TCP connection. Default 4 s.
     pub connect: Duration,
     /// For everything of one try, from TCP to goodbye. Default 10 s: a controller needs seconds for RSA with 4096 bits
@@ -48,7 +48,7 @@ pub struct Patience {
     pub attempt: Duration,
 }
 
-impl Default for Patience {
+impl Default for ConnectTimeouts {
     fn default() -> Self {
         Self { connect: Duration::from_secs(4), attempt: Duration::from_secs(10) }
     }
@@ -97,7 +97,7 @@ pub struct OpcUaClient {
     application_uri: String,
     store: Arc<RwLock<CertificateStore>>,
     own: Option<(X509, PrivateKey)>,
-    patience: Patience,
+    patience: ConnectTimeouts,
     /// Dropped before its folder.
     _key_file: KeyFile,
     /// Where the library writes the certificates of servers; removed in the end.
@@ -112,7 +112,7 @@ impl std::fmt::Debug for OpcUaClient {
 
 impl OpcUaClient {
     /// Blocks while it reads key and certificate.
-    pub fn new(identity: &OwnIdentity, patience: Patience) -> Result<Self, Problem> {
+    pub fn new(identity: &OwnIdentity, patience: ConnectTimeouts) -> Result<Self, Problem> {
         let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
         // The library reads both again for every connection; absolute paths keep it from copying the key.
         let certificate = std::path::absolute(&identity.certificate_path)

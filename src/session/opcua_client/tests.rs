@@ -8,7 +8,7 @@ use tokio::net::TcpListener;
 use super::*;
 use crate::workspace::Workspace;
 
-const PATIENCE: Patience = Patience { connect: Duration::from_secs(1), attempt: Duration::from_secs(2) };
+const PATIENCE: ConnectTimeouts = ConnectTimeouts { connect: Duration::from_secs(1), attempt: Duration::from_secs(2) };
 
 /// Accepts, reads something, then answers; a client that is left waiting finds the connection open.
 async fn server(answers: impl Fn(usize) -> Option<Vec<u8>> + Send + 'static) -> Target {

@@ -1,7 +1,7 @@
 //! What came of connecting to a server as a client, in English.
 
 use super::LANGUAGE;
-use crate::jobs::{Counts, NotTried, Refusal, Told, VerifyFinding};
+use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, VerifyFinding};
 use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 use crate::texts::without_stop;
@@ -18,7 +18,7 @@ pub fn refusal(refusal: &Refusal) -> String {
         Refusal::OwnCertificate(None) => "The server refuses the certificate of this configurator and does not say \
                                    why; most often it is not trusted yet"
             .to_owned(),
-        Refusal::OwnCertificate(Some(Told { status: CertificateStatus::Untrusted, .. })) => {
+        Refusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
             "The server does not trust the certificate of this configurator; add it to Trusted and verify again"
                 .to_owned()
         }

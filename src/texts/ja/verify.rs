@@ -1,7 +1,7 @@
 //! What came of connecting to a server as a client, in Japanese.
 
 use super::LANGUAGE;
-use crate::jobs::{Counts, NotTried, Refusal, Told, VerifyFinding};
+use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, VerifyFinding};
 use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 
@@ -21,7 +21,7 @@ pub fn refusal(refusal: &Refusal) -> String {
         Refusal::OwnCertificate(None) => "サーバーが本ツールの証明書を拒否しましたが、理由は通知されていません。\
                                           多くの場合、本ツールの証明書が信頼リストにないことが原因です。"
             .to_owned(),
-        Refusal::OwnCertificate(Some(Told { status: CertificateStatus::Untrusted, .. })) => {
+        Refusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
             "サーバーが本ツールの証明書を信頼していません。\
              証明書を信頼リストに追加してから、再検証してください。"
                 .to_owned()

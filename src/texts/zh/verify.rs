@@ -1,7 +1,7 @@
 //! What came of connecting to a server as a client, in Chinese.
 
 use super::LANGUAGE;
-use crate::jobs::{Counts, NotTried, Refusal, Told, VerifyFinding};
+use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, VerifyFinding};
 use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 use crate::texts::without_stop;
@@ -13,7 +13,7 @@ pub fn refusal(refusal: &Refusal) -> String {
         Refusal::NotOpcUa(why) => format!("应答方不是正常的 OPC UA 服务器：{why}"),
         Refusal::Closed => "服务器未说明原因即断开连接，请查看服务器日志；多次拒绝后一分钟内不再说明原因".to_owned(),
         Refusal::OwnCertificate(None) => "服务器拒绝本配置工具的证书且未说明原因，通常是尚未信任该证书".to_owned(),
-        Refusal::OwnCertificate(Some(Told { status: CertificateStatus::Untrusted, .. })) => {
+        Refusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
             "服务器尚未信任本配置工具的证书，请将其添加到[信任]后重新验证".to_owned()
         }
         Refusal::OwnCertificate(Some(told)) => {

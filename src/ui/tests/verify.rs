@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::jobs::{
-    EndpointVerdict, NotTried, Refusal, TokenVerdict, Told, TrustConfigurator, Verdict, Verify, VerifyFinding,
-    VerifyReport,
+    EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict, TrustConfigurator, Verify,
+    VerifyFinding, VerifyReport,
 };
 use crate::model::{CertificateStatus, SecurityPolicy};
 use crate::pki::client_identity;
@@ -14,12 +14,12 @@ use crate::workspace::OwnIdentity;
 /// `None` works, and a user name was not tried; `trusted` says whether the encrypted endpoint works as well.
 fn report(trusted: bool) -> VerifyReport {
     let token = |kind, verdict| TokenVerdict { kind, verdict };
-    let refused = Refusal::OwnCertificate(Some(Told {
+    let refused = Refusal::OwnCertificate(Some(RefusalDetails {
         status: CertificateStatus::Untrusted,
         cause: None,
         reason: "nobody trusts it".into(),
     }));
-    let encrypted = if trusted { Verdict::Works } else { Verdict::Fails(refused) };
+    let encrypted = if trusted { TokenOutcome::Works } else { TokenOutcome::Fails(refused) };
     let endpoint = |policy, mode, tokens| EndpointVerdict { policy: Ok(policy), mode: Some(mode), tokens };
     VerifyReport {
         url: "opc.tcp://10.0.0.1:4840".into(),
@@ -35,8 +35,8 @@ fn report(trusted: bool) -> VerifyReport {
                 SecurityPolicy::None,
                 MessageSecurity::None,
                 vec![
-                    token(TokenKind::Anonymous, Verdict::Works),
-                    token(TokenKind::UserName, Verdict::NotTried(NotTried::NoPassword)),
+                    token(TokenKind::Anonymous, TokenOutcome::Works),
+                    token(TokenKind::UserName, TokenOutcome::NotTried(NotTried::NoPassword)),
                 ],
             ),
             endpoint(

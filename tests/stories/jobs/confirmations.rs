@@ -20,7 +20,7 @@ use opcua_configurator::model::{
     ServerSettings, ServerStatus, Subject, UserPassword, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::{Bundle, Certificate, Crl, Csr};
-use opcua_configurator::session::opcua_client::Patience;
+use opcua_configurator::session::opcua_client::ConnectTimeouts;
 use opcua_configurator::virtual_controller::{FleetFirmware, State, demo_keys};
 use opcua_configurator::workspace::authority::{DEFAULT_CRL_DAYS, NewAuthority};
 use opcua_configurator::workspace::{BackupKind, CertificateFiles, KeyBackupSource, Workspace};
@@ -270,7 +270,7 @@ impl Watch {
         self.check("list trust", ListTrust, Undisturbed).await;
         self.check("read log", ReadLog { part: LogPart::From(0) }, Undisturbed).await;
         let identity = self.workspace().own_identity();
-        let patience = Patience::default();
+        let patience = ConnectTimeouts::default();
         self.check("verify", Verify { identity, login: None, trust_first: false, patience }, Undisturbed).await;
         self.check("start", StartServer, Undisturbed).await;
     }

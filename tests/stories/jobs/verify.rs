@@ -4,13 +4,13 @@ use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::{
-    AddUser, NotTried, Refusal, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, Told,
-    TrustConfigurator, Verdict, Verify, VerifyFinding, VerifyReport,
+    AddUser, NotTried, Refusal, RefusalDetails, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer,
+    TokenOutcome, TrustConfigurator, Verify, VerifyFinding, VerifyReport,
 };
 use opcua_configurator::model::{
     CertificateStatus, Credential, KeyLength, SecurityPolicy, ServerStatus, UserPassword, UserTokenPolicy, Validity,
 };
-use opcua_configurator::session::opcua_client::{Patience, TokenKind};
+use opcua_configurator::session::opcua_client::{ConnectTimeouts, TokenKind};
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::Workspace;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
@@ -76,7 +76,7 @@ impl Cell {
             identity: Workspace::new(self.folder.path()).own_identity(),
             login: login.map(credential),
             trust_first: false,
-            patience: Patience { connect: Duration::from_secs(2), attempt: Duration::from_secs(4) },
+            patience: ConnectTimeouts { connect: Duration::from_secs(2), attempt: Duration::from_secs(4) },
         }
     }
 
@@ -89,7 +89,7 @@ impl Cell {
     }
 }
 
-fn verdict<'a>(report: &'a VerifyReport, endpoint: &str, kind: TokenKind) -> &'a Verdict {
+fn verdict<'a>(report: &'a VerifyReport, endpoint: &str, kind: TokenKind) -> &'a TokenOutcome {
     let endpoint =
         report.endpoints.iter().find(|found| found.name() == endpoint).unwrap_or_else(|| panic!("{report:?}"));
     &endpoint.tokens.iter().find(|token| token.kind == kind).unwrap().verdict
@@ -100,13 +100,13 @@ async fn without_security_everybody_gets_in_and_is_warned() {
     let cell = Cell::running(2, FleetFirmware::Mixed, &[SecurityPolicy::None]).await;
     for report in cell.reports(Some("Passw0rd1")).await {
         assert!(report.all_works(), "{report:?}");
-        assert_eq!(*verdict(&report, "None", TokenKind::Anonymous), Verdict::Works);
-        assert_eq!(*verdict(&report, "None", TokenKind::UserName), Verdict::Works);
+        assert_eq!(*verdict(&report, "None", TokenKind::Anonymous), TokenOutcome::Works);
+        assert_eq!(*verdict(&report, "None", TokenKind::UserName), TokenOutcome::Works);
         assert_eq!(report.findings, [VerifyFinding::WeakPolicy(SecurityPolicy::None)]);
         assert_eq!(report.certificate.unwrap().refused, None);
     }
     let report = cell.report(None).await;
-    assert_eq!(*verdict(&report, "None", TokenKind::UserName), Verdict::NotTried(NotTried::NoPassword));
+    assert_eq!(*verdict(&report, "None", TokenKind::UserName), TokenOutcome::NotTried(NotTried::NoPassword));
     assert!(report.all_works() && report.lacks_password(), "what was not tried is no fault");
 }
 
@@ -119,7 +119,9 @@ async fn an_unknown_configurator_is_refused_at_every_secured_endpoint() {
         assert_eq!(report.counts().work, 2, "{report:?}");
         for endpoint in report.endpoints.iter().filter(|endpoint| endpoint.name() != "None") {
             for token in &endpoint.tokens {
-                let Verdict::Fails(Refusal::OwnCertificate(Some(Told { status, reason, .. }))) = &token.verdict else {
+                let TokenOutcome::Fails(Refusal::OwnCertificate(Some(RefusalDetails { status, reason, .. }))) =
+                    &token.verdict
+                else {
                     panic!("{token:?}")
                 };
                 assert_eq!(*status, CertificateStatus::Untrusted, "the server tells its clients less");
@@ -132,7 +134,7 @@ async fn an_unknown_configurator_is_refused_at_every_secured_endpoint() {
 #[tokio::test(flavor = "multi_thread")]
 async fn once_it_is_trusted_the_configurator_gets_in_everywhere() {
     let cell = Cell::running(2, FleetFirmware::Mixed, &SecurityPolicy::ALL).await;
-    let patience = Patience::default();
+    let patience = ConnectTimeouts::default();
     cell.run(TrustConfigurator { identity: Workspace::new(cell.folder.path()).own_identity() }).await;
     for report in cell
         .plant
@@ -156,8 +158,8 @@ async fn a_wrong_password_is_sent_once() {
     let cell = Cell::running(1, FleetFirmware::Current, &[SecurityPolicy::None]).await;
     for _ in 0..4 {
         let report = cell.report(Some("Passw0rd2")).await;
-        assert_eq!(*verdict(&report, "None", TokenKind::UserName), Verdict::Fails(Refusal::Password));
-        assert_eq!(*verdict(&report, "None", TokenKind::Anonymous), Verdict::Works);
+        assert_eq!(*verdict(&report, "None", TokenKind::UserName), TokenOutcome::Fails(Refusal::Password));
+        assert_eq!(*verdict(&report, "None", TokenKind::Anonymous), TokenOutcome::Works);
     }
     assert!(cell.report(Some("Passw0rd1")).await.all_works(), "four wrong ones lock nobody out");
 }
@@ -197,7 +199,9 @@ async fn a_clock_that_is_wrong_is_noticed_and_named_as_the_reason() {
     let report = cell.report(None).await;
     assert!(report.findings.iter().any(|finding| matches!(finding, VerifyFinding::Clock(_))), "{report:?}");
     let refused = verdict(&report, "Basic256Sha256 – SignAndEncrypt", TokenKind::Anonymous);
-    let Verdict::Fails(Refusal::OwnCertificate(Some(Told { status, .. }))) = refused else { panic!("{refused:?}") };
+    let TokenOutcome::Fails(Refusal::OwnCertificate(Some(RefusalDetails { status, .. }))) = refused else {
+        panic!("{refused:?}")
+    };
     assert_eq!(*status, CertificateStatus::TimeInvalid);
     assert!(!report.lacks_trust(), "trusting it once more would not help");
 }
@@ -295,7 +299,7 @@ async fn another_server_in_the_place_of_the_controllers_gets_no_password() {
     let report = through_a_gateway(&cell, Some("Passw0rd1")).await;
     let refused = report.certificate.as_ref().unwrap().refused.clone().unwrap();
     assert_eq!(refused.status(), CertificateStatus::Untrusted, "{refused:?}");
-    let other = Verdict::NotTried(NotTried::OtherCertificate);
+    let other = TokenOutcome::NotTried(NotTried::OtherCertificate);
     assert_eq!(*verdict(&report, "None", TokenKind::UserName), other);
     assert_eq!(*verdict(&report, "Basic256Sha256 – Sign", TokenKind::Anonymous), other);
     assert!(!report.all_works() && !report.lacks_trust());

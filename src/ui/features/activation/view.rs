@@ -1,6 +1,6 @@
 use egui::{Label, RichText, Ui};
 
-use crate::model::activation::{ActivationKey, KeyError, LicenceKey, Verdict};
+use crate::model::activation::{ActivationDecision, ActivationKey, KeyError, LicenceKey};
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::activation::{ActivationForm, ActivationPreview, KeysForm, key_error};
 use crate::ui::model::{Answer, Message, Model, SecretInput};
@@ -84,11 +84,11 @@ fn table(ui: &mut Ui, preview: &ActivationPreview, model: &Model) {
         };
         cell(ui, 190.0, RichText::new(planned.name.as_str()).strong());
         cell(ui, 110.0, RichText::new(planned.serial.as_str()).monospace().color(palette.weak));
-        let (said, color) = match &planned.verdict {
-            Verdict::Activate { line } => (texts::line(language, *line), palette.ok),
-            Verdict::Missing => (T::KeysMissing.text(language).to_owned(), palette.error),
-            Verdict::Mistake(mistake) => (texts::line_mistake(language, mistake), palette.error),
-            Verdict::FirmwareTooNew => (T::WhyActivationOption.text(language).to_owned(), palette.error),
+        let (said, color) = match &planned.decision {
+            ActivationDecision::Activate { line } => (texts::line(language, *line), palette.ok),
+            ActivationDecision::Missing => (T::KeysMissing.text(language).to_owned(), palette.error),
+            ActivationDecision::Mistake(mistake) => (texts::line_mistake(language, mistake), palette.error),
+            ActivationDecision::FirmwareTooNew => (T::WhyActivationOption.text(language).to_owned(), palette.error),
         };
         cell(ui, f32::INFINITY, RichText::new(said).color(color));
     });

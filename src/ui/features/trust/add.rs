@@ -7,7 +7,7 @@ use chrono::{DateTime, Utc};
 
 use super::change::change_task;
 use super::{Done, PaneKind, Shows};
-use crate::jobs::{AddTrust, Destination, Fate, TrustFile, TrustPlan, TrustSnapshot};
+use crate::jobs::{AddTrust, Destination, PlannedAction, TrustFile, TrustPlan, TrustSnapshot};
 use crate::model::{Capabilities, Feature, ListLimits, Problem, RevisionToken};
 use crate::texts::TextKey;
 use crate::ui::features::trust::TrustForm;
@@ -109,7 +109,9 @@ impl AddTrustForm {
 
     /// How many certificates and CRLs are sent to a controller, at most.
     pub fn count(&self) -> usize {
-        let going = |plan: &TrustPlan| plan.items.iter().filter(|item| matches!(item.fate, Fate::Goes { .. })).count();
+        let going = |plan: &TrustPlan| {
+            plan.items.iter().filter(|item| matches!(item.action, PlannedAction::Send { .. })).count()
+        };
         self.plans.iter().map(|(_, plan)| going(plan)).max().unwrap_or_default()
     }
 

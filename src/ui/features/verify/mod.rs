@@ -8,7 +8,7 @@ use egui::Ui;
 
 use crate::jobs::{TrustConfigurator, Verify, VerifyReport};
 use crate::model::{Credential, ErrorCode, Problem, UserName, UserPassword};
-use crate::session::opcua_client::Patience;
+use crate::session::opcua_client::ConnectTimeouts;
 use crate::texts::TextKey;
 use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task};
 use crate::ui::shell::processing::ProcessingDialog;
@@ -93,7 +93,7 @@ impl Model {
 
     fn verification(&self, login: Option<Credential>) -> Task {
         let identity = self.workspace.own_identity();
-        let operation = Verify { identity, login, trust_first: false, patience: Patience::default() };
+        let operation = Verify { identity, login, trust_first: false, patience: ConnectTimeouts::default() };
         Task::with_results(TextKey::VerifyTitle, operation, Self::verified).on_end(Self::verify_ended)
     }
 

@@ -1,6 +1,6 @@
 use egui::{Color32, Frame, Grid, Label, RichText, Stroke, Ui, vec2};
 
-use crate::jobs::{CertificateVerdict, EndpointVerdict, Verdict, VerifyReport};
+use crate::jobs::{CertificateVerdict, EndpointVerdict, TokenOutcome, VerifyReport};
 use crate::model::Problem;
 use crate::pki::Severity;
 use crate::session::opcua_client::TokenKind;
@@ -181,11 +181,11 @@ fn cell(ui: &mut Ui, endpoint: &EndpointVerdict, kind: TokenKind, model: &Model)
     ui.label(shown).on_hover_text(said);
 }
 
-fn look(verdict: &Verdict, palette: &Palette) -> (char, T, Color32) {
+fn look(verdict: &TokenOutcome, palette: &Palette) -> (char, T, Color32) {
     match verdict {
-        Verdict::Works => ('✓', T::VerdictWorks, palette.ok),
-        Verdict::Fails(_) => ('×', T::VerdictFails, palette.error),
-        Verdict::NotTried(_) => ('–', T::VerdictNotTried, palette.off),
+        TokenOutcome::Works => ('✓', T::VerdictWorks, palette.ok),
+        TokenOutcome::Fails(_) => ('×', T::VerdictFails, palette.error),
+        TokenOutcome::NotTried(_) => ('–', T::VerdictNotTried, palette.off),
     }
 }
 
@@ -194,7 +194,7 @@ fn reasons(ui: &mut Ui, report: &VerifyReport, model: &Model) {
     let palette = palette(ui);
     let mut said: Vec<(String, Color32, Vec<String>)> = Vec::new();
     for endpoint in &report.endpoints {
-        for token in endpoint.tokens.iter().filter(|token| token.verdict != Verdict::Works) {
+        for token in endpoint.tokens.iter().filter(|token| token.verdict != TokenOutcome::Works) {
             let sentence = token.verdict.explain(model.language);
             let name = endpoint.name();
             match said.iter_mut().find(|(known, ..)| *known == sentence) {

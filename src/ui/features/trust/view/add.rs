@@ -1,6 +1,6 @@
 use egui::{Align, Button, Frame, Label, Layout, RichText, ScrollArea, Stroke, TextEdit, Ui, vec2};
 
-use crate::jobs::{Destination, Fate, Planned, Target, Thing};
+use crate::jobs::{Destination, ItemContent, PlannedAction, PlannedItem, Target};
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::trust::{AddTrustForm, PaneKind, Shows, TrustAction};
 use crate::ui::model::{Answer, Message, Model};
@@ -174,9 +174,9 @@ fn plans(ui: &mut Ui, form: &AddTrustForm, model: &Model) {
     }
 }
 
-fn differs(one: &[Planned], other: &[Planned]) -> bool {
-    let to = |item: &Planned| match item.fate {
-        Fate::Goes { to, .. } => Some(to),
+fn differs(one: &[PlannedItem], other: &[PlannedItem]) -> bool {
+    let to = |item: &PlannedItem| match item.action {
+        PlannedAction::Send { to, .. } => Some(to),
         _ => None,
     };
     one.iter().map(to).ne(other.iter().map(to))
@@ -187,7 +187,7 @@ const ITEM: f32 = 42.0;
 /// Lines before the list scrolls.
 const MOST_ITEMS: usize = 5;
 
-fn items(ui: &mut Ui, items: &[Planned], model: &Model) {
+fn items(ui: &mut Ui, items: &[PlannedItem], model: &Model) {
     let stroke = Stroke::new(1.0, palette(ui).line);
     Frame::new().stroke(stroke).corner_radius(8).inner_margin(theme::CARD_MARGIN).show(ui, |ui| {
         ui.set_width(ui.available_width());
@@ -207,22 +207,24 @@ fn items(ui: &mut Ui, items: &[Planned], model: &Model) {
     });
 }
 
-fn one(ui: &mut Ui, item: &Planned, model: &Model) {
+fn one(ui: &mut Ui, item: &PlannedItem, model: &Model) {
     let (language, palette) = (model.language, palette(ui));
-    let (name, kind) = match &item.thing {
-        Thing::Certificate { summary, authority: true, .. } => (&summary.issued_to, T::TrustKindAuthority),
-        Thing::Certificate { summary, .. } => (&summary.issued_to, T::TrustKindClient),
-        Thing::Crl { summary, .. } => (&summary.issuer, T::TrustKindCrl),
+    let (name, kind) = match &item.content {
+        ItemContent::Certificate { summary, authority: true, .. } => (&summary.issued_to, T::TrustKindAuthority),
+        ItemContent::Certificate { summary, .. } => (&summary.issued_to, T::TrustKindClient),
+        ItemContent::Crl { summary, .. } => (&summary.issuer, T::TrustKindCrl),
     };
-    let (to, color, notes) = match &item.fate {
-        Fate::Goes { to, notes } => {
+    let (to, color, notes) = match &item.action {
+        PlannedAction::Send { to, notes } => {
             let notes: Vec<_> = notes.iter().map(|note| note.text(language)).collect();
             (PaneKind::of(*to).title(), palette.ok, notes)
         }
-        Fate::Skipped(reason) => {
+        PlannedAction::Skipped(reason) => {
             (T::TrustNothing, palette.off, vec![texts::skipped_thing(*reason).text(language).into()])
         }
-        Fate::Refused(problem) => (T::TrustNothing, palette.error, vec![problem.code.explain(language).message.into()]),
+        PlannedAction::Refused(problem) => {
+            (T::TrustNothing, palette.error, vec![problem.code.explain(language).message.into()])
+        }
     };
     crate::ui::widgets::chip(ui, to.text(language), color);
     ui.with_layout(Layout::top_down(Align::Min), |ui| {
@@ -233,7 +235,7 @@ fn one(ui: &mut Ui, item: &Planned, model: &Model) {
         });
         ui.horizontal(|ui| {
             word(ui, &item.file_name, palette.weak);
-            let color = if matches!(item.fate, Fate::Refused(_)) { palette.error } else { palette.warning };
+            let color = if matches!(item.action, PlannedAction::Refused(_)) { palette.error } else { palette.warning };
             let said = notes.join("; ");
             let said = RichText::new(said).size(theme::SMALL_TEXT).color(color);
             ui.add(Label::new(said).truncate());
