@@ -288,7 +288,7 @@ fn init_log(verbose: u8) {
 
     use tracing_subscriber::EnvFilter;
     let default = match verbose {
-        // What the OPC UA library calls an error is a peer that refuses or hangs up; whoever asked is told.
+        // What the OPC UA library calls an error is a peer that refuses or hangs up; the caller reports it.
         0 => "error,opcua_client=off,opcua_core=off,opcua_crypto=off",
         1 => "warn,opcua_configurator=info",
         2 => "info,opcua_configurator=debug",

@@ -42,7 +42,7 @@ impl Output {
         line(&json!({ "controller": controller, "ok": false, "error": self.error(problem) }).to_string());
     }
 
-    /// The same about something that is no controller: with `--json`, or as text and an explanation.
+    /// Prints an error that belongs to the request, not to one controller: with `--json`, or as text and an explanation.
     pub fn cli(self, what: &str, name: &str, result: &Result<(Value, String), Problem>) {
         match result {
             Ok((result, _)) if self.json => line(&json!({ what: name, "ok": true, "result": result }).to_string()),

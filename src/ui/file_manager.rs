@@ -62,7 +62,7 @@ fn wait(mut child: Child, program: &str) -> io::Result<()> {
             None => std::thread::sleep(POLL),
         }
     }
-    // Whoever started a program has to wait for its end, else it stays behind as a zombie.
+    // A program that is not waited for stays behind as a zombie process.
     std::thread::Builder::new().name("file manager".into()).spawn(move || child.wait())?;
     Ok(())
 }

@@ -71,7 +71,7 @@ pub struct SystemPicker;
 /// opened.
 const TOO_SOON: Duration = Duration::from_millis(300);
 
-/// Whoever waits is told even if the thread cannot be started or panics.
+/// Reports a result even if the thread cannot be started or panics.
 struct Tell<T>(Option<Done<T>>);
 
 type Done<T> = Box<dyn FnOnce(Result<T, Problem>) + Send>;

@@ -21,8 +21,8 @@ use crate::pki::{Certificate, RefusalCause, RejectedClient, Rejection};
 
 /// The client certificates that were refused, for a person to decide about (manual 2.7.3).
 ///
-/// Whoever can reach the OPC UA port can fill this list, so it is bounded: one entry a certificate, [`MAX_ENTRIES`] of
-/// them and [`MAX_BYTES`] together. When it is full, whoever has most entries (by address) loses the one not seen for
+/// Any peer that reaches the OPC UA port can add to this list, so it is bounded: one entry a certificate, [`MAX_ENTRIES`] of
+/// them and [`MAX_BYTES`] together. When it is full, the address with most entries loses the one not seen for
 /// longest: a stranger with a thousand certificates does not push out the others.
 ///
 /// It lives in memory; [`RejectedClients::keep`] writes it beside the controller's state, the first time at once, then

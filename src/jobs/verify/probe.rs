@@ -134,7 +134,7 @@ impl Probe<'_> {
     }
 }
 
-/// What a failure is, whoever logged in.
+/// The reason of a failure that does not depend on the user token.
 pub(super) fn refusal_of(failure: &Failure) -> Refusal {
     match &failure.cause {
         Cause::NotReachable(why) => Refusal::NotReachable(why.clone()),

@@ -31,7 +31,7 @@ impl Attempt {
         let mut channel = self.connection.open(description.clone()).await?;
         let session = self.create_session(&mut channel, &description).await?;
         let result = self.use_session(&mut channel, description, &session).await;
-        // Whoever leaves a session behind takes one of the few places.
+        // A session that is not closed takes one of the few that the server allows.
         let close = async |secure: &_| {
             CloseSession::new_manual(0, REQUEST, session.clone(), 0).delete_subscriptions(true).send(secure).await
         };

@@ -28,7 +28,7 @@ pub(super) struct Connection {
     pub target: Target,
     pub store: Arc<RwLock<CertificateStore>>,
     pub connect: Duration,
-    /// What is being done, for whoever gives up waiting.
+    /// The step in progress, named in the error of a time-out.
     pub stage: Arc<Mutex<Stage>>,
 }
 
@@ -147,7 +147,7 @@ impl Channel {
         Err(Failure::from_library(stage, &error, &heard.lock()))
     }
 
-    /// Says goodbye; who does not listen is left.
+    /// Closes the session. A server that does not answer is disconnected.
     pub async fn close(mut self) {
         let goodbye = async {
             self.secure.close_channel().await;

@@ -11,7 +11,7 @@
 //! Every call is one connection, bounded in time and in what it takes in; nothing is tried again by itself. Whatever
 //! the peer sends gives a result: what the protocol's library makes of it runs in a task of its own.
 //!
-//! The server's certificate is not judged here. Whoever calls compares it with the one that is expected, before a
+//! The server's certificate is not judged here. The caller compares it with the expected one, before a
 //! secure channel is opened to it: [`OpcUaClient::attempt`] takes the certificate it must be.
 
 mod attempt;
@@ -142,7 +142,7 @@ impl OpcUaClient {
         })
     }
 
-    /// What the server offers to whoever asks, over a channel without security (OPC 10000-4 §5.5.4).
+    /// The endpoints that the server offers, over a channel without security (OPC 10000-4 §5.5.4).
     pub async fn endpoints(&self, target: &Target) -> Result<Vec<Endpoint>, Failure> {
         let connection = self.connection(target);
         self.bounded(connection.stage.clone(), async move { connection.endpoints().await }).await

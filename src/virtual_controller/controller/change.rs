@@ -164,7 +164,7 @@ impl Controller {
         Err(Problem::with_detail(ErrorCode::ChangedMeanwhile, format!("revision {revision}, now {now}")))
     }
 
-    /// A change, by whoever has its turn.
+    /// Applies a change. The caller holds the lock of the server.
     pub(super) async fn apply<T: Send + 'static>(
         &self,
         slot: &mut ServerSlot,

@@ -9,7 +9,7 @@ use crate::virtual_controller::opcua::{
 };
 use crate::virtual_controller::state::{OperatingContext, State, StoredCertificate};
 
-/// The OPC UA server, if it runs. Whoever holds it has its turn.
+/// The OPC UA server, if it runs. Serialises changes: only the holder of the lock around it may change the server.
 #[derive(Debug)]
 pub(super) struct ServerSlot {
     pub server: Option<OpcUaServer>,

@@ -6,7 +6,7 @@ use crate::virtual_controller::connection_limits::Source;
 
 /// Who is told what happens in a running server; nobody by default.
 ///
-/// Told on the server's own tasks: whoever listens must not take long.
+/// Called on the server's own tasks: a listener must return at once.
 #[derive(Clone, Default)]
 pub struct Events(Option<Arc<Listener>>);
 

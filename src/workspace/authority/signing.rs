@@ -179,7 +179,8 @@ impl Authority {
         Ok(())
     }
 
-    /// What could not be written down has not happened. What could has, even if its copies cannot be written.
+    /// The database entry is written first: without it nothing has changed, and with it the change stands even if the copies
+    /// of its files cannot be written.
     fn commit(&mut self, database: Database) -> Result<(), AuthorityError> {
         self.files.write_database(&database)?;
         self.database = database;

@@ -50,7 +50,7 @@ impl Judge {
         Self { lists: RwLock::new(lists), policy, clock }
     }
 
-    /// Puts other lists in force. Whoever is being admitted by the old ones is waited for.
+    /// Puts other lists in force. Waits for admissions that are judged by the old ones.
     pub(super) fn replace(&self, lists: TrustLists) {
         *self.lists.write() = lists;
     }
