@@ -30,6 +30,8 @@ impl Running {
 
     /// As [`Running::start`], with something on standard input.
     pub fn start_with(command: &mut Command, stdin: Stdio) -> io::Result<Self> {
+        #[cfg(unix)]
+        with_default_hang_up(command);
         let mut child = command.stdin(stdin).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
         let stdout = child.stdout.take().expect("stdout is piped");
         let mut stderr = child.stderr.take().expect("stderr is piped");
@@ -98,6 +100,19 @@ impl Running {
         let _ = self.child.wait();
         self.stderr.take().and_then(|reader| reader.join().ok()).unwrap_or_default()
     }
+}
+
+/// The program ends when its terminal is closed, also if the tests run under `nohup`, which children inherit.
+#[cfg(unix)]
+fn with_default_hang_up(command: &mut Command) {
+    use std::os::unix::process::CommandExt as _;
+    let reset = || {
+        // SAFETY: signal(2) is safe to call between fork and exec.
+        unsafe { libc::signal(libc::SIGHUP, libc::SIG_DFL) };
+        Ok(())
+    };
+    // SAFETY: the closure only calls signal(2).
+    unsafe { command.pre_exec(reset) };
 }
 
 impl Drop for Running {

@@ -4,8 +4,9 @@ use egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use opcua_configurator::jobs::Overview;
 use opcua_configurator::model::{ErrorCode, Problem, ServerSettings};
-use opcua_configurator::ui::backend::RecordingBackend;
+use opcua_configurator::ui::backend::{Backend as _, RecordingBackend};
 use opcua_configurator::ui::model::{Message, RowId};
+use opcua_configurator::ui::{App, reduce};
 use opcua_configurator::workspace::ThemeChoice;
 
 use crate::harness::{SIZE, click, now, settle, window};
@@ -46,8 +47,10 @@ fn details() {
 #[test]
 fn details_in_a_small_window() {
     let mut window = open(SIZE);
-    details_of(&mut window, LONG);
-    click(&mut window, "Read settings and lists");
+    let row = details_of(&mut window, LONG);
+    // The button may be below what is visible of the pane.
+    let App { model, backend, .. } = window.state_mut();
+    reduce(model, Message::ReadOverview(row)).into_iter().for_each(|command| backend.send(command));
     window.set_size([900.0, 500.0].into());
     let settings = ServerSettings::default();
     finish(&mut window, vec![Ok(Overview { settings, users: 3, trusted: 12, rejected: 1, issuers: Some(2), crls: 2 })]);
