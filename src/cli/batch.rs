@@ -32,9 +32,6 @@ pub struct Shown {
     pub cells: Vec<Cell>,
 }
 
-/// The exit code of a command that was asked to end twice: what a shell reports of a program that Ctrl-C ended.
-const INTERRUPTED: i32 = 130;
-
 /// How the results of an operation are printed. `O`: the operation's [`Operation::Output`].
 pub struct Presentation<O> {
     /// Column headings after `NAME`.
@@ -212,16 +209,12 @@ impl CommandContext {
         let (runtime, language) = (runtime()?, self.output.language());
         runtime.block_on(async {
             let cancel = CancellationToken::new();
-            let mut stop = StopSignals::listen();
             let on_stop = {
-                let cancel = cancel.clone();
-                tokio::spawn(async move {
-                    stop.received().await;
+                let (stop, cancel) = (StopSignals::listen(), cancel.clone());
+                tokio::spawn(stop.end_at_second(move || {
                     say(TextKey::CliStopping.text(language));
                     cancel.cancel();
-                    stop.received().await;
-                    std::process::exit(INTERRUPTED);
-                })
+                }))
             };
             jobs::run(controllers, operation, context, cancel, on_event).await;
             on_stop.abort();

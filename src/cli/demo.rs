@@ -4,7 +4,7 @@ use std::sync::Arc;
 use clap::Args;
 
 use super::output::say;
-use super::virtual_plant::VirtualPlant;
+use super::virtual_fleet_host::VirtualFleetHost;
 use super::{CommandContext, Ending, window};
 use crate::model::{ErrorCode, Language, Problem};
 use crate::texts::cli as texts;
@@ -26,11 +26,11 @@ pub fn run(cli: &CommandContext, args: &DemoArgs, language: Option<Language>) ->
     let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
     let workspace = Workspace::new(folder.path().join("OPCUA"));
     let lock = workspace.lock()?;
-    let plant = VirtualPlant::new(folder.path().join("virtual"), args.controllers, args.seed)?;
+    let fleet = VirtualFleetHost::new(folder.path().join("virtual"), args.controllers, args.seed)?;
     let passwords: Arc<dyn Passwords> = Arc::new(MemoryPasswords::default());
     let mut configuration = Configuration::default();
     say(&texts::starting_virtual(cli.output.language(), args.controllers));
-    plant.enter(&mut configuration, passwords.as_ref())?;
+    fleet.enter(&mut configuration, passwords.as_ref())?;
     let cli = CommandContext {
         workspace,
         output: cli.output,
@@ -40,5 +40,5 @@ pub fn run(cli: &CommandContext, args: &DemoArgs, language: Option<Language>) ->
         vault_passphrase_file: None,
         passwords: OnceCell::new(),
     };
-    window::open(&cli, language, configuration, lock, passwords, None, plant)
+    window::open(&cli, language, configuration, lock, passwords, None, fleet)
 }

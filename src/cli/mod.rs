@@ -33,7 +33,7 @@ mod users;
 mod vault;
 mod verify;
 mod virtual_fleet;
-mod virtual_plant;
+mod virtual_fleet_host;
 mod virtual_switch;
 mod window;
 

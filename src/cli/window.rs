@@ -3,7 +3,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::json;
 
-use super::virtual_plant::VirtualPlant;
+use super::virtual_fleet_host::VirtualFleetHost;
 use super::{CommandContext, Ending, system_language};
 use crate::model::{Language, Problem};
 use crate::platform::console;
@@ -29,13 +29,13 @@ pub fn run(cli: &CommandContext, language: Option<Language>) -> Result<Ending, P
         store.open_vault(&cli.vault_passphrase(false)?)?;
     }
     let passwords: Arc<dyn Passwords> = Arc::new(store);
-    let plant = VirtualPlant::in_workspace(cli.workspace.root())?;
-    if plant.is_inhabited()
-        && let Err(problem) = plant.enter(&mut configuration, passwords.as_ref())
+    let fleet = VirtualFleetHost::in_workspace(cli.workspace.root())?;
+    if fleet.has_controllers()
+        && let Err(problem) = fleet.enter(&mut configuration, passwords.as_ref())
     {
         notice.get_or_insert(problem);
     }
-    open(cli, language, configuration, lock, passwords, notice, plant)
+    open(cli, language, configuration, lock, passwords, notice, fleet)
 }
 
 /// The lock of the workspace; `None` if another window has it and was brought to the front.
@@ -67,7 +67,7 @@ pub fn open(
     lock: WorkspaceLock,
     passwords: Arc<dyn Passwords>,
     notice: Option<Problem>,
-    plant: VirtualPlant,
+    fleet: VirtualFleetHost,
 ) -> Result<Ending, Problem> {
     if language.is_some() {
         configuration.options.language = language;
@@ -78,13 +78,13 @@ pub fn open(
         configuration,
         passwords,
         connectors: Connectors::standard(),
-        starter: Some(plant.starter()),
+        starter: Some(fleet.starter()),
         language: system_language(),
         notice,
     };
     console::detach();
     let closed = ui::run(options);
-    plant.shutdown();
+    fleet.shutdown();
     closed.map(|()| Ending::AllDone)
 }
 

@@ -14,7 +14,7 @@ use crate::workspace::{CertificateFiles, certificate_files_beside, read_import_f
 pub enum CaCertificateSource {
     /// The only `.der` in each controller's `CASigned` folder.
     Folder(CertificateFiles),
-    /// This file, DER or PEM, whatever its name; issuers may stand beside the certificate. For one controller only.
+    /// This file, DER or PEM, of any name; issuers may stand beside the certificate. For one controller only.
     File(PathBuf),
 }
 
@@ -25,7 +25,7 @@ impl CaCertificateSource {
         read(&self.path(serial)?)
     }
 
-    /// Reads the certificate if it is the same whatever the controller: a wrong file is found out before any is asked.
+    /// Reads the certificate if it is the same for every controller: a wrong file is refused before a controller is connected to.
     pub fn read_chosen(&self) -> Result<Option<Vec<Certificate>>, Problem> {
         match self {
             Self::Folder(_) => Ok(None),

@@ -32,7 +32,7 @@ pub trait Operation: std::fmt::Debug + Send + Sync {
     }
 
     /// Whether the program has to stay until the step in hand has ended, because a controller or a file on the PC would
-    /// be left half changed, or a file that was asked for would be missing. Default: whatever asks for a confirmation or
+    /// be left half changed, or a file that was asked for would be missing. Default: true for an operation that asks for a confirmation or
     /// changes the server's status.
     fn must_be_finished(&self) -> bool {
         self.confirmation().is_some() || self.wanted_status().is_some()
@@ -101,7 +101,7 @@ pub enum Step {
 
 /// What an operation returns when it succeeds.
 ///
-/// Window and command line treat some facts about a result in the same way, whatever the operation was; each result
+/// Window and command line treat some facts about a result in the same way for every operation; each result
 /// states them.
 pub trait OperationOutput: std::fmt::Debug + Send + 'static {
     /// The facts that this result has in common with others.

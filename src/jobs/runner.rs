@@ -217,7 +217,7 @@ async fn one<O: OperationOutput>(
         }
         result => match (result, session.info().await) {
             (Ok(_), Err(problem)) if operation.is_information() => Report { result: Err(problem), info: None },
-            // What was done is done, whatever became of the connection since.
+            // The change counts as done although the connection was lost afterwards.
             (Ok(output), Err(_)) => Report { result: Ok(output), info: again.read().await.ok() },
             (result, info) => Report { result, info: info.ok() },
         },

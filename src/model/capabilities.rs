@@ -1,5 +1,3 @@
-use std::collections::BTreeMap;
-
 use super::{ErrorCode, Problem};
 
 /// Something that a program can do to a controller, and that not every controller offers over every kind of connection.
@@ -31,6 +29,10 @@ pub enum Feature {
     ServerLog,
 }
 
+impl Feature {
+    const COUNT: usize = Self::ServerLog as usize + 1;
+}
+
 /// Why a controller does not offer a feature.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum MissingReason {
@@ -55,31 +57,36 @@ impl From<MissingReason> for Problem {
 }
 
 /// What a controller offers over its connection. A feature that is not named as missing is offered.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+///
+/// Without memory of its own: the window asks it for every ticked controller in each frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Capabilities {
-    missing: BTreeMap<Feature, MissingReason>,
+    /// By the number of the feature.
+    missing: [Option<MissingReason>; Feature::COUNT],
 }
 
 impl Capabilities {
     /// Every feature.
     pub const fn all() -> Self {
-        Self { missing: BTreeMap::new() }
+        Self { missing: [None; Feature::COUNT] }
     }
 
     /// The same, but for these features.
     #[must_use]
     pub fn without(mut self, features: &[Feature], reason: MissingReason) -> Self {
-        self.missing.extend(features.iter().map(|feature| (*feature, reason)));
+        for feature in features {
+            self.missing[*feature as usize] = Some(reason);
+        }
         self
     }
 
     pub fn offers(&self, feature: Feature) -> bool {
-        !self.missing.contains_key(&feature)
+        self.missing(feature).is_none()
     }
 
     /// The reason why a feature is missing; `None` if it is offered.
     pub fn missing(&self, feature: Feature) -> Option<MissingReason> {
-        self.missing.get(&feature).copied()
+        self.missing[feature as usize]
     }
 
     /// An error if the feature is missing: [`ErrorCode::FirmwareTooOld`], [`ErrorCode::FirmwareTooNew`], or

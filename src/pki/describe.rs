@@ -157,7 +157,7 @@ pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>
 }
 
 const MAX_ITEMS: usize = 1000;
-/// A file decides itself how slow it is to open an encrypted key, and has room for thousands.
+/// A file decides itself how slow it is to open an encrypted key, and may hold thousands.
 const MAX_HASHED: usize = 16;
 
 /// One item of the file. Certificates and lists are described last: their signers may come later in the file.

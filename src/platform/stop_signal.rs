@@ -34,7 +34,18 @@ impl StopSignals {
     pub async fn received(&mut self) {
         self.inner.received().await;
     }
+
+    /// Calls `on_first` at the first request. The second one ends the process at once, with the exit code 130 that shells
+    /// report of a program that Ctrl-C ended.
+    pub async fn end_at_second(mut self, on_first: impl FnOnce()) {
+        self.received().await;
+        on_first();
+        self.received().await;
+        std::process::exit(INTERRUPTED);
+    }
 }
+
+const INTERRUPTED: i32 = 130;
 
 #[cfg(unix)]
 mod unix {

@@ -14,6 +14,9 @@ impl Model {
         match (choice, self.closing) {
             (CloseChoice::Ask, None) => {
                 self.closing = Some(Closing::Asking);
+                // Else they would take the keys that are for this dialog.
+                self.command_palette = None;
+                self.row_menu = None;
                 // It may be minimised.
                 return vec![Command::ShowWindow];
             }

@@ -9,7 +9,7 @@ use crate::model::{ControllerName, ErrorCode, Problem};
 
 /// Takes changes back, each in the controller it was made in.
 ///
-/// All or nothing in each controller, whatever else was changed meanwhile; refused where that makes it impossible. Its
+/// All or nothing in each controller, also if something else was changed meanwhile; refused where that makes it impossible. Its
 /// own [`TrustUndo`] does the change once more.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UndoTrust(pub BTreeMap<ControllerName, TrustUndo>);

@@ -120,7 +120,7 @@ fn application_usage_flaw(leaf: &Certificate, is_issued: bool, role: Role, polic
         .or_else(|| rules::role_flaw(leaf, role).filter(|_| !policy.allow_any_usage))
 }
 
-/// Whether a certificate can be used by an application, or by an authority, whatever its names and dates are: steps 1, 4 and
+/// Whether a certificate can be used by an application, or by an authority, regardless of its names and dates: steps 1, 4 and
 /// 9, and step 3 if it is self-signed.
 pub(super) fn lasting_flaw(certificate: &Certificate, is_authority: bool, role: Role) -> Option<Flaw> {
     let policy = TrustPolicy::default();

@@ -2,8 +2,8 @@ use super::Role;
 use super::checks::lasting_flaw;
 use crate::pki::{Certificate, CertificateFlaw, rules};
 
-/// Why no client is ever let in with this certificate, or with one from this authority, whatever the lists hold and
-/// whatever time it is; by the checks of [`TrustLists::validate`](super::TrustLists::validate).
+/// Why no client is ever let in with this certificate, or with one from this authority, for any lists and
+/// at any time; by the checks of [`TrustLists::validate`](super::TrustLists::validate).
 ///
 /// Keys and signatures that only the deprecated security policies take count as not taken.
 pub fn never_accepted(certificate: &Certificate, is_authority: bool) -> Option<CertificateFlaw> {

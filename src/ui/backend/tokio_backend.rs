@@ -28,9 +28,6 @@ const SHUTDOWN: Duration = Duration::from_millis(500);
 /// ([`Timeouts::change`](crate::session::Timeouts)). Reached only if the window went without asking.
 const FINISH: Duration = Duration::from_secs(150);
 
-/// The exit code after a second request to end: what a shell reports of a program that Ctrl-C ended.
-const INTERRUPTED: i32 = 130;
-
 /// What the backend works with.
 pub struct BackendOptions {
     pub workspace: Workspace,
@@ -118,13 +115,7 @@ impl TokioBackend {
     /// From now on the system's requests to end arrive as [`Event::StopRequested`]; the second ends the program at once.
     pub fn receive_stop_signals(&self) {
         let emit = self.emit.clone();
-        self.spawn(async move {
-            let mut stop = StopSignals::listen();
-            stop.received().await;
-            emit(Event::StopRequested);
-            stop.received().await;
-            std::process::exit(INTERRUPTED);
-        });
+        self.spawn(async move { StopSignals::listen().end_at_second(|| emit(Event::StopRequested)).await });
     }
 
     fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {

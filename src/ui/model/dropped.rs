@@ -76,7 +76,7 @@ pub struct Hover {
     pub paths: Vec<PathBuf>,
     /// `None` while they are looked at.
     pub found: Option<DropForm>,
-    /// The dialog on top takes them, whatever they are.
+    /// The dialog on top takes files of every kind.
     pub taken: bool,
 }
 

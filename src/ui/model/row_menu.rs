@@ -15,7 +15,7 @@ pub struct RowMenu {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Targets {
     Ticked,
-    /// This one alone, whatever is ticked.
+    /// This one alone; the ticks do not count.
     Row(RowId),
 }
 

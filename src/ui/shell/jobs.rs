@@ -145,6 +145,7 @@ impl Model {
             task: job.task.clone(),
         });
     }
+
     /// The controllers whose server runs anew after the job that has ended.
     pub fn changed_servers(&self) -> Vec<RowId> {
         let Some(job) = self.job.as_ref().filter(|job| job.summary.is_some() && job.task.restarts_server) else {

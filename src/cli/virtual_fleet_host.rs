@@ -16,7 +16,7 @@ use crate::virtual_controller::{DEMO_COUNT, DemoEntry, DemoFleet, demo_fleet};
 use crate::workspace::{Configuration, ControllerEntry, Passwords, Retrieved};
 
 /// Runs the demo's controllers on a runtime of their own for as long as it lives.
-pub struct VirtualPlant {
+pub struct VirtualFleetHost {
     runtime: Runtime,
     stage: Arc<Stage>,
 }
@@ -30,7 +30,7 @@ struct Stage {
     fleet: Mutex<Option<DemoFleet>>,
 }
 
-impl VirtualPlant {
+impl VirtualFleetHost {
     /// Nothing runs yet. `data` keeps what the controllers remember.
     pub fn new(data: PathBuf, count: usize, seed: u64) -> Result<Self, Problem> {
         let runtime = runtime()?;
@@ -44,7 +44,7 @@ impl VirtualPlant {
     }
 
     /// Whether controllers were started here before.
-    pub fn is_inhabited(&self) -> bool {
+    pub fn has_controllers(&self) -> bool {
         self.stage.data.is_dir()
     }
 
