@@ -52,6 +52,7 @@ pub fn show(ui: &Ui, model: &Model, messages: &mut Vec<Message>) {
         let height = (room.height() - theme::PALETTE_TOP - theme::DIALOG_MARGIN).min(theme::LIST_HEIGHT);
         ScrollArea::vertical().max_height(height).auto_shrink([false, true]).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
+            theme::style_rows(ui);
             ui.with_layout(Layout::top_down_justified(Align::Min), |ui| {
                 for (position, command) in found.iter().enumerate() {
                     let clicked = line(ui, *command, position == selected, is_new, model);

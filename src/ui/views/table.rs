@@ -38,8 +38,7 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
 fn table(ui: &mut Ui, columns: &[Column], model: &Model, messages: &mut Vec<Message>) {
     let palette = palette(ui);
     ui.spacing_mut().item_spacing = vec2(10.0, 0.0);
-    // The text of ticked rows.
-    ui.visuals_mut().selection.stroke.color = palette.text;
+    theme::style_rows(ui);
     let mut builder = TableBuilder::new(ui)
         // The widths are kept by position, so another order is another table to begin with.
         .id_salt(("controllers", columns))

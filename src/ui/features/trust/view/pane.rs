@@ -164,6 +164,7 @@ fn table(ui: &mut Ui, form: &mut TrustForm, index: usize, height: f32, model: &M
             height - theme::HEADER_HEIGHT - ui.spacing().scroll.bar_width - ui.spacing().scroll.bar_outer_margin;
         // When a dialog is measured before it is first drawn, columns would shrink to what they hold, and stay so.
         let measured = ui.is_sizing_pass();
+        theme::style_rows(ui);
         let mut builder = TableBuilder::new(ui)
             .id_salt("lines")
             .sense(Sense::hover())
