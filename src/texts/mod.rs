@@ -2,13 +2,18 @@
 //!
 //! | part | content |
 //! |---|---|
-//! | [`TextKey`] | the names of fixed texts |
-//! | `en`, `zh`, `ja` | one folder a language, each with the same files and the same functions in them |
+//! | [`TextKey`] | a fixed text; its name and English text stand in the file of its topic in `en` |
+//! | `en`, `zh`, `ja` | one folder a language, each with the same files, and the same texts and functions in them |
 //! | the other files | one a topic: which sentences there are, and which text belongs to which value |
 //!
-//! A language that lacks a text does not compile: fixed texts are looked up by an exhaustive `match`, and `in_language!`
-//! calls a function of the same name in each language. A new language is a folder here, a variant of [`Language`] and an
-//! arm of `in_language!`. Its glyphs are in a font (`assets/fonts`).
+//! A fixed text is a row of `english_texts!` in `en/<topic>.rs` and a row of the same name of `fixed_texts!` in
+//! `<language>/<topic>.rs` for every other language. A sentence with values in it is declared in `<topic>.rs` with
+//! `in_every_language!` and is a function of the same name in `<language>/<topic>.rs`. A language that lacks a text or a
+//! sentence does not compile; a text that English does not have is reported as unused.
+//!
+//! A new language is a copy of the folder of another one, translated; its name in `in_language!`, `english_texts!` and
+//! `FixedText` in this file; a variant of [`Language`]; and the order of its fonts in `ui/fonts.rs`, with a font in
+//! `assets/fonts` if its characters are in none.
 //!
 //! What `--json` prints, what logs hold and what a controller is sent is for programs and stays English.
 
@@ -33,12 +38,34 @@ macro_rules! in_every_language {
     )*};
 }
 
-/// The fixed texts of a language.
+/// Declares the fixed texts of a topic with their names and their English text. Every other language has a text of the
+/// same name in its file of the topic.
+macro_rules! english_texts {
+    ($topic:ident: $($key:ident: $text:literal;)*) => {
+        #[allow(non_upper_case_globals, reason = "the texts are used like the variants of an enum")]
+        impl $crate::texts::TextKey {
+            $(
+                #[doc = $text]
+                pub const $key: Self = Self(&$crate::texts::FixedText {
+                    name: stringify!($key),
+                    en: $text,
+                    zh: $crate::texts::zh::$topic::fixed::$key,
+                    ja: $crate::texts::ja::$topic::fixed::$key,
+                });
+            )*
+        }
+
+        /// Every fixed text of the topic.
+        #[cfg(test)]
+        pub const FIXED_TEXTS: &[$crate::texts::TextKey] = &[$($crate::texts::TextKey::$key),*];
+    };
+}
+
+/// The fixed texts of a topic in a language other than English.
 macro_rules! fixed_texts {
     ($($key:ident: $text:literal;)*) => {
-        pub const fn text(key: $crate::texts::TextKey) -> &'static str {
-            match key { $($crate::texts::TextKey::$key => $text),* }
-        }
+        #[allow(non_upper_case_globals, reason = "named as the constants of `TextKey`")]
+        pub mod fixed { $(pub const $key: &str = $text;)* }
     };
 }
 
@@ -74,7 +101,6 @@ pub mod cli;
 mod errors;
 mod files;
 mod help;
-mod key;
 mod sentences;
 mod trust;
 mod vault;
@@ -86,14 +112,68 @@ pub use certificates::explain_refusal;
 pub use errors::Explanation;
 pub use files::*;
 pub use help::{HelpTexts, UsageErrorTexts, help};
-pub use key::TextKey;
 pub use sentences::*;
 pub use trust::*;
 pub use vault::*;
 pub use verify::*;
 pub use zone::Zone;
 
+use std::fmt;
+
 use crate::model::{Country, Language};
+
+/// A fixed text of the window or the command line. [`TextKey::text`] gives it in a language.
+///
+/// Each text is a constant of this type: `TextKey::Cancel`.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub struct TextKey(&'static FixedText);
+
+/// A fixed text in every language.
+#[derive(PartialEq, Eq, Hash)]
+struct FixedText {
+    name: &'static str,
+    en: &'static str,
+    zh: &'static str,
+    ja: &'static str,
+}
+
+impl TextKey {
+    /// The text in a language.
+    pub const fn text(self, language: Language) -> &'static str {
+        match language {
+            Language::En => self.0.en,
+            Language::Zh => self.0.zh,
+            Language::Ja => self.0.ja,
+        }
+    }
+
+    /// Every fixed text.
+    #[cfg(test)]
+    fn all() -> impl Iterator<Item = Self> {
+        [
+            en::authority::FIXED_TEXTS,
+            en::cli::FIXED_TEXTS,
+            en::common::FIXED_TEXTS,
+            en::controllers::FIXED_TEXTS,
+            en::files::FIXED_TEXTS,
+            en::server::FIXED_TEXTS,
+            en::server_certificates::FIXED_TEXTS,
+            en::trust::FIXED_TEXTS,
+            en::vault::FIXED_TEXTS,
+            en::verify::FIXED_TEXTS,
+            en::window::FIXED_TEXTS,
+        ]
+        .into_iter()
+        .flatten()
+        .copied()
+    }
+}
+
+impl fmt::Debug for TextKey {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.0.name)
+    }
+}
 
 impl Country {
     /// The short name of Unicode CLDR.

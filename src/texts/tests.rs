@@ -3,7 +3,7 @@ use crate::model::ErrorCode;
 
 #[test]
 fn fixed_texts_follow_the_house_style() {
-    for key in TextKey::ALL {
+    for key in TextKey::all() {
         for language in Language::ALL {
             let text = key.text(language);
             assert!(!text.is_empty(), "{key:?}");
@@ -20,7 +20,7 @@ fn fixed_texts_follow_the_house_style() {
 #[test]
 fn japanese_follows_its_house_style() {
     let japanese = |c: char| ('\u{3041}'..='\u{30ff}').contains(&c) || ('\u{4e00}'..='\u{9fff}').contains(&c);
-    let mut texts: Vec<&str> = TextKey::ALL.iter().map(|key| key.text(Language::Ja)).collect();
+    let mut texts: Vec<&str> = TextKey::all().map(|key| key.text(Language::Ja)).collect();
     for code in ErrorCode::ALL {
         let Explanation { message, cause, remedy } = code.explain(Language::Ja);
         assert!(!message.contains('。') && cause.ends_with('。') && remedy.ends_with('。'), "{code:?}");

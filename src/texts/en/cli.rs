@@ -5,6 +5,74 @@ use std::fmt::Display;
 use super::LANGUAGE;
 use crate::texts::TextKey;
 
+english_texts! { cli:
+    // headings of tables, in capitals
+    HeadingActivated: "ACTIVATED";
+    HeadingAddress: "ADDRESS";
+    HeadingBits: "BITS";
+    HeadingCa: "CA";
+    HeadingCertificate: "CERTIFICATE";
+    HeadingCertificates: "CERTIFICATES";
+    HeadingCommonName: "COMMON NAME";
+    HeadingController: "CONTROLLER";
+    HeadingCrls: "CRLS";
+    HeadingCrlNumber: "CRL NUMBER";
+    HeadingDisconnected: "DISCONNECTED";
+    HeadingEndpoint: "ENDPOINT";
+    HeadingExpiry: "EXPIRY";
+    HeadingFile: "FILE";
+    HeadingFirmware: "FIRMWARE";
+    HeadingGoesTo: "GOES TO";
+    HeadingIdentity: "IDENTITY";
+    HeadingIssuedBy: "ISSUED BY";
+    HeadingIssuedTo: "ISSUED TO";
+    HeadingIssuers: "ISSUERS";
+    HeadingLicence: "LICENCE";
+    HeadingLog: "LOG";
+    HeadingName: "NAME";
+    HeadingNextCrlBy: "NEXT CRL BY";
+    HeadingNote: "NOTE";
+    HeadingPolicies: "POLICIES";
+    HeadingPort: "PORT";
+    HeadingProfile: "PROFILE";
+    HeadingRejected: "REJECTED";
+    HeadingResult: "RESULT";
+    HeadingRetrieved: "RETRIEVED";
+    HeadingRevision: "REVISION";
+    HeadingRevoked: "REVOKED";
+    HeadingSerial: "SERIAL";
+    HeadingStartup: "STARTUP";
+    HeadingStatus: "STATUS";
+    HeadingThumbprint: "THUMBPRINT";
+    HeadingTokens: "TOKENS";
+    HeadingTrusted: "TRUSTED";
+    HeadingType: "TYPE";
+    HeadingUsers: "USERS";
+    HeadingUserToken: "USER TOKEN";
+    HeadingVersion: "VERSION";
+    HeadingWarnings: "WARNINGS";
+    HeadingWhat: "WHAT";
+
+    // words and sentences
+    CliAddUnconfirmed: "To add it now and confirm its identity later, use --unconfirmed.";
+    CliVaultKeeps: "The vault is not open: passwords in it stay; \"vault status\" lists them, \"vault forget\" deletes them.";
+    CliStopping: "Stopping after the step in hand; press Ctrl-C again to leave it unfinished…";
+    CliGoOn: "Go on? [y/N]";
+    CliClientsMayComplain: "clients may complain about what is listed above";
+    CliFirmwareCurrent: "Controllers with firmware 8.0.0 and later";
+    CliFirmwareLegacy: "Controllers with firmware below 8.0.0";
+    CliError: "error";
+    CliWarning: "warning";
+    CliCertificateAccepted: "A careful client accepts the server's certificate";
+    CliWindowBroughtToFront: "The workspace is open already; its window was brought to the front.";
+    CliAskCaPassphrase: "Passphrase of the CA";
+    CliAskVaultPassphrase: "Passphrase of the vault";
+    CliAskNewVaultPassphrase: "New passphrase of the vault";
+    CliAskAgain: "The same again";
+    CliAskLogPassword: "Password for the server log (199532 in the manual)";
+    CliProgramError: "The program ends because of an error in it";
+}
+
 pub fn added(name: impl Display, what: impl Display) -> String {
     format!("Added {name}: {what}")
 }

@@ -6,6 +6,42 @@ use super::sentences::controllers;
 use crate::model::activation::{KeyError, LineMistake, Mistake};
 use crate::workspace::Skipped;
 
+english_texts! { files:
+    // choosing a file
+    FileLabel: "File";
+    FileHint: "Path of the file";
+    FileRule: "Choose a file or type its path";
+    ChooseFile: "Choose…";
+    ChooseFileTitle: "Choose a file";
+    ReadFile: "Read file";
+    Browse: "Browse…";
+    OpenFolder: "Open folder";
+
+    // files dropped onto the window
+    DropTitle: "Dropped files";
+    DropChoose: "Use as";
+    DropOpen: "Open";
+    DropUnseen: "Drop them to see what they are";
+    DropAsks: "Several dialogs take this; you choose after dropping";
+    DropNothing: "Nothing here can be used";
+    DropDialogOpen: "A dialog is open: close it first, then drop the files again";
+    DropTooMany: "Too many files: drop at most 100 at once";
+    DropOneFile: "One file at a time: drop only that one";
+    WhySplitKey: "The file holds certificate and private key together: save them as two files, or as one .pfx";
+    DropCrl: "Certificate revocation list (CRL)";
+    DropAuthority: "Certificate authority";
+    KindActivation: "Activation file";
+    KindConnectionList: "Connection list";
+    KindSettingsExport: "Settings export";
+    KindCertificate: "Certificate";
+    KindChain: "Several certificates (PEM)";
+    KindBundle: "Collection of certificates or CRLs (PKCS#7 or PEM)";
+    KindCsr: "Certificate signing request (CSR)";
+    KindKey: "Private key";
+    KindKeyAndCertificate: "Certificate and private key in one PEM file";
+    KindPkcs12: "Certificate with encrypted key (PKCS#12)";
+}
+
 pub fn moved_aside(name: &str, file: &Path) -> String {
     format!("{name}: a former file was moved to {}", file.display())
 }

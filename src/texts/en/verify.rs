@@ -6,6 +6,29 @@ use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 use crate::texts::without_stop;
 
+english_texts! { verify:
+    Verify: "Verify";
+    VerifyTip: "Connect to the OPC UA server as a client would, in every way it offers";
+    VerifyTitle: "Verify";
+    VerifyWorks: "Everything tried works";
+    VerifyFails: "Not everything works";
+    VerifyEndpoint: "Endpoint";
+    VerdictWorks: "Works";
+    VerdictFails: "Fails";
+    VerdictNotTried: "Not tried";
+    VerifyCertificate: "Server certificate";
+    VerifyAccepted: "a careful client accepts it";
+    VerifyRefused: "a careful client refuses it";
+    VerifyAgain: "Verify again";
+    VerifyTrust: "Trust this configurator…";
+    VerifyTrustText: "The server lets in only clients whose certificate is in Trusted. That of this configurator is not there; it can be added now, or later from the file in this folder.";
+    VerifyLogin: "To try logging in, give a user of the controller. The password is sent encrypted only, and not again once it was refused.";
+    TrustConfiguratorTitle: "Trust this configurator";
+    ConfirmTrustConfigurator: "The certificate of this configurator is put into Trusted and stays there: with a user of the controller, or where anonymous users are let in, it may connect like any other client.";
+    VerifyAfterChanges: "After a change";
+    VerifyAfterChangesOn: "Verify when the server has started again";
+}
+
 pub fn refusal(refusal: &Refusal) -> String {
     match refusal {
         Refusal::NotReachable(why) => {

@@ -5,6 +5,74 @@ use std::fmt::Display;
 use super::LANGUAGE;
 use crate::texts::TextKey;
 
+fixed_texts! {
+    // headings of tables, in capitals
+    HeadingActivated: "ライセンス";
+    HeadingAddress: "IPアドレス";
+    HeadingBits: "ビット数";
+    HeadingCa: "CA";
+    HeadingCertificate: "証明書タイプ";
+    HeadingCertificates: "証明書";
+    HeadingCommonName: "コモンネーム";
+    HeadingController: "コントローラー";
+    HeadingCrls: "CRL";
+    HeadingCrlNumber: "CRL番号";
+    HeadingDisconnected: "切断";
+    HeadingEndpoint: "エンドポイント";
+    HeadingExpiry: "有効期限";
+    HeadingFile: "ファイル";
+    HeadingFirmware: "ファームウェア";
+    HeadingGoesTo: "追加先";
+    HeadingIdentity: "確認";
+    HeadingIssuedBy: "発行者";
+    HeadingIssuedTo: "発行先";
+    HeadingIssuers: "発行者リスト";
+    HeadingLicence: "ライセンス";
+    HeadingLog: "サーバーログ";
+    HeadingName: "名前";
+    HeadingNextCrlBy: "次回CRL期限";
+    HeadingNote: "備考";
+    HeadingPolicies: "セキュリティポリシー";
+    HeadingPort: "ポート";
+    HeadingProfile: "用途";
+    HeadingRejected: "拒否リスト";
+    HeadingResult: "結果";
+    HeadingRetrieved: "取得日時";
+    HeadingRevision: "リビジョン";
+    HeadingRevoked: "失効件数";
+    HeadingSerial: "シリアル番号";
+    HeadingStartup: "起動モード";
+    HeadingStatus: "ステータス";
+    HeadingThumbprint: "拇印";
+    HeadingTokens: "ユーザートークン";
+    HeadingTrusted: "信頼リスト";
+    HeadingType: "コントローラータイプ";
+    HeadingUsers: "ユーザー";
+    HeadingUserToken: "ユーザートークン";
+    HeadingVersion: "バージョン";
+    HeadingWarnings: "警告";
+    HeadingWhat: "内容";
+
+    // words and sentences
+    CliAddUnconfirmed: "コントローラーを今すぐ追加し、フィンガープリントを後で確認するには、--unconfirmedを使用してください。";
+    CliVaultKeeps: "パスワード保管庫が開いていないため、保管庫内のパスワードは残ります。vault statusで一覧を表示し、vault forgetで削除できます。";
+    CliStopping: "現在のステップの完了後に中止します (もう一度Ctrl-Cを押すと、完了を待たずに中止します)…";
+    CliGoOn: "続行しますか？[y/N]";
+    CliClientsMayComplain: "上記の点について、クライアントで警告が出る可能性があります";
+    CliFirmwareCurrent: "ファームウェア8.0.0以降のコントローラー";
+    CliFirmwareLegacy: "ファームウェア8.0.0未満のコントローラー";
+    CliError: "エラー";
+    CliWarning: "警告";
+    CliCertificateAccepted: "サーバー証明書は、厳密なクライアントで受け入れ可能です";
+    CliWindowBroughtToFront: "このワークスペースはすでに開かれているため、そのウィンドウを前面に表示しました。";
+    CliAskCaPassphrase: "CAのパスフレーズ";
+    CliAskVaultPassphrase: "パスワード保管庫のパスフレーズ";
+    CliAskNewVaultPassphrase: "パスワード保管庫の新しいパスフレーズ";
+    CliAskAgain: "もう一度入力";
+    CliAskLogPassword: "サーバーログ用のパスワード (マニュアルでは199532)";
+    CliProgramError: "内部エラーのため、本ツールを終了します";
+}
+
 pub fn added(name: impl Display, what: impl Display) -> String {
     format!("{name}を追加しました：{what}")
 }

@@ -8,6 +8,42 @@ use crate::model::activation::{KeyError, LineMistake, Mistake};
 use crate::texts::TextKey as T;
 use crate::workspace::Skipped;
 
+fixed_texts! {
+    // choosing a file
+    FileLabel: "ファイル";
+    FileHint: "ファイルのパス";
+    FileRule: "ファイルを選択するか、パスを入力してください";
+    ChooseFile: "選択…";
+    ChooseFileTitle: "ファイルの選択";
+    ReadFile: "ファイルの読み込み";
+    Browse: "参照…";
+    OpenFolder: "フォルダーを開く";
+
+    // files dropped onto the window
+    DropTitle: "ドロップしたファイル";
+    DropChoose: "用途";
+    DropOpen: "開く";
+    DropUnseen: "ドロップすると、ファイルの種類を判別します";
+    DropAsks: "複数の用途があります。ドロップ後に選択してください。";
+    DropNothing: "使用できるファイルがありません";
+    DropDialogOpen: "ダイアログが開いています。先に閉じてから、ファイルをドロップし直してください。";
+    DropTooMany: "ファイルが多すぎます。一度にドロップできるのは100個までです。";
+    DropOneFile: "一度に使用できるファイルは1つです。1つだけドロップしてください。";
+    WhySplitKey: "このファイルには証明書と秘密鍵が一緒に含まれています。2つのファイルに分けるか、1つの.pfxファイルとして保存してください。";
+    DropCrl: "証明書失効リスト (CRL)";
+    DropAuthority: "認証局";
+    KindActivation: "アクティベーションファイル";
+    KindConnectionList: "接続リスト";
+    KindSettingsExport: "設定エクスポートファイル";
+    KindCertificate: "証明書";
+    KindChain: "複数の証明書 (PEM)";
+    KindBundle: "証明書またはCRLの集合 (PKCS#7またはPEM)";
+    KindCsr: "証明書署名要求 (CSR)";
+    KindKey: "秘密鍵";
+    KindKeyAndCertificate: "証明書と秘密鍵を1つにしたPEMファイル";
+    KindPkcs12: "証明書と暗号化された鍵 (PKCS#12)";
+}
+
 pub fn moved_aside(name: &str, file: &Path) -> String {
     format!("{name}：以前のファイルを{}に移動しました", file.display())
 }

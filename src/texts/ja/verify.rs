@@ -5,6 +5,29 @@ use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, VerifyFinding};
 use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 
+fixed_texts! {
+    Verify: "接続検証";
+    VerifyTip: "OPC UAサーバーが提供するすべての方法で、クライアントとして接続を試みます";
+    VerifyTitle: "接続検証";
+    VerifyWorks: "試行した接続はすべて正常です";
+    VerifyFails: "正常でない項目があります";
+    VerifyEndpoint: "エンドポイント";
+    VerdictWorks: "正常";
+    VerdictFails: "失敗";
+    VerdictNotTried: "未試行";
+    VerifyCertificate: "サーバー証明書";
+    VerifyAccepted: "厳密なクライアントで受け入れ可能";
+    VerifyRefused: "厳密なクライアントで拒否";
+    VerifyAgain: "再検証";
+    VerifyTrust: "本ツールを信頼リストに追加…";
+    VerifyTrustText: "サーバーは、信頼リストに証明書があるクライアントにのみ接続を許可します。本ツールの証明書は信頼リストにありません。ここで追加するか、後でこのフォルダーのファイルを使用して追加できます。";
+    VerifyLogin: "ログインを試行するには、コントローラーのユーザーを入力してください。パスワードは暗号化した場合にのみ送信され、一度拒否されると再送信されません。";
+    TrustConfiguratorTitle: "本ツールを信頼リストに追加";
+    ConfirmTrustConfigurator: "本ツールの証明書を信頼リストに追加し、そのまま残します。コントローラーのユーザーを使用する場合、または匿名接続が許可されている場合は、ほかのクライアントと同じように接続できるようになります。";
+    VerifyAfterChanges: "変更後の処理";
+    VerifyAfterChangesOn: "サーバーの再開後に接続検証を実行";
+}
+
 pub fn refusal(refusal: &Refusal) -> String {
     match refusal {
         Refusal::NotReachable(why) => format!(

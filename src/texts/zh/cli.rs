@@ -5,6 +5,74 @@ use std::fmt::Display;
 use super::LANGUAGE;
 use crate::texts::TextKey;
 
+fixed_texts! {
+    // headings of tables, in capitals
+    HeadingActivated: "激活";
+    HeadingAddress: "IP 地址";
+    HeadingBits: "密钥位数";
+    HeadingCa: "CA";
+    HeadingCertificate: "认证类型";
+    HeadingCertificates: "证书";
+    HeadingCommonName: "通用名";
+    HeadingController: "控制器";
+    HeadingCrls: "CRL";
+    HeadingCrlNumber: "CRL 编号";
+    HeadingDisconnected: "已断开";
+    HeadingEndpoint: "端点";
+    HeadingExpiry: "有效期";
+    HeadingFile: "文件";
+    HeadingFirmware: "固件版本";
+    HeadingGoesTo: "添加到";
+    HeadingIdentity: "身份";
+    HeadingIssuedBy: "颁发者";
+    HeadingIssuedTo: "颁发给";
+    HeadingIssuers: "发行人";
+    HeadingLicence: "许可证";
+    HeadingLog: "服务器日志";
+    HeadingName: "名称";
+    HeadingNextCrlBy: "下次更新";
+    HeadingNote: "备注";
+    HeadingPolicies: "安全策略";
+    HeadingPort: "端口";
+    HeadingProfile: "用途";
+    HeadingRejected: "拒绝";
+    HeadingResult: "结果";
+    HeadingRetrieved: "获取日期";
+    HeadingRevision: "修订号";
+    HeadingRevoked: "吊销数量";
+    HeadingSerial: "序列号";
+    HeadingStartup: "启动模式";
+    HeadingStatus: "状态";
+    HeadingThumbprint: "指纹";
+    HeadingTokens: "用户令牌";
+    HeadingTrusted: "信任";
+    HeadingType: "控制器类型";
+    HeadingUsers: "用户";
+    HeadingUserToken: "用户令牌";
+    HeadingVersion: "版本";
+    HeadingWarnings: "警告";
+    HeadingWhat: "内容";
+
+    // words and sentences
+    CliAddUnconfirmed: "如需现在添加并在以后确认其身份，请使用 --unconfirmed。";
+    CliVaultKeeps: "密码库未打开，其中的密码保留：可用 vault status 查看，用 vault forget 删除。";
+    CliStopping: "当前步骤完成后中止；再次按 Ctrl-C 将不等待其完成…";
+    CliGoOn: "是否继续？[y/N]";
+    CliClientsMayComplain: "客户端可能对以上各项发出警告";
+    CliFirmwareCurrent: "固件 8.0.0 及以上版本的控制器";
+    CliFirmwareLegacy: "固件低于 8.0.0 的控制器";
+    CliError: "错误";
+    CliWarning: "警告";
+    CliCertificateAccepted: "客户端可接受服务器证书";
+    CliWindowBroughtToFront: "该工作区已打开，已将其窗口置于最前。";
+    CliAskCaPassphrase: "CA 的口令";
+    CliAskVaultPassphrase: "密码库口令";
+    CliAskNewVaultPassphrase: "密码库的新口令";
+    CliAskAgain: "请再次输入";
+    CliAskLogPassword: "服务器日志的密码（手册中为 199532）";
+    CliProgramError: "程序因内部错误而结束";
+}
+
 pub fn added(name: impl Display, what: impl Display) -> String {
     format!("已添加 {name}：{what}")
 }

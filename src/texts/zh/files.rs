@@ -8,6 +8,42 @@ use crate::model::activation::{KeyError, LineMistake, Mistake};
 use crate::texts::TextKey as T;
 use crate::workspace::Skipped;
 
+fixed_texts! {
+    // choosing a file
+    FileLabel: "文件";
+    FileHint: "文件路径";
+    FileRule: "请选择文件或输入其路径";
+    ChooseFile: "选择…";
+    ChooseFileTitle: "选择文件";
+    ReadFile: "读取文件";
+    Browse: "选择…";
+    OpenFolder: "打开文件夹";
+
+    // files dropped onto the window
+    DropTitle: "拖放的文件";
+    DropChoose: "用途";
+    DropOpen: "打开";
+    DropUnseen: "松开后显示文件类型";
+    DropAsks: "有多种用途，松开后选择";
+    DropNothing: "没有可用的文件";
+    DropDialogOpen: "有对话框已打开：请先关闭对话框，然后重新拖放文件";
+    DropTooMany: "文件过多：一次最多拖放 100 个";
+    DropOneFile: "一次仅限一个文件，请只拖放一个";
+    WhySplitKey: "文件同时包含证书和私钥：请分别保存为两个文件，或保存为一个 .pfx 文件";
+    DropCrl: "证书吊销列表 (CRL)";
+    DropAuthority: "证书颁发机构";
+    KindActivation: "激活文件";
+    KindConnectionList: "连接列表";
+    KindSettingsExport: "设置导出文件";
+    KindCertificate: "证书";
+    KindChain: "多个证书 (PEM)";
+    KindBundle: "证书或 CRL 集合 (PKCS#7 或 PEM)";
+    KindCsr: "证书签名请求 (CSR)";
+    KindKey: "私钥";
+    KindKeyAndCertificate: "证书和私钥合一的 PEM 文件";
+    KindPkcs12: "带加密密钥的证书 (PKCS#12)";
+}
+
 pub fn moved_aside(name: &str, file: &Path) -> String {
     format!("{name}：原有文件已移动到 {}", file.display())
 }

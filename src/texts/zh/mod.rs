@@ -3,16 +3,20 @@
 pub mod authority;
 pub mod certificates;
 pub mod cli;
+pub mod common;
+pub mod controllers;
 pub mod countries;
 pub mod errors;
 pub mod files;
 pub mod help;
-pub mod keys;
 pub mod revocation_lists;
 pub mod sentences;
+pub mod server;
+pub mod server_certificates;
 pub mod trust;
 pub mod vault;
 pub mod verify;
+pub mod window;
 
 use crate::model::Language;
 

@@ -6,6 +6,29 @@ use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 use crate::texts::without_stop;
 
+fixed_texts! {
+    Verify: "验证";
+    VerifyTip: "以客户端方式尝试 OPC UA 服务器提供的每种连接";
+    VerifyTitle: "验证";
+    VerifyWorks: "所有尝试均正常";
+    VerifyFails: "并非全部正常";
+    VerifyEndpoint: "端点";
+    VerdictWorks: "正常";
+    VerdictFails: "失败";
+    VerdictNotTried: "未尝试";
+    VerifyCertificate: "服务器证书";
+    VerifyAccepted: "客户端可接受";
+    VerifyRefused: "客户端将拒绝";
+    VerifyAgain: "重新验证";
+    VerifyTrust: "信任本配置工具…";
+    VerifyTrustText: "服务器仅允许证书在[信任]列表中的客户端连接。本配置工具的证书不在其中，可立即添加，或以后使用此文件夹中的文件添加。";
+    VerifyLogin: "如需尝试登录，请输入控制器的用户。密码仅以加密方式发送，被拒绝后不会再次发送。";
+    TrustConfiguratorTitle: "信任本配置工具";
+    ConfirmTrustConfigurator: "将把本配置工具的证书添加到[信任]并保留：使用控制器的用户，或在允许匿名时，可与其他客户端一样连接。";
+    VerifyAfterChanges: "更改之后";
+    VerifyAfterChangesOn: "服务器重新启动后进行验证";
+}
+
 pub fn refusal(refusal: &Refusal) -> String {
     match refusal {
         Refusal::NotReachable(why) => format!("该地址无应答（{why}），请检查端口、防火墙和网线"),
