@@ -7,6 +7,7 @@
 //! | [`platform`] | what differs between operating systems: private files, replacing files, console, display |
 //! | [`model`] | what a controller is and may have: plain types, rules, limits, errors |
 //! | [`pki`] | keys, certificates, PKCS#12, PEM: bytes in, bytes out |
+//! | [`records`] | packets of force sensor and motion log: decode, encode, columns |
 //! | [`protocol`] | the controller-management protocol's messages and error codes |
 //! | [`workspace`] | the folder on the PC: configuration, per-serial folders, secrets; atomic writes |
 //! | [`session`] | one session with one controller, over HTTPS |
@@ -15,7 +16,7 @@
 //! | [`texts`] | every sentence for a person, in every language |
 //! | [`ui`] | the window: a model without egui, a reducer, views and dialogs |
 //! | [`cli`] | the same jobs from the command line |
-//! | [`virtual_controller`] | the bundled mock controller with its real OPC UA server; uses `model`, `pki`, `protocol` |
+//! | [`virtual_controller`] | the bundled mock controller with its real OPC UA server; uses `model`, `pki`, `records`, `protocol` |
 //!
 //! `ui` and `cli` never reach past [`jobs`], [`workspace`] and [`session`]; only `main` and [`cli`] know both the
 //! configurator and the virtual controller, because the demo needs both.
@@ -36,6 +37,7 @@ pub mod model;
 pub mod pki;
 pub mod platform;
 pub mod protocol;
+pub mod records;
 pub mod session;
 pub mod texts;
 pub mod ui;
