@@ -28,6 +28,7 @@ mod held_certificates;
 mod info;
 mod language;
 mod log_chunk;
+pub mod opcua;
 mod problem;
 mod revision;
 mod settings;

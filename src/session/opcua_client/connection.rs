@@ -30,15 +30,37 @@ pub(super) struct Connection {
     pub connect: Duration,
     /// The step in progress, named in the error of a time-out.
     pub stage: Arc<Mutex<Stage>>,
+    pub limits: ReceiveLimits,
+}
+
+/// How much a server may send.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct ReceiveLimits {
+    /// Bytes on the whole connection; `None`: no limit, for a session that stays open.
+    pub total_bytes: Option<usize>,
+    /// Bytes of one byte string.
+    pub byte_string: usize,
+    /// Elements of one array.
+    pub array: usize,
+}
+
+impl ReceiveLimits {
+    /// For one try: endpoints, and one value.
+    pub const ONE_TRY: Self = Self { total_bytes: Some(MAX_BYTES), byte_string: MAX_FRAME, array: 1_000 };
+    /// For a session that reads whatever the address space holds. One message has at most 2 MiB, as everywhere.
+    pub const SESSION: Self = Self { total_bytes: None, byte_string: MAX_BYTES, array: 100_000 };
 }
 
 /// An open secure channel.
 pub(super) struct Channel {
     pub secure: AsyncSecureChannel,
-    events: SecureChannelEventLoop<StreamTransport<Reader, WriteHalf<TcpStream>>>,
-    heard: Arc<Mutex<Heard>>,
+    pub events: ChannelEvents,
+    pub heard: Arc<Mutex<Heard>>,
     stage: Arc<Mutex<Stage>>,
 }
+
+/// Must be polled for the channel to make progress.
+pub(super) type ChannelEvents = SecureChannelEventLoop<StreamTransport<Reader, WriteHalf<TcpStream>>>;
 
 type Reader = Watched<ReadHalf<TcpStream>>;
 
@@ -49,7 +71,7 @@ impl Connection {
         *self.stage.lock() = Stage::Channel;
         let url = endpoint.endpoint_url.to_string();
         let (reader, writer) = tokio::io::split(stream);
-        let (reader, heard) = Watched::new(reader);
+        let (reader, heard) = Watched::new(reader, self.limits.total_bytes);
         let secure = AsyncSecureChannel::new(
             self.store.clone(),
             endpoint.into(),
@@ -64,7 +86,7 @@ impl Connection {
                 max_chunk_count: MAX_CHUNKS,
             },
             TOKEN_LIFETIME_MS,
-            Arc::new(RwLock::new(ContextOwned::new_default(NamespaceMap::new(), decoding()))),
+            Arc::new(RwLock::new(ContextOwned::new_default(NamespaceMap::new(), self.limits.decoding()))),
         );
         let once = Mutex::new(Some((reader, writer)));
         let connector = StreamConnector::new(
@@ -157,14 +179,16 @@ impl Channel {
     }
 }
 
-fn decoding() -> DecodingOptions {
-    DecodingOptions {
-        max_message_size: MAX_BYTES,
-        max_chunk_count: MAX_CHUNKS,
-        max_string_length: MAX_FRAME,
-        max_byte_string_length: MAX_FRAME,
-        max_array_length: 1_000,
-        ..Default::default()
+impl ReceiveLimits {
+    fn decoding(self) -> DecodingOptions {
+        DecodingOptions {
+            max_message_size: MAX_BYTES,
+            max_chunk_count: MAX_CHUNKS,
+            max_string_length: MAX_FRAME,
+            max_byte_string_length: self.byte_string,
+            max_array_length: self.array,
+            ..Default::default()
+        }
     }
 }
 

@@ -18,6 +18,11 @@ pub enum Stage {
     /// ActivateSession: the user logs in.
     Login,
     Read,
+    /// Browsing, or finding a node by its path.
+    Browse,
+    Write,
+    /// Creating a subscription, or waiting for its notifications.
+    Subscribe,
 }
 
 /// A try that did not succeed.

@@ -1,23 +1,33 @@
-//! An OPC UA client for one purpose: to find out whether a server lets a client in, and if not, why.
+//! An OPC UA client: finds out whether a server lets a client in, and if not, why; and reads, writes, browses and
+//! subscribes in a session that stays open.
 //!
 //! | file | its one idea |
 //! |---|---|
 //! | `endpoint` | [`Endpoint`]: what a server offers, as far as it is understood |
 //! | `watched_stream` | what a server sends, bounded, and its last word noted |
 //! | `connection` | TCP and the secure channel |
+//! | `open_session` | creating and activating a session |
 //! | `attempt` | one try from the secure channel to a value that was read |
+//! | `client_session` | [`ClientSession`]: a session that stays open |
+//! | `subscription` | [`Subscription`]: values as they change |
+//! | `convert` | the library's values as [`Value`](crate::model::opcua::Value)s, and back |
 //! | `failure` | [`Failure`]: how far it came, and why no further |
 //!
-//! Every call is one connection, bounded in time and in what it takes in; nothing is tried again by itself. Whatever
-//! the peer sends gives a result: what the protocol's library makes of it runs in a task of its own.
+//! A try is one connection, bounded in time and in what it takes in. A session is bounded in time for each request, and
+//! in the size of each message. Nothing is tried again by itself. Whatever the peer sends gives a result: the
+//! protocol's library runs in a task of its own.
 //!
 //! The server's certificate is not judged here. The caller compares it with the expected one, before a
 //! secure channel is opened to it: [`OpcUaClient::attempt`] takes the certificate it must be.
 
 mod attempt;
+mod client_session;
 mod connection;
+mod convert;
 mod endpoint;
 mod failure;
+mod open_session;
+mod subscription;
 #[cfg(test)]
 mod tests;
 mod watched_stream;
@@ -31,12 +41,16 @@ use parking_lot::Mutex;
 use secrecy::SecretString;
 use tokio::task::JoinSet;
 
+pub use client_session::ClientSession;
 pub use endpoint::{Endpoint, MessageSecurity, OfferedToken, TokenKind};
 pub use failure::{Cause, Failure, Stage, printable};
+pub use subscription::{Changes, Subscription, SubscriptionIntervals};
 
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Certificate;
 use crate::workspace::{KeyFile, OwnIdentity};
+use connection::ReceiveLimits;
+use open_session::SessionRequest;
 
 /// How long a client waits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -144,7 +158,7 @@ impl OpcUaClient {
 
     /// The endpoints that the server offers, over a channel without security (OPC 10000-4 §5.5.4).
     pub async fn endpoints(&self, target: &Target) -> Result<Vec<Endpoint>, Failure> {
-        let connection = self.connection(target);
+        let connection = self.connection(target, ReceiveLimits::ONE_TRY);
         self.bounded(connection.stage.clone(), async move { connection.endpoints().await }).await
     }
 
@@ -158,29 +172,55 @@ impl OpcUaClient {
         expected: &Certificate,
         login: &Login,
     ) -> Result<Welcome, Failure> {
+        let request = self.session_request(target, endpoint, expected, login, ReceiveLimits::ONE_TRY)?;
+        let request = SessionRequest { session_timeout_ms: attempt::SESSION_TIMEOUT_MS, ..request };
+        self.bounded(request.connection.stage.clone(), attempt::attempt(request)).await
+    }
+
+    /// Opens a channel as the endpoint wants it, and a session that stays open. `expected` is the certificate the server
+    /// must have, as for [`OpcUaClient::attempt`].
+    pub async fn session(
+        &self,
+        target: &Target,
+        endpoint: &Endpoint,
+        expected: &Certificate,
+        login: &Login,
+    ) -> Result<ClientSession, Failure> {
+        let request = self.session_request(target, endpoint, expected, login, ReceiveLimits::SESSION)?;
+        let session = self.bounded(request.connection.stage.clone(), request.open()).await?;
+        Ok(ClientSession::new(session))
+    }
+
+    fn session_request(
+        &self,
+        target: &Target,
+        endpoint: &Endpoint,
+        expected: &Certificate,
+        login: &Login,
+        limits: ReceiveLimits,
+    ) -> Result<SessionRequest, Failure> {
         let Some((own_certificate, own_key)) = self.own.clone() else {
             return Err(Failure::of(Stage::Channel, Cause::Internal("the client has no key".to_owned())));
         };
-        let connection = self.connection(target);
-        let stage = connection.stage.clone();
-        let attempt = attempt::Attempt {
-            connection,
+        Ok(SessionRequest {
+            connection: self.connection(target, limits),
             endpoint: endpoint.clone(),
             expected: expected.der().to_vec(),
             login: login.clone(),
             application_uri: self.application_uri.clone(),
             own_certificate,
             own_key,
-        };
-        self.bounded(stage, attempt.run()).await
+            session_timeout_ms: client_session::SESSION_TIMEOUT_MS,
+        })
     }
 
-    fn connection(&self, target: &Target) -> connection::Connection {
+    fn connection(&self, target: &Target, limits: ReceiveLimits) -> connection::Connection {
         connection::Connection {
             target: target.clone(),
             store: self.store.clone(),
             connect: self.patience.connect,
             stage: Arc::new(Mutex::new(Stage::Connect)),
+            limits,
         }
     }
 

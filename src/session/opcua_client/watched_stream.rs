@@ -21,17 +21,18 @@ pub(super) struct Heard {
 /// The server's end of a connection, frame by frame.
 ///
 /// The library waits for a frame however long it is said to be; here a frame is at most what the Hello allowed, and all
-/// of them together at most [`MAX_BYTES`].
+/// of them together at most `total_bytes`.
 pub(super) struct Watched<R> {
     inner: R,
+    total_bytes: Option<usize>,
     frame: Frame,
     heard: Arc<Mutex<Heard>>,
 }
 
 impl<R> Watched<R> {
-    pub fn new(inner: R) -> (Self, Arc<Mutex<Heard>>) {
+    pub fn new(inner: R, total_bytes: Option<usize>) -> (Self, Arc<Mutex<Heard>>) {
         let heard = Arc::new(Mutex::new(Heard::default()));
-        (Self { inner, frame: Frame::default(), heard: heard.clone() }, heard)
+        (Self { inner, total_bytes, frame: Frame::default(), heard: heard.clone() }, heard)
     }
 }
 
@@ -43,10 +44,9 @@ impl<R: AsyncRead + Unpin> AsyncRead for Watched<R> {
         let new = &buf.filled()[before..];
         let mut heard = this.heard.lock();
         heard.bytes += new.len();
-        let looked = if heard.bytes > MAX_BYTES {
-            Err(format!("it sends more than {MAX_BYTES} bytes"))
-        } else {
-            this.frame.look(new, &mut heard.last_word)
+        let looked = match this.total_bytes {
+            Some(total) if heard.bytes > total => Err(format!("it sends more than {total} bytes")),
+            _ => this.frame.look(new, &mut heard.last_word),
         };
         Poll::Ready(match looked {
             Ok(()) => Ok(()),
@@ -125,7 +125,7 @@ fn error_message(body: &[u8]) -> Option<(u32, String)> {
 const HEADER: usize = 8;
 /// The largest frame that is taken, and announced in the Hello.
 pub(super) const MAX_FRAME: usize = 65_535;
-/// All a server may send on one connection. Eleven endpoints with certificates of 4096 bits are 40 kB.
+/// All a server may send on the connection of one try, and in one message. Eleven endpoints with certificates of 4096 bits are 40 kB.
 pub(super) const MAX_BYTES: usize = 2 << 20;
 
 #[cfg(test)]
@@ -149,7 +149,7 @@ mod tests {
             use tokio::io::AsyncWriteExt as _;
             let _ = far.write_all(&bytes).await;
         });
-        let (mut watched, heard) = Watched::new(near);
+        let (mut watched, heard) = Watched::new(near, Some(MAX_BYTES));
         let mut all = Vec::new();
         let result = watched.read_to_end(&mut all).await;
         let heard = heard.lock().clone();

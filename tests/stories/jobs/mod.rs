@@ -5,6 +5,7 @@ mod backup;
 mod client_certificates;
 mod confirmations;
 mod lost_answers;
+mod opcua_session;
 mod runner;
 mod server_certificates;
 mod server_log;
