@@ -9,6 +9,7 @@ use super::{Ending, runtime, virtual_switch};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::platform::stop_signal::StopSignals;
+use crate::virtual_controller::cell::CellOptions;
 use crate::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, demo_keys};
 
 #[derive(Debug, Args)]
@@ -133,6 +134,7 @@ fn fleet(args: &FleetArgs) -> Result<Ending, Problem> {
             detailed_status: args.detailed_status,
             allow_unknown_revocation: args.allow_unknown_revocation,
         },
+        cell: CellOptions { seed: args.seed, ..CellOptions::default() },
         seed: args.seed,
     };
     runtime()?.block_on(async {

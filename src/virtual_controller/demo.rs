@@ -7,6 +7,7 @@ use secrecy::SecretString;
 use tokio::task::spawn_blocking;
 use tokio_util::sync::DropGuard;
 
+use super::cell::{CellOptions, RobotModel};
 use super::controller::ControllerSpec;
 use super::fleet::{
     FleetError, FleetFirmware, FolderLock, plausible_identity, serial_number, shutdown_all, start_all, switches,
@@ -121,6 +122,7 @@ enum Part {
 struct Role {
     part: Part,
     identity: Identity,
+    cell: CellOptions,
 }
 
 /// How slow the slow one is, for each request.
@@ -141,11 +143,22 @@ fn role(seed: u64, index: usize) -> Result<Role, FleetError> {
         _ => {
             let identity = plausible_identity(seed, index, FleetFirmware::Mixed)?;
             let part = if index.is_multiple_of(3) { Part::Plain } else { Part::Stopped };
-            return Ok(Role { part, identity });
+            return Ok(Role { part, identity, cell: cell(seed, index) });
         }
     };
     let serial = serial_number(series, seed, index)?;
-    Ok(Role { part, identity: Identity { serial, series, firmware, name: name.parse()? } })
+    let identity = Identity { serial, series, firmware, name: name.parse()? };
+    Ok(Role { part, identity, cell: cell(seed, index) })
+}
+
+/// A six-axis robot, a SCARA, or both on one controller.
+fn cell(seed: u64, index: usize) -> CellOptions {
+    let robots = match index % 3 {
+        0 => vec![RobotModel::C4A601S],
+        1 => vec![RobotModel::C4A601S, RobotModel::Gx4A251S],
+        _ => vec![RobotModel::Gx4A251S],
+    };
+    CellOptions { robots, seed: seed.wrapping_add(index as u64), ..CellOptions::default() }
 }
 
 impl Role {
@@ -179,7 +192,14 @@ impl Role {
             initial.settings.security_policies.insert(SecurityPolicy::None);
             initial.settings.security_policies.insert(SecurityPolicy::Basic256);
         }
-        Ok(ControllerSpec { folder, bind, management_port: 0, admission: AdmissionOptions::default(), initial })
+        Ok(ControllerSpec {
+            folder,
+            bind,
+            management_port: 0,
+            admission: AdmissionOptions::default(),
+            cell: self.cell.clone(),
+            initial,
+        })
     }
 }
 

@@ -9,6 +9,7 @@ use thiserror::Error;
 use tokio::task::{JoinSet, spawn_blocking};
 use tokio_util::sync::DropGuard;
 
+use super::cell::CellOptions;
 use super::controller::{ControllerSpec, SwitchOnError};
 use super::file_limit::raise_file_limit;
 use super::new_controller::NewController;
@@ -43,6 +44,8 @@ pub struct FleetConfig {
     pub data: PathBuf,
     /// How the OPC UA servers admit clients.
     pub admission: AdmissionOptions,
+    /// The robots of each controller, and how fast their time runs. The seed is that of the first controller.
+    pub cell: CellOptions,
     /// Names, serial numbers and series follow from it alone.
     pub seed: u64,
 }
@@ -170,7 +173,9 @@ impl FleetConfig {
             0 => 0,
             first => ports(first)?,
         };
-        Ok(ControllerSpec { folder, bind: self.bind, management_port, admission: self.admission, initial })
+        let seed = self.cell.seed.wrapping_add(index as u64);
+        let cell = CellOptions { seed, ..self.cell.clone() };
+        Ok(ControllerSpec { folder, bind: self.bind, management_port, admission: self.admission, cell, initial })
     }
 }
 

@@ -6,6 +6,7 @@
 //! | file | its one idea |
 //! |---|---|
 //! | `state` | [`State`]: everything a controller remembers, and what follows from it |
+//! | `cell` | [`cell::CellHandle`]: the simulated robots, I/O and data behind the OPC UA server |
 //! | `changes` | every change a controller accepts, as a function on a copy of its state |
 //! | `certificate_changes` | those about server certificates |
 //! | `trust_changes` | those of client certificate lists and CRLs |
@@ -67,6 +68,7 @@
 
 mod activation_keys;
 mod api;
+pub mod cell;
 mod certificate_changes;
 mod changes;
 mod connection_limits;

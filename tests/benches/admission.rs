@@ -23,6 +23,7 @@ use opcua_configurator::model::{
     ControllerSeries, FirmwareVersion, KeyLength, SecurityPolicy, SelfSignedRequest, Subject, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::{Certificate, PrivateKey, ServerNames, TrustLists, TrustPolicy, self_signed};
+use opcua_configurator::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
 use opcua_configurator::virtual_controller::opcua::{Clock, DeviceIdentity, Events, OpcUaConfig, OpcUaServer};
 use report::{Spread, line};
 use rsa::RsaPrivateKey;
@@ -119,6 +120,20 @@ impl Identity {
     }
 }
 
+/// A cell whose time stands.
+fn cell() -> Result<CellHandle, Failure> {
+    let config = CellConfig {
+        name: "Bench".parse()?,
+        serial: "RC80010001".parse()?,
+        series: ControllerSeries::Rc800,
+        firmware: FirmwareVersion::new(8, 1, 0),
+        started: Utc::now(),
+        variables: Vec::new(),
+        options: CellOptions::default(),
+    };
+    Ok(CellHandle::new(Cell::new(config), CellClock::manual()))
+}
+
 async fn gated(folder: &Path, server: &Identity, client: &Identity) -> Result<OpcUaServer, Failure> {
     Ok(OpcUaServer::start(OpcUaConfig {
         application_name: server.name.to_owned(),
@@ -141,6 +156,7 @@ async fn gated(folder: &Path, server: &Identity, client: &Identity) -> Result<Op
             serial: "RC80010001".parse()?,
             firmware: FirmwareVersion::new(8, 1, 0),
         },
+        cell: cell()?,
         events: Events::default(),
         pki_folder: folder.join("gated"),
     })

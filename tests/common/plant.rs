@@ -11,6 +11,7 @@ use opcua_configurator::jobs::{
 use opcua_configurator::model::ConnectionKind;
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::session::{ManagementConnector, Timeouts};
+use opcua_configurator::virtual_controller::cell::CellOptions;
 use opcua_configurator::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, VirtualController};
 use opcua_configurator::workspace::{MemoryPasswords, Passwords as _};
 use parking_lot::Mutex;
@@ -52,6 +53,7 @@ impl Plant {
             password: password.into(),
             data: folder.path().to_owned(),
             admission: AdmissionOptions::default(),
+            cell: CellOptions::default(),
             seed: 7,
         })
         .await

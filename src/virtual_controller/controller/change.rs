@@ -317,7 +317,8 @@ impl Controller {
     /// Parses what may be megabytes of CRLs: off the async threads.
     async fn config(&self, state: &State) -> Result<OpcUaConfig, Problem> {
         let (state, context, folder) = (state.clone(), self.operating_context(), self.folder.clone());
-        spawn_blocking(move || opcua_config(&state, &context, &folder))
+        let cell = self.cell.clone();
+        spawn_blocking(move || opcua_config(&state, &context, cell, &folder))
             .await
             .map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?
     }

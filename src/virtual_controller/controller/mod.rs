@@ -18,6 +18,7 @@ use std::net::{IpAddr, SocketAddr};
 use std::path::PathBuf;
 use std::sync::Arc;
 
+use chrono::{DateTime, Utc};
 use parking_lot::{Mutex, RwLock};
 use thiserror::Error;
 use tokio::sync::Mutex as AsyncMutex;
@@ -26,12 +27,13 @@ use tokio::task::spawn_blocking;
 pub(super) use change::{ChangeFailure, Effect};
 use server_slot::ServerSlot;
 
+use super::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
 use super::faults::Faults;
 use super::new_controller::NewController;
 use super::opcua::AdmissionOptions;
 use super::rejected::RejectedClients;
 use super::server_log::ServerLog;
-use super::state::{OperatingContext, State};
+use super::state::{Identity, OperatingContext, State};
 use super::store::{Store, StoreError};
 use crate::model::{ErrorCode, Problem};
 
@@ -46,6 +48,8 @@ pub struct ControllerSpec {
     pub management_port: u16,
     /// How its OPC UA server admits clients.
     pub admission: AdmissionOptions,
+    /// The robots on it, and how fast their time runs.
+    pub cell: CellOptions,
     pub initial: NewController,
 }
 
@@ -78,6 +82,7 @@ pub(super) struct Controller {
     bind: IpAddr,
     management_port: u16,
     admission: AdmissionOptions,
+    cell: CellHandle,
     server: AsyncMutex<ServerSlot>,
     server_state: Mutex<ServerState>,
 }
@@ -97,7 +102,7 @@ enum ServerState {
 impl Controller {
     /// Opens the state in the spec's folder, or makes and saves the initial one. The OPC UA server is not started.
     pub(super) async fn open(spec: ControllerSpec, management_port: u16) -> Result<Self, SwitchOnError> {
-        let ControllerSpec { folder, bind, admission, initial, management_port: _ } = spec;
+        let ControllerSpec { folder, bind, admission, cell, initial, management_port: _ } = spec;
         let faults = Faults::default();
         let store = Store::open(&folder, faults.clone())?;
         let context = OperatingContext { now: faults.now(), bind, management_port };
@@ -114,7 +119,9 @@ impl Controller {
         })
         .await
         .map_err(|_| SwitchOnError::Worker)??;
+        let cell = switch_on_cell(&state, context.now, cell);
         Ok(Self {
+            cell,
             log: Arc::new(ServerLog::new(&folder, faults.clone())),
             rejected: Arc::new(RejectedClients::open(&folder, faults.clone(), &state)),
             state: RwLock::new(Arc::new(state)),
@@ -161,4 +168,12 @@ impl Controller {
             self.failed(ErrorCode::ServerLogFull);
         }
     }
+}
+
+/// The cell of a controller that is switched on `now`.
+fn switch_on_cell(state: &State, now: DateTime<Utc>, options: CellOptions) -> CellHandle {
+    let Identity { serial, series, firmware, name } = state.identity.clone();
+    let clock = CellClock::running(options.rate);
+    let cell = Cell::new(CellConfig { name, serial, series, firmware, started: now, variables: Vec::new(), options });
+    CellHandle::new(cell, clock)
 }

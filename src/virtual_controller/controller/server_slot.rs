@@ -4,6 +4,7 @@ use tokio::task::spawn_blocking;
 
 use crate::model::{CertificateSummary, CutClient, ErrorCode, Problem};
 use crate::pki::{Certificate, Crl, TrustLists, TrustPolicy};
+use crate::virtual_controller::cell::CellHandle;
 use crate::virtual_controller::opcua::{
     Clock, CutConnection, DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser,
 };
@@ -55,7 +56,12 @@ impl ServerSlot {
 
 const OPCUA_FOLDER: &str = "opcua";
 
-pub(super) fn opcua_config(state: &State, context: &OperatingContext, folder: &Path) -> Result<OpcUaConfig, Problem> {
+pub(super) fn opcua_config(
+    state: &State,
+    context: &OperatingContext,
+    cell: CellHandle,
+    folder: &Path,
+) -> Result<OpcUaConfig, Problem> {
     let pair = state.check_start(context)?;
     let names = state.server_names(context);
     // Clients insist that the server's URI is the one in its certificate, and a certificate from elsewhere has its own.
@@ -86,6 +92,7 @@ pub(super) fn opcua_config(state: &State, context: &OperatingContext, folder: &P
             serial: state.identity.serial.clone(),
             firmware: state.identity.firmware,
         },
+        cell,
         events: Events::default(),
         pki_folder: folder.join(OPCUA_FOLDER),
     })

@@ -13,6 +13,7 @@ use zeroize::Zeroizing;
 use super::{Clock, Events, Refusals, StartError};
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, SerialNumber, UserTokenPolicy};
 use crate::pki::{TrustLists, TrustPolicy};
+use crate::virtual_controller::cell::CellHandle;
 
 /// Everything one server is made of.
 #[derive(Clone)]
@@ -44,6 +45,8 @@ pub struct OpcUaConfig {
     /// The clock certificates are checked by.
     pub clock: Clock,
     pub identity: DeviceIdentity,
+    /// What the controller's nodes show.
+    pub cell: CellHandle,
     /// Told what happens while the server runs.
     pub events: Events,
     /// A folder of this server alone. Starting creates it, or removes from it what an earlier run left.
@@ -133,6 +136,7 @@ impl fmt::Debug for OpcUaConfig {
             .field("trust_policy", &self.trust_policy)
             .field("detailed_status", &self.detailed_status)
             .field("identity", &self.identity)
+            .field("cell", &self.cell)
             .field("pki_folder", &self.pki_folder)
             .finish_non_exhaustive()
     }

@@ -20,6 +20,7 @@ use crate::model::{
 };
 use crate::pki::{Fingerprint, PrivateKey, ServerNames, self_signed};
 use crate::protocol::{self, Failure, Hello, Request as _, Session};
+use crate::virtual_controller::cell::CellOptions;
 use crate::virtual_controller::ports::free_port;
 use crate::virtual_controller::{
     AdmissionOptions, ControllerSpec, Identity, NewCertificate, NewController, State, SwitchOnError, VirtualController,
@@ -66,6 +67,7 @@ pub async fn switch_on(folder: &Path, initial: NewController) -> Result<VirtualC
         bind: LOOPBACK,
         management_port: 0,
         admission: AdmissionOptions::default(),
+        cell: CellOptions::default(),
         initial,
     };
     VirtualController::start(spec).await

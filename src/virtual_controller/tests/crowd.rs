@@ -4,6 +4,7 @@ use super::bench::{Client, LOOPBACK, bounded};
 use crate::model::{ErrorCode, FirmwareGeneration, ServerStatus};
 use crate::protocol;
 use crate::protocol::Request as _;
+use crate::virtual_controller::cell::CellOptions;
 use crate::virtual_controller::{
     AdmissionOptions, DEMO_COUNT, DEMO_PASSWORD, Fleet, FleetConfig, FleetError, FleetFirmware, demo_fleet,
 };
@@ -19,6 +20,7 @@ fn config(data: &std::path::Path, count: usize) -> FleetConfig {
         password: "fleet".into(),
         data: data.to_owned(),
         admission: AdmissionOptions::default(),
+        cell: CellOptions::default(),
         seed: 7,
     }
 }

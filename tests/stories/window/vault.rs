@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
 use opcua_configurator::ui::picker::FixedPicker;
+use opcua_configurator::virtual_controller::cell::CellOptions;
 use opcua_configurator::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware};
 use opcua_configurator::workspace::{Configuration, NoKeyring, PasswordPlace, PasswordStore, VaultState};
 
@@ -159,6 +160,7 @@ fn controller(port: u16, password: &str, folder: &std::path::Path) -> FleetConfi
         password: password.into(),
         data: folder.join("virtual"),
         admission: AdmissionOptions::default(),
+        cell: CellOptions::default(),
         seed: 7,
     }
 }

@@ -22,6 +22,7 @@ use zeroize::Zeroizing;
 use super::*;
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, UserTokenPolicy};
 use crate::pki::{Certificate, Rejection, TrustLists, TrustPolicy};
+use crate::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
 use client::{Client, Dial};
 use identity::{Identity, trusting};
 
@@ -53,9 +54,24 @@ fn config(folder: &TempDir) -> OpcUaConfig {
             serial: "SN0000123".parse().unwrap(),
             firmware: FirmwareVersion::new(8, 0, 1),
         },
+        cell: cell(),
         events: Events::default(),
         pki_folder: folder.path().join("pki"),
     }
+}
+
+/// A cell whose time stands.
+fn cell() -> CellHandle {
+    let config = CellConfig {
+        name: "Weld 1".parse().unwrap(),
+        serial: "SN0000123".parse().unwrap(),
+        series: ControllerSeries::Rc800,
+        firmware: FirmwareVersion::new(8, 0, 1),
+        started: chrono::DateTime::UNIX_EPOCH,
+        variables: Vec::new(),
+        options: CellOptions::default(),
+    };
+    CellHandle::new(Cell::new(config), CellClock::manual())
 }
 
 async fn start(config: OpcUaConfig) -> OpcUaServer {
