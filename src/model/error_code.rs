@@ -145,6 +145,11 @@ error_codes! {
     BackupPassphrase "backup-passphrase" Pc,
     // connecting as a client
     VerifyFailed "verify-failed" Pc,
+    ServerNotRunning "server-not-running" Pc,
+    NoSuitableEndpoint "no-suitable-endpoint" Pc,
+    ConfiguratorNotTrusted "configurator-not-trusted" Pc,
+    OpcUaLoginRefused "opcua-login-refused" Pc,
+    OpcUaConnectionFailed "opcua-connection-failed" Pc,
     // activation (2.6.3)
     WrongKeys "wrong-keys" Both,
     NotInFile "not-in-file" Pc,

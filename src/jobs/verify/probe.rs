@@ -7,7 +7,8 @@ use crate::jobs::{Run, Step};
 use crate::model::{CertificateStatus, Credential, Problem, SecurityPolicy, ServerSettings, UserTokenPolicy};
 use crate::pki::{Certificate, RejectedClient};
 use crate::session::opcua_client::{
-    Cause, Endpoint, Failure, Login, MessageSecurity, OpcUaClient, Stage, Target, TokenKind, printable,
+    Cause, Endpoint, Failure, Login, MessageSecurity, OpcUaClient, Stage, Target, TokenKind, is_about_a_certificate,
+    is_about_a_user, printable,
 };
 
 /// What is tried at one server, and with what.
@@ -146,14 +147,6 @@ pub(super) fn refusal_of(failure: &Failure) -> Refusal {
         Cause::Status { name, reason, .. } => Refusal::Status { name: name.clone(), reason: reason.clone() },
         Cause::Internal(why) => Refusal::Status { name: "BadInternalError".to_owned(), reason: why.clone() },
     }
-}
-
-fn is_about_a_certificate(status: &str) -> bool {
-    status == "BadSecurityChecksFailed" || status.starts_with("BadCertificate")
-}
-
-fn is_about_a_user(status: &str) -> bool {
-    ["BadUserAccessDenied", "BadIdentityTokenRejected", "BadIdentityTokenInvalid"].contains(&status)
 }
 
 /// A server that tells the client itself, which the standard advises against.

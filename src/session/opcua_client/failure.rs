@@ -85,6 +85,26 @@ impl Failure {
             _ => None,
         }
     }
+
+    /// Whether it reads as if the server does not take the certificate of this program.
+    pub fn is_about_own_certificate(&self) -> bool {
+        matches!(self.stage, Stage::Channel | Stage::CreateSession) && self.status().is_some_and(is_about_a_certificate)
+    }
+
+    /// Whether the server does not let this user in.
+    pub fn is_about_the_login(&self) -> bool {
+        self.stage == Stage::Login && self.status().is_some_and(is_about_a_user)
+    }
+}
+
+/// Whether a status says that a certificate is not accepted (OPC 10000-4 §6.1.3).
+pub fn is_about_a_certificate(status: &str) -> bool {
+    status == "BadSecurityChecksFailed" || status.starts_with("BadCertificate")
+}
+
+/// Whether a status says that a user may not log in (OPC 10000-4 §5.7.3).
+pub fn is_about_a_user(status: &str) -> bool {
+    ["BadUserAccessDenied", "BadIdentityTokenRejected", "BadIdentityTokenInvalid"].contains(&status)
 }
 
 pub(super) fn status(code: StatusCode, reason: &str) -> Cause {

@@ -8,6 +8,7 @@
 //! | `connection` | TCP and the secure channel |
 //! | `open_session` | creating and activating a session |
 //! | `attempt` | one try from the secure channel to a value that was read |
+//! | `controller_server` | [`ControllerServer`]: the server of a managed controller, and a session with it |
 //! | `client_session` | [`ClientSession`]: a session that stays open |
 //! | `subscription` | [`Subscription`]: values as they change |
 //! | `convert` | the library's values as [`Value`](crate::model::opcua::Value)s, and back |
@@ -23,6 +24,7 @@
 mod attempt;
 mod client_session;
 mod connection;
+mod controller_server;
 mod convert;
 mod endpoint;
 mod failure;
@@ -42,8 +44,9 @@ use secrecy::SecretString;
 use tokio::task::JoinSet;
 
 pub use client_session::ClientSession;
+pub use controller_server::{ControllerServer, ServerConnectError};
 pub use endpoint::{Endpoint, MessageSecurity, OfferedToken, TokenKind};
-pub use failure::{Cause, Failure, Stage, printable};
+pub use failure::{Cause, Failure, Stage, is_about_a_certificate, is_about_a_user, printable};
 pub use subscription::{Changes, Subscription, SubscriptionIntervals};
 
 use crate::model::{ErrorCode, Problem};

@@ -345,6 +345,26 @@ error_texts! {
         "Not everything the OPC UA server offers works",
         "Connecting as an OPC UA client failed in at least one way, or something about the server is wrong.",
         "Do what the report says for each failure, then verify again.";
+    ServerNotRunning:
+        "The OPC UA server is not running",
+        "Values can only be read from a running server.",
+        "Start the OPC UA server of the controller, then try again.";
+    NoSuitableEndpoint:
+        "The OPC UA server offers no suitable endpoint",
+        "No endpoint shows the selected server certificate and takes this login over a protected connection.",
+        "Check security policies and user tokens in the basic settings. Verify shows what each endpoint offers.";
+    ConfiguratorNotTrusted:
+        "The OPC UA server does not trust this program",
+        "The certificate of this program is not in the trusted list of the controller.",
+        "Run Verify with the option to trust this program first, then try again.";
+    OpcUaLoginRefused:
+        "The OPC UA server refuses the login",
+        "User name or password is wrong, or the server takes no anonymous clients.",
+        "Check user name and password against the users of the controller.";
+    OpcUaConnectionFailed:
+        "The connection to the OPC UA server failed",
+        "The server did not answer, closed the connection, or sent something that cannot be read.",
+        "Check that the server runs and that no firewall blocks its port. Verify shows how far a connection comes.";
     WrongKeys:
         "The controller does not accept the keys",
         "The licence key or the activation key was made for another serial number, or has a typing mistake.",

@@ -3,17 +3,21 @@
 use std::time::Duration;
 
 use opcua_configurator::jobs::{
-    SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, StopServer, Verify,
+    AddUser, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, StopServer, TrustConfigurator,
 };
 use opcua_configurator::model::opcua::{NodeId, QualifiedName, Value};
-use opcua_configurator::model::{KeyLength, SecurityPolicy, UserTokenPolicy, Validity};
+use opcua_configurator::model::{
+    Credential, Credentials, ErrorCode, KeyLength, Problem, SecurityPolicy, UserPassword, UserTokenPolicy, Validity,
+};
+use opcua_configurator::pki::Certificate;
+use opcua_configurator::session::Connector as _;
 use opcua_configurator::session::opcua_client::{
-    ClientSession, ConnectTimeouts, Failure, Login, OpcUaClient, Stage, SubscriptionIntervals, Target,
+    ClientSession, ConnectTimeouts, ControllerServer, Login, OpcUaClient, SubscriptionIntervals, Target,
 };
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::Workspace;
 
-use crate::common::plant::Plant;
+use crate::common::plant::{self, Plant};
 
 const LIMIT: Duration = Duration::from_secs(60);
 const CURRENT_TIME: NodeId = NodeId::numeric(0, 2258);
@@ -25,13 +29,21 @@ struct Server {
 }
 
 impl Server {
-    /// A running server that trusts this program and lets everybody log in.
+    /// A running server that trusts this program and takes anonymous clients.
     async fn running() -> Self {
+        let server = Self::stopped([UserTokenPolicy::Anonymous]).await;
+        server.run(StartServer).await;
+        server.trust().await;
+        server
+    }
+
+    /// A server with a certificate, one policy and one user.
+    async fn stopped(user_tokens: impl IntoIterator<Item = UserTokenPolicy>) -> Self {
         let server =
             Self { plant: Plant::start(1, FleetFirmware::Current).await, folder: tempfile::tempdir().unwrap() };
         let change = SettingsChange {
             security_policies: Some([SecurityPolicy::Basic256Sha256].into()),
-            user_tokens: Some([UserTokenPolicy::Anonymous].into()),
+            user_tokens: Some(user_tokens.into_iter().collect()),
             ..SettingsChange::default()
         };
         server.run(SetSettings { change, ..SetSettings::default() }).await;
@@ -45,15 +57,14 @@ impl Server {
             validity: Validity::try_from(1).unwrap(),
         };
         server.run(SelfSigned { fields, backup: None }).await;
-        server.run(StartServer).await;
-        let trust_first = Verify {
-            identity: Workspace::new(server.folder.path()).own_identity(),
-            login: None,
-            trust_first: true,
-            patience: ConnectTimeouts::default(),
-        };
-        server.run(trust_first).await;
+        let credential =
+            Credential { name: "operator1".parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() };
+        server.run(AddUser { credential, based_on: None }).await;
         server
+    }
+
+    async fn trust(&self) {
+        self.run(TrustConfigurator { identity: Workspace::new(self.folder.path()).own_identity() }).await;
     }
 
     async fn run(&self, operation: impl opcua_configurator::jobs::Operation + 'static) {
@@ -62,16 +73,35 @@ impl Server {
         }
     }
 
-    async fn connect(&self) -> Result<ClientSession, Failure> {
-        let identity = Workspace::new(self.folder.path()).own_identity().load_or_make(chrono::Utc::now()).unwrap();
-        let client = OpcUaClient::new(&identity, ConnectTimeouts::default()).unwrap();
-        let port = self.plant.controller(0).state().settings.port.get();
-        let target = Target { host: "127.0.0.1".into(), port };
-        let endpoints = client.endpoints(&target).await?;
-        let endpoint = endpoints.last().expect("an endpoint");
-        let certificate = endpoint.certificates().expect("a certificate").0;
-        client.session(&target, endpoint, &certificate, &Login::Anonymous).await
+    async fn connect(&self, login: &Login) -> Result<ClientSession, Problem> {
+        let server = self.find().await?;
+        Ok(server.connect(&self.client(), login).await?)
     }
+
+    /// The certificate of this program.
+    fn client_certificate(&self) -> Certificate {
+        Workspace::new(self.folder.path()).own_identity().load_or_make(chrono::Utc::now()).unwrap().certificate
+    }
+
+    fn client(&self) -> OpcUaClient {
+        let identity = Workspace::new(self.folder.path()).own_identity().load_or_make(chrono::Utc::now()).unwrap();
+        OpcUaClient::new(&identity, ConnectTimeouts::default()).unwrap()
+    }
+
+    /// The server, as the controller describes it.
+    async fn find(&self) -> Result<ControllerServer, Problem> {
+        let controller = self.plant.listed().remove(0);
+        let (fingerprint, host) = (controller.fingerprint.unwrap(), controller.address.host().to_owned());
+        let password = Credentials::ConnectionPassword(plant::PASSWORD.into());
+        let mut session = self.plant.connector.connect(&controller.address, fingerprint, &password).await?;
+        let found = ControllerServer::find(session.as_mut(), &host).await;
+        session.close().await;
+        found
+    }
+}
+
+fn user(password: &str) -> Login {
+    Login::User { name: "operator1".into(), password: password.into() }
 }
 
 async fn within<T>(future: impl Future<Output = T>) -> T {
@@ -81,7 +111,7 @@ async fn within<T>(future: impl Future<Output = T>) -> T {
 #[tokio::test(flavor = "multi_thread")]
 async fn values_are_read_browsed_written_and_watched_until_the_server_stops() {
     let server = Server::running().await;
-    let session = within(server.connect()).await.unwrap();
+    let session = within(server.connect(&Login::Anonymous)).await.unwrap();
 
     let values = within(session.read(&[STATE, CURRENT_TIME, NodeId::numeric(7, 7)])).await.unwrap();
     assert_eq!(values[0].value, Value::Int32(0));
@@ -122,13 +152,21 @@ async fn values_are_read_browsed_written_and_watched_until_the_server_stops() {
 }
 
 #[tokio::test(flavor = "multi_thread")]
-async fn a_server_with_another_certificate_gets_no_session() {
-    let server = Server::running().await;
-    let identity = Workspace::new(server.folder.path()).own_identity().load_or_make(chrono::Utc::now()).unwrap();
-    let client = OpcUaClient::new(&identity, ConnectTimeouts::default()).unwrap();
-    let target = Target { host: "127.0.0.1".into(), port: server.plant.controller(0).state().settings.port.get() };
-    let endpoints = client.endpoints(&target).await.unwrap();
-    let failure = within(client.session(&target, &endpoints[0], &identity.certificate, &Login::Anonymous)).await;
-    assert_eq!(failure.unwrap_err().stage, Stage::Channel);
-    within(server.connect()).await.unwrap().close().await;
+async fn every_reason_for_no_session_has_its_own_error() {
+    let server = Server::stopped(UserTokenPolicy::ALL).await;
+    let refused = async |login: &Login| within(server.connect(login)).await.map(|_| ()).unwrap_err().code;
+    assert_eq!(refused(&Login::Anonymous).await, ErrorCode::ServerNotRunning);
+    server.run(StartServer).await;
+    assert_eq!(refused(&Login::Anonymous).await, ErrorCode::ConfiguratorNotTrusted);
+    server.trust().await;
+    assert_eq!(refused(&user("Wr0ngPassword")).await, ErrorCode::OpcUaLoginRefused);
+    within(server.connect(&user("Passw0rd1"))).await.unwrap().close().await;
+
+    let found = server.find().await.unwrap();
+    let other = ControllerServer { certificate: server.client_certificate(), ..found.clone() };
+    let refused = within(other.connect(&server.client(), &Login::Anonymous)).await.unwrap_err();
+    assert_eq!(Problem::from(refused).code, ErrorCode::NoSuitableEndpoint);
+    let closed = Target { port: 1, ..found.target };
+    let refused = ControllerServer { target: closed, ..found }.connect(&server.client(), &Login::Anonymous).await;
+    assert_eq!(Problem::from(refused.unwrap_err()).code, ErrorCode::OpcUaConnectionFailed);
 }
