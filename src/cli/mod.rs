@@ -342,7 +342,7 @@ mod tests {
         assert_eq!(of(&["program", "--lang", "zh", "info"]), Some(Language::Zh));
         assert_eq!(of(&["program", "info", "--lang=zh", "--help"]), Some(Language::Zh));
         assert_eq!(of(&["program", "--lang", "JA"]), Some(Language::Ja));
-        for none in [&["program", "info"][..], &["program", "--lang"], &["program", "--lang", "de"]] {
+        for none in [&["program", "info"][..], &["program", "--lang"], &["program", "--lang", "xx"]] {
             assert_eq!(of(none), None, "{none:?}");
         }
     }

@@ -84,25 +84,19 @@ mod tls_time;
 mod trust;
 mod users;
 
-pub use certificates::{
-    CERTIFICATE_REQUESTS, CsrMade, GetCertificates, ImportCaSigned, ImportCertificate, ImportCsr, Installed, MakeCsr,
-    MakeSelfSigned, SelectCertificate,
-};
+pub use certificates::*;
 pub use messages::{Failure, WireSecret};
 pub use request::{Method, Needs, Request, RequestRow};
 pub use response::{MAX_LISTED, Response};
-pub use server::{GetInfo, GetLog, SERVER_REQUESTS, StartServer, StopServer};
-pub use session::{GetHello, Hello, Login, Logout, SESSION_REQUESTS, Session};
-pub use settings::{Activate, ExportSettings, GetSettings, ImportSettings, SETTINGS_REQUESTS, SetSettings};
+pub use server::*;
+pub use session::*;
+pub use settings::*;
 pub use settings_export::{
     EXPORT_FORMAT, EXPORT_VERSION, ExportContent, ExportError, ExportedUser, MAX_EXPORT_BYTES, SettingsExport,
 };
 pub use tls_time::TlsTime;
-pub use trust::{
-    EditTrust, GetCrl, GetCrls, GetIssuers, GetRejected, GetTrustStamp, GetTrusted, MAX_SENT_CRL_BYTES,
-    MAX_TRUST_STEPS, TRUST_REQUESTS, TrustChanged,
-};
-pub use users::{AddUser, GetUsers, RemoveUsers, USER_REQUESTS};
+pub use trust::*;
+pub use users::*;
 
 use crate::model::ErrorCode;
 

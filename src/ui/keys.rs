@@ -2,9 +2,9 @@
 
 use egui::{Context, Key, Modifiers};
 
-use super::command::UiCommand;
+use super::features::COMMANDS;
 use super::views;
-use crate::ui::model::{Message, Model};
+use crate::ui::model::{Message, Model, UiCommand};
 
 /// How far Page Up and Page Down go.
 const PAGE: isize = 15;
@@ -15,16 +15,17 @@ pub fn read(ctx: &Context, model: &Model, messages: &mut Vec<Message>) {
         return;
     }
     let typing = ctx.text_edit_focused();
-    for command in UiCommand::ALL {
+    for command in COMMANDS.iter().copied() {
         let Some(shortcut) = command.shortcut() else { continue };
         // A text field has its own use for these.
-        if typing && matches!(command, UiCommand::TickAll | UiCommand::DeleteControllers) {
+        if typing && [UiCommand::TICK_ALL, UiCommand::DELETE_CONTROLLERS].contains(&command) {
             continue;
         }
         if ctx.input_mut(|input| input.consume_shortcut(&shortcut)) {
-            match command {
-                UiCommand::Search => ctx.memory_mut(|memory| memory.request_focus(views::search_id())),
-                command => messages.push(Message::Invoke(command)),
+            if command == UiCommand::SEARCH {
+                ctx.memory_mut(|memory| memory.request_focus(views::search_id()));
+            } else {
+                messages.push(Message::Invoke(command));
             }
         }
     }

@@ -8,9 +8,8 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`command`] | what can be asked for: its words, tooltip and key |
 //! | [`picker`], `theme`, `fonts` | the desktop's dialog for choosing a file and its file manager; every colour and size |
-//! | [`model`] | what the window knows: rows, the running job, the open dialogs; messages and commands |
+//! | [`model`] | what the window knows: rows, the running job, the open dialogs; what a command and a dialog is; messages |
 //! | `widgets` | what dialogs are made of |
 //! | [`shell`] | starting jobs; the dialogs that belong to no feature |
 //! | [`features`] | what the window can do, one file or folder each |
@@ -22,7 +21,6 @@
 mod app;
 pub mod backend;
 pub mod closing;
-pub mod command;
 mod drops;
 pub mod features;
 mod file_manager;

@@ -1,7 +1,7 @@
 //! The one place where the model changes.
 
-use super::command::UiCommand;
-use super::model::{Column, Command, Event, JobId, Message, Model, PaletteAction, RowId, Targets, Task};
+use super::features::COMMANDS;
+use super::model::{Column, Command, Event, JobId, Message, Model, PaletteAction, RowId, Targets, Task, UiCommand};
 use super::shell::error::ErrorDialog;
 use super::shell::processing::ProcessingDialog;
 use crate::jobs::Summary;
@@ -13,7 +13,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
     let mut commands = Vec::new();
     match message {
         Message::Invoke(command) if command.why_disabled(model).is_some() => {}
-        Message::Invoke(command) => commands = model.invoke(command),
+        Message::Invoke(command) => commands = command.invoke(model),
         Message::Toggle { row, range } => model.rows.toggle(row, range),
         Message::TickAll(on) => model.rows.tick_shown(on),
         Message::Sort(column) => model.sort(column),
@@ -51,7 +51,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::Palette(action) => {
             let language = model.language;
             if let Some(palette) = &mut model.command_palette {
-                palette.apply(action, language);
+                palette.apply(action, language, COMMANDS);
             }
         }
         Message::Submit => {

@@ -8,11 +8,11 @@ mod verify;
 
 use chrono::{DateTime, Duration, Utc};
 
-use super::command::UiCommand;
+use super::features::COMMANDS;
 use super::features::activation::{ActivationForm, KeysForm};
 use super::features::add_controller::{AddController, AddStage};
 use super::features::settings::SettingsForm;
-use super::model::{CancelState, Column, Command, Event, FileContents, JobId, Message, Model, TaskEvent};
+use super::model::{CancelState, Column, Command, Event, FileContents, JobId, Message, Model, TaskEvent, UiCommand};
 use super::reduce;
 use super::shell::confirm::ConfirmDialog;
 use super::shell::error::ErrorDialog;
@@ -93,7 +93,7 @@ fn probe(commands: &[Command]) -> (JobId, String) {
 #[test]
 fn whose_identity_is_not_confirmed_is_asked_about_one_after_the_other() {
     let mut model = unconfirmed();
-    let (first, address) = probe(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+    let (first, address) = probe(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
     assert_eq!(address, "10.0.0.9");
     let skipped = reduce(&mut model, Message::act(Model::skip_identity));
     assert!(matches!(skipped[0], Command::Cancel(job) if job == first));
@@ -117,14 +117,14 @@ fn whose_identity_is_not_confirmed_is_asked_about_one_after_the_other() {
     // Cancel ends it all.
     assert!(matches!(reduce(&mut model, Message::Close)[..], [Command::Cancel(_)]));
     assert!(model.dialogs.is_empty());
-    assert_eq!(UiCommand::ConfirmIdentity.why_disabled(&model), None);
+    assert_eq!(UiCommand::CONFIRM_IDENTITY.why_disabled(&model), None);
 }
 
 #[test]
 fn a_file_that_comes_after_its_dialog_was_closed_is_dropped() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
-    reduce(&mut model, Message::Invoke(UiCommand::Activation));
+    reduce(&mut model, Message::Invoke(UiCommand::ACTIVATION));
     let picking = reduce(&mut model, Message::ChooseFile);
     let [Command::PickFile { job: picking, .. }] = picking[..] else { panic!("{picking:?}") };
     assert!(reduce(&mut model, Message::ChooseFile).is_empty(), "one dialog of the desktop is enough");
@@ -132,7 +132,7 @@ fn a_file_that_comes_after_its_dialog_was_closed_is_dropped() {
     let reading = reduce(&mut model, Message::Event(picked()));
     let [Command::ReadFile { job: reading, .. }] = reading[..] else { panic!("{reading:?}") };
     reduce(&mut model, Message::Close);
-    reduce(&mut model, Message::Invoke(UiCommand::Activation));
+    reduce(&mut model, Message::Invoke(UiCommand::ACTIVATION));
     assert!(reduce(&mut model, Message::Event(picked())).is_empty());
     let contents = FileContents(b"OPCUA.Activation.Ver.1.0\n".to_vec());
     reduce(&mut model, Message::Event(Event::FileRead { job: reading, result: Ok(("/keys.csv".into(), contents)) }));
@@ -212,7 +212,7 @@ fn shift_ticks_a_range_and_the_keyboard_moves_a_cursor() {
 #[test]
 fn a_command_that_is_disabled_does_nothing() {
     let mut model = model();
-    for command in UiCommand::ALL {
+    for command in COMMANDS.iter().copied() {
         if command.why_disabled(&model).is_some() {
             assert!(reduce(&mut model, Message::Invoke(command)).is_empty());
             assert!(model.dialogs.is_empty(), "{command:?}");
@@ -224,7 +224,7 @@ fn a_command_that_is_disabled_does_nothing() {
 fn reading_closes_by_itself_when_all_went_well() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
     event(&mut model, id, TaskEvent::Step { index: 0, step: Step::Connect });
     done(&mut model, id, 0, Done);
     done(&mut model, id, 1, Done);
@@ -241,7 +241,7 @@ fn reading_closes_by_itself_when_all_went_well() {
 fn a_failure_stays_until_it_was_read() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
     done(&mut model, id, 0, Done);
     fail(&mut model, id, 1, ErrorCode::Unreachable);
     ended(&mut model, id, 1, 1);
@@ -254,10 +254,10 @@ fn a_failure_stays_until_it_was_read() {
 fn late_events_of_an_old_job_are_ignored() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
-    let old = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
+    let old = job(&reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS)));
     let cancelled = reduce(&mut model, Message::Close);
     assert!(matches!(cancelled[..], [Command::Cancel(id)] if id == old));
-    let new = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
+    let new = job(&reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS)));
     let settings = Revisioned { revision: RevisionToken::new(9), value: ServerSettings::default() };
     assert!(done(&mut model, old, 0, settings.clone()).is_empty());
     ended(&mut model, old, 1, 0);
@@ -270,7 +270,7 @@ fn late_events_of_an_old_job_are_ignored() {
 fn cancelling_asks_once_more() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Start)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::START)));
     assert!(reduce(&mut model, Message::Close).is_empty());
     assert_eq!(model.job.as_ref().unwrap().cancel, CancelState::Asking);
     reduce(&mut model, Message::KeepGoing);
@@ -285,7 +285,7 @@ fn cancelling_asks_once_more() {
 fn a_change_is_confirmed_and_cancel_leads_back_to_the_form() {
     let mut model = model();
     tick(&mut model, &["Paint", "Weld 2"]);
-    assert!(reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)).is_empty(), "nothing is read for many");
+    assert!(reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS)).is_empty(), "nothing is read for many");
     assert!(reduce(&mut model, Message::Submit).is_empty());
     assert_eq!(open(&model), ["SettingsForm", "ConfirmDialog"]);
     reduce(&mut model, Message::Close);
@@ -301,7 +301,7 @@ fn a_change_is_confirmed_and_cancel_leads_back_to_the_form() {
 fn settings_with_a_mistake_are_not_applied() {
     let mut model = model();
     tick(&mut model, &["Paint", "Weld 2"]);
-    reduce(&mut model, Message::Invoke(UiCommand::BasicSettings));
+    reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS));
     let edit = |model: &mut Model, change: &dyn Fn(&mut SettingsForm)| {
         let Some(form) = model.top_mut::<SettingsForm>() else { panic!("no form") };
         change(form);
@@ -320,7 +320,7 @@ fn settings_with_a_mistake_are_not_applied() {
 fn a_missing_password_is_asked_for_and_those_controllers_are_tried_again() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
     fail(&mut model, id, 0, ErrorCode::PasswordMissing);
     done(&mut model, id, 1, Done);
     ended(&mut model, id, 1, 1);
@@ -337,7 +337,7 @@ fn a_missing_password_is_asked_for_and_those_controllers_are_tried_again() {
 #[test]
 fn a_controller_is_added_only_after_its_fingerprint_was_agreed_to() {
     let mut model = model();
-    reduce(&mut model, Message::Invoke(UiCommand::AddController));
+    reduce(&mut model, Message::Invoke(UiCommand::ADD_CONTROLLER));
     let form = |model: &mut Model| -> AddStage {
         let Some(form) = model.top_mut::<AddController>() else { panic!("no form") };
         (form.name, form.address) = ("Paint".into(), "10.0.0.77".into());
@@ -361,7 +361,7 @@ fn a_controller_is_added_only_after_its_fingerprint_was_agreed_to() {
 #[test]
 fn an_attempt_that_was_given_up_adds_nothing() {
     let mut model = model();
-    reduce(&mut model, Message::Invoke(UiCommand::AddController));
+    reduce(&mut model, Message::Invoke(UiCommand::ADD_CONTROLLER));
     let Some(open) = model.top_mut::<AddController>() else { panic!("no form") };
     (open.name, open.address) = ("New".into(), "10.0.0.77".into());
     let [Command::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
@@ -374,7 +374,7 @@ fn an_attempt_that_was_given_up_adds_nothing() {
 fn deleting_forgets_the_passwords() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
-    reduce(&mut model, Message::Invoke(UiCommand::DeleteControllers));
+    reduce(&mut model, Message::Invoke(UiCommand::DELETE_CONTROLLERS));
     let commands = reduce(&mut model, Message::Submit);
     assert!(matches!(&commands[..], [Command::Save(_), Command::Forget(gone)] if gone.len() == 1));
     assert_eq!(model.rows.all().len(), 2);
@@ -415,7 +415,7 @@ fn a_dialogs_debug_output_holds_no_secret() {
 fn a_form_is_filled_also_under_a_notice() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::BasicSettings)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS)));
     reduce(&mut model, Message::Event(Event::SaveFailed(ErrorCode::WorkspaceFull.into())));
     let settings = Revisioned { revision: RevisionToken::new(9), value: ServerSettings::default() };
     done(&mut model, id, 0, settings);
@@ -427,7 +427,7 @@ fn a_form_is_filled_also_under_a_notice() {
 fn a_form_that_cannot_be_filled_gives_way_to_the_reason() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Users)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::USERS)));
     fail(&mut model, id, 0, ErrorCode::TaskRunning);
     ended(&mut model, id, 0, 1);
     assert!(model.is_only::<ErrorDialog>());

@@ -16,8 +16,7 @@ use opcua_configurator::jobs::{Report, Summary, TrustSnapshot};
 use opcua_configurator::model::{CertificateStatus, FirmwareGeneration, Language};
 use opcua_configurator::ui::App;
 use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
-use opcua_configurator::ui::command::UiCommand;
-use opcua_configurator::ui::model::{Column, Message, Model, Row};
+use opcua_configurator::ui::model::{Column, Message, Model, Row, UiCommand};
 use opcua_configurator::ui::reduce;
 use opcua_configurator::workspace::{Configuration, Workspace};
 use trust_samples::{listed, refused};
@@ -61,7 +60,7 @@ fn main() {
 fn trust(mut model: Model, now: DateTime<Utc>) -> Model {
     reduce(&mut model, Message::MoveCursor(0));
     reduce(&mut model, Message::ToggleCursor);
-    let commands = reduce(&mut model, Message::Invoke(UiCommand::ClientLists));
+    let commands = reduce(&mut model, Message::Invoke(UiCommand::CLIENT_LISTS));
     let run = commands.iter().find_map(|command| match command {
         Command::Run { job, task, .. } => Some((*job, task)),
         _ => None,

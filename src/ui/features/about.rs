@@ -1,16 +1,33 @@
 //! About the program, and its keys.
 
-use egui::{Grid, Label, RichText, Ui, vec2};
+use egui::{Grid, Key, Label, Modifiers, RichText, Ui, vec2};
 
 use crate::texts::{self, TextKey as T};
-use crate::ui::command::UiCommand;
-use crate::ui::model::{Answer, Dialog, Message, Model, Place};
+use crate::ui::features::COMMANDS;
+use crate::ui::model::{Answer, Dialog, Message, Model, Place, UiCommand};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, command_button, dialog, fine_print};
 
 /// The version of the program, its workspace and its licence.
 #[derive(Debug)]
 pub struct AboutDialog;
+
+impl UiCommand {
+    /// Says what the program is.
+    pub const ABOUT: Self = Self::new(T::About, T::AboutTip, |model, _| {
+        model.open(AboutDialog);
+        vec![]
+    })
+    .in_menu(T::MenuHelp);
+
+    /// Shows the keys of the window.
+    pub const SHORTCUTS: Self = Self::new(T::Shortcuts, T::ShortcutsTip, |model, _| {
+        model.open(ShortcutsDialog);
+        vec![]
+    })
+    .in_menu(T::MenuHelp)
+    .key(Modifiers::NONE, Key::F1);
+}
 
 impl Dialog for AboutDialog {
     fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
@@ -44,7 +61,7 @@ fn about(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
         ui.add_space(theme::SPACE);
         fine_print(ui, text(T::AboutLicence));
         ui.add_space(theme::SPACE);
-        command_button(ui, UiCommand::Licences, false, model, messages);
+        command_button(ui, UiCommand::LICENCES, false, model, messages);
     })
 }
 
@@ -59,7 +76,7 @@ fn shortcuts(ui: &Ui, model: &Model) -> Answer {
                 ui.label(what);
                 ui.end_row();
             };
-            for command in UiCommand::ALL {
+            for command in COMMANDS {
                 if let Some(shortcut) = command.shortcut() {
                     let key = ui.ctx().format_shortcut(&shortcut);
                     line(ui, &key, text(command.text()).trim_end_matches('…'));

@@ -3,7 +3,7 @@
 use egui::{Label, RichText, Ui};
 
 use crate::texts::TextKey as T;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, UiCommand};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, fine_print};
 
@@ -11,6 +11,15 @@ use crate::ui::widgets::{Buttons, dialog, fine_print};
 #[derive(Debug)]
 pub struct BackupDialog {
     pub on: bool,
+}
+
+impl UiCommand {
+    /// Whether copies of certificates are kept.
+    pub const BACKUP: Self = Self::new(T::Backup, T::BackupTip, |model, _| {
+        model.open(BackupDialog { on: model.options.backup });
+        vec![]
+    })
+    .in_menu(T::MenuOptions);
 }
 
 impl Dialog for BackupDialog {

@@ -1,9 +1,9 @@
 //! Taking controllers out of the list (manual 2.5.2).
 
-use egui::{Label, Ui};
+use egui::{Key, Label, Modifiers, Ui};
 
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, UiCommand};
 use crate::ui::shell::confirm;
 use crate::ui::theme;
 use crate::ui::widgets::{Buttons, dialog, fine_print};
@@ -20,6 +20,17 @@ impl DeleteControllers {
     pub fn new(rows: Vec<RowId>, model: &Model) -> Self {
         Self { names: model.rows.names(&rows), rows }
     }
+}
+
+impl UiCommand {
+    /// Takes controllers out of the list.
+    pub const DELETE_CONTROLLERS: Self = Self::new(T::DeleteControllers, T::DeleteControllersTip, |model, rows| {
+        model.open(DeleteControllers::new(rows, model));
+        vec![]
+    })
+    .in_menu(T::MenuController)
+    .key(Modifiers::NONE, Key::Delete)
+    .for_controllers();
 }
 
 impl Dialog for DeleteControllers {

@@ -1,9 +1,9 @@
 //! What the window can do: one file or folder a feature, named as its command.
 //!
 //! A feature holds its form and its checks (without egui), what its main button does, what it does with results, and how
-//! it is drawn. Its dialog implements [`Dialog`](crate::ui::model::Dialog). It is registered here, in
-//! [`UiCommand::why_disabled`] and `Model::invoke`; its words, tooltip and key are in [`UiCommand`], its place in a
-//! menu in `views/main_menu.rs`.
+//! it is drawn. It declares its commands as constants of [`UiCommand`](C): their words, key, when they are disabled and what
+//! they do. Its dialog implements [`Dialog`](crate::ui::model::Dialog). Here, it is named in `mod`, and its commands are
+//! put into [`COMMANDS`] and into a menu.
 //!
 //! | feature | what |
 //! |---|---|
@@ -16,6 +16,7 @@
 //! | `backup`, `options`, [`vault`] | how this program works |
 //! | `licences`, `about` | help |
 //! | `dropped_files` | which dialog takes files dropped onto the window |
+//! | `window` | commands of the window itself |
 
 mod about;
 pub mod activation;
@@ -39,128 +40,108 @@ pub mod trust;
 pub mod users;
 pub mod vault;
 pub mod verify;
+mod window;
 
-use about::{AboutDialog, ShortcutsDialog};
-use activation::ActivationForm;
-use add_controller::AddController;
-use backup::BackupDialog;
-use delete_controllers::DeleteControllers;
-use export_self_signed::ExportForm;
-use licences::LicencesView;
-use options::OptionsDialog;
-use settings_transfer::Transfer;
-use trust::Shows;
+use super::model::UiCommand as C;
 
-use super::command::UiCommand;
-use super::model::{Command, CommandPalette, Model, Targets};
-use crate::model::Feature;
-use crate::texts::TextKey as T;
+/// Every command, in the order in which the command palette and the list of keys show them.
+pub const COMMANDS: &[C] = &[
+    C::ADD_CONTROLLER,
+    C::DELETE_CONTROLLERS,
+    C::CONNECTION_LIST,
+    C::CONFIRM_IDENTITY,
+    C::QUIT,
+    C::START,
+    C::STOP,
+    C::GET_INFO,
+    C::BASIC_SETTINGS,
+    C::USERS,
+    C::SERVER_LOG,
+    C::ACTIVATION,
+    C::EXPORT_SETTINGS,
+    C::IMPORT_SETTINGS,
+    C::SELF_SIGNED,
+    C::USER_SPECIFIED,
+    C::CA_SIGNED,
+    C::EXPORT_SELF_SIGNED,
+    C::TYPE_SELECT,
+    C::RESTORE_BACKUP,
+    C::CLIENT_LISTS,
+    C::CRL,
+    C::BACKUP,
+    C::OPTIONS,
+    C::CERTIFICATE_AUTHORITY,
+    C::VERIFY,
+    C::SHORTCUTS,
+    C::LICENCES,
+    C::ABOUT,
+    C::TICK_ALL,
+    C::SEARCH,
+    C::ROW_DETAILS,
+    C::COMMAND_PALETTE,
+];
 
-impl UiCommand {
-    /// Why it cannot be done to the ticked controllers now; what a disabled item says on hover.
-    pub fn why_disabled(self, model: &Model) -> Option<T> {
-        self.why_disabled_for(model, Targets::Ticked)
-    }
+/// The entries of a menu, in groups with lines between them.
+pub type MenuEntries = &'static [&'static [C]];
 
-    /// Why it cannot be done to these controllers now.
-    pub fn why_disabled_for(self, model: &Model, targets: Targets) -> Option<T> {
-        let count = model.target_count(targets);
-        match self {
-            Self::DeleteControllers
-            | Self::Start
-            | Self::Stop
-            | Self::GetInfo
-            | Self::BasicSettings
-            | Self::Users
-            | Self::SelfSigned
-            | Self::CaSigned
-            | Self::ExportSelfSigned
-            | Self::TypeSelect
-            | Self::ClientLists
-            | Self::Crl
-            | Self::Verify => (count == 0).then_some(T::WhyTick),
-            Self::UserSpecified => match count {
-                0 => Some(T::WhyTick),
-                1 => model.any_target_lacks(targets, Feature::UserSpecifiedCertificate).then_some(T::WhyUserLegacy),
-                _ => Some(T::WhyUserOne),
-            },
-            Self::ConfirmIdentity if count == 0 => Some(T::WhyTick),
-            Self::ConfirmIdentity => model.all_targets_are_confirmed(targets).then_some(T::WhyConfirmed),
-            Self::Activation if count == 0 => Some(T::WhyTick),
-            Self::Activation => {
-                model.any_target_lacks(targets, Feature::ActivationKeys).then_some(T::WhyActivationOption)
-            }
-            Self::ExportSettings | Self::ImportSettings => match count {
-                0 => Some(T::WhyTick),
-                _ => model.any_target_lacks(targets, Feature::SettingsTransfer).then_some(T::WhyLegacyOnly),
-            },
-            Self::RestoreBackup => match count {
-                0 => Some(T::WhyTick),
-                _ => model.any_target_lacks(targets, Feature::KeyImport).then_some(T::WhyLegacyOnly),
-            },
-            Self::ServerLog => match count {
-                0 => Some(T::WhyTick),
-                1 => None,
-                _ => Some(T::WhyOne),
-            },
-            Self::TickAll | Self::Search | Self::RowDetails => model.rows.is_empty().then_some(T::WhyEmpty),
-            Self::AddController
-            | Self::ConnectionList
-            | Self::Quit
-            | Self::Backup
-            | Self::Options
-            | Self::CertificateAuthority
-            | Self::Shortcuts
-            | Self::Licences
-            | Self::About
-            | Self::CommandPalette => None,
+/// The menu "Controller".
+pub const CONTROLLER_MENU: MenuEntries = &[
+    &[C::ADD_CONTROLLER, C::CONNECTION_LIST],
+    &[C::CONFIRM_IDENTITY, C::DELETE_CONTROLLERS],
+    &[C::ROW_DETAILS],
+    &[C::QUIT],
+];
+/// The entry "Create and save" on top of the menu "Certificate".
+pub const CREATE_MENU: MenuEntries = &[&[C::SELF_SIGNED, C::USER_SPECIFIED, C::CA_SIGNED]];
+/// The menu "Certificate" below that.
+pub const CERTIFICATE_MENU: MenuEntries =
+    &[&[C::EXPORT_SELF_SIGNED, C::TYPE_SELECT, C::RESTORE_BACKUP], &[C::CLIENT_LISTS, C::CRL]];
+/// The menu "Server settings".
+pub const SERVER_MENU: MenuEntries =
+    &[&[C::BASIC_SETTINGS, C::USERS, C::SERVER_LOG, C::ACTIVATION], &[C::EXPORT_SETTINGS, C::IMPORT_SETTINGS]];
+/// The menu "Tools".
+pub const TOOLS_MENU: MenuEntries = &[&[C::CERTIFICATE_AUTHORITY, C::VERIFY]];
+/// The menu "Help".
+pub const HELP_MENU: MenuEntries = &[&[C::COMMAND_PALETTE], &[C::SHORTCUTS, C::LICENCES, C::ABOUT]];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::texts::TextKey as T;
+
+    #[test]
+    fn a_command_is_in_the_menu_it_names() {
+        let menus: [(T, &[MenuEntries]); 6] = [
+            (T::MenuController, &[CONTROLLER_MENU]),
+            (T::MenuCertificate, &[CREATE_MENU, CERTIFICATE_MENU]),
+            (T::MenuServer, &[SERVER_MENU]),
+            (T::MenuOptions, &[&[&[C::BACKUP, C::OPTIONS]]]),
+            (T::MenuTools, &[TOOLS_MENU]),
+            (T::MenuHelp, &[HELP_MENU]),
+        ];
+        let placed = menus.iter().flat_map(|(menu, parts)| {
+            parts.iter().copied().flatten().copied().flatten().map(move |command| (*command, Some(*menu)))
+        });
+        let placed: Vec<(C, Option<T>)> = placed.collect();
+        for (command, menu) in &placed {
+            assert_eq!(command.menu(), *menu, "{command:?}");
+            assert!(COMMANDS.contains(command), "{command:?} is in no list of all commands");
+        }
+        for command in COMMANDS.iter().filter(|command| command.menu().is_some()) {
+            assert_eq!(placed.iter().filter(|(other, _)| other == command).count(), 1, "{command:?}");
         }
     }
-}
 
-impl Model {
-    /// Does a command: opens its dialog, or starts its job. The command is not disabled.
-    pub(super) fn invoke(&mut self, command: UiCommand) -> Vec<Command> {
-        let ticked = self.rows.ticked();
-        match command {
-            UiCommand::Start => return self.plan(server_control::start_server(), ticked),
-            UiCommand::Stop => return self.plan(server_control::stop_server(), ticked),
-            UiCommand::GetInfo => return self.get_info(ticked),
-            UiCommand::BasicSettings => return self.open_settings(ticked),
-            UiCommand::Users => return self.open_users(ticked),
-            UiCommand::SelfSigned => return self.open_self_signed(ticked, None),
-            UiCommand::CaSigned => self.open_ca_signed(ticked),
-            UiCommand::UserSpecified => self.open_user_specified(&ticked),
-            UiCommand::RestoreBackup => self.open_restore(ticked),
-            UiCommand::TypeSelect => return self.open_type_select(ticked),
-            UiCommand::ClientLists => return self.open_trust(Shows::Clients, ticked),
-            UiCommand::Crl => return self.open_trust(Shows::Crls, ticked),
-            UiCommand::ExportSettings => return self.open_transfer(Transfer::Export, ticked),
-            UiCommand::ImportSettings => return self.open_transfer(Transfer::Import, ticked),
-            UiCommand::ServerLog => return ticked.first().map(|row| self.open_log(*row)).unwrap_or_default(),
-            UiCommand::Verify => return self.verify(ticked),
-            UiCommand::CertificateAuthority => return self.open_authority(),
-            UiCommand::ConnectionList => return self.open_connection_list(),
-            UiCommand::ConfirmIdentity => {
-                let rows = self.ticked_unconfirmed().collect();
-                return self.confirm_identities(rows, vec![]);
+    #[test]
+    fn no_two_commands_share_their_text_or_their_key() {
+        for (at, command) in COMMANDS.iter().enumerate() {
+            for other in &COMMANDS[at + 1..] {
+                assert_ne!(command, other);
+                assert!(
+                    command.shortcut().is_none() || command.shortcut() != other.shortcut(),
+                    "{command:?} {other:?}"
+                );
             }
-            UiCommand::Activation => self.open(ActivationForm::new(ticked, self)),
-            UiCommand::AddController => self.open(AddController::new()),
-            UiCommand::DeleteControllers => self.open(DeleteControllers::new(ticked, self)),
-            UiCommand::ExportSelfSigned => self.open(ExportForm::new(ticked, self)),
-            UiCommand::Backup => self.open(BackupDialog { on: self.options.backup }),
-            UiCommand::Options => self.open(OptionsDialog),
-            UiCommand::Shortcuts => self.open(ShortcutsDialog),
-            UiCommand::Licences => self.open(LicencesView::default()),
-            UiCommand::About => self.open(AboutDialog),
-            UiCommand::CommandPalette => self.command_palette = Some(CommandPalette::default()),
-            UiCommand::RowDetails => self.show_details(!self.options.window.details),
-            UiCommand::Quit => return vec![Command::Quit],
-            UiCommand::TickAll => self.rows.tick_shown(!self.rows.all_shown_ticked()),
-            // The search field of the toolbar takes the keyboard, which only the window can give it.
-            UiCommand::Search => {}
         }
-        vec![]
     }
 }

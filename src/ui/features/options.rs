@@ -4,7 +4,7 @@ use egui::{DragValue, Ui};
 
 use crate::model::Language;
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Answer, Dialog, Message, Model, Place};
+use crate::ui::model::{Answer, Dialog, Message, Model, Place, UiCommand};
 use crate::ui::theme::{self};
 use crate::ui::widgets::{Buttons, choices, dialog, fine_print, form, labelled};
 use crate::workspace::{MAX_PARALLELISM, ThemeChoice};
@@ -12,6 +12,15 @@ use crate::workspace::{MAX_PARALLELISM, ThemeChoice};
 /// The options. Everything takes effect at once.
 #[derive(Debug)]
 pub struct OptionsDialog;
+
+impl UiCommand {
+    /// Shows and changes the options.
+    pub const OPTIONS: Self = Self::new(T::Options, T::OptionsTip, |model, _| {
+        model.open(OptionsDialog);
+        vec![]
+    })
+    .in_menu(T::MenuOptions);
+}
 
 impl Dialog for OptionsDialog {
     fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {

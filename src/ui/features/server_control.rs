@@ -1,9 +1,11 @@
 //! Reading information, starting and stopping servers; the virtual controllers of the welcome page.
 
+use egui::{Key, Modifiers};
+
 use crate::jobs;
 use crate::model::Problem;
 use crate::texts::TextKey as T;
-use crate::ui::model::{Command, Model, Task};
+use crate::ui::model::{Command, Model, Task, UiCommand};
 use crate::workspace::ControllerEntry;
 
 /// Reads all information of controllers.
@@ -17,6 +19,20 @@ pub fn start_server() -> Task {
 
 pub fn stop_server() -> Task {
     Task::new(T::Stop, jobs::StopServer).act(T::Stop)
+}
+
+impl UiCommand {
+    /// Starts the OPC UA servers.
+    pub const START: Self =
+        Self::new(T::Start, T::StartTip, |model, rows| model.plan(start_server(), rows)).for_controllers();
+
+    /// Stops the OPC UA servers.
+    pub const STOP: Self =
+        Self::new(T::Stop, T::StopTip, |model, rows| model.plan(stop_server(), rows)).for_controllers();
+
+    /// Reads all information.
+    pub const GET_INFO: Self =
+        Self::new(T::GetInfo, T::GetInfoTip, Model::get_info).key(Modifiers::NONE, Key::F5).for_controllers();
 }
 
 impl Model {

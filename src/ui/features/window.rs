@@ -1,9 +1,9 @@
-//! Commands of the window itself, which belong to no dialog.
+//! Commands of the window itself, which belong to no dialog. That of the command palette stands beside the palette.
 
 use egui::{Key, Modifiers};
 
 use crate::texts::TextKey as T;
-use crate::ui::model::{Command, CommandPalette, UiCommand};
+use crate::ui::model::{Command, UiCommand};
 
 impl UiCommand {
     /// Closes the window.
@@ -32,12 +32,4 @@ impl UiCommand {
     pub const SEARCH: Self = Self::new(T::Search, T::SearchTip, |_, _| vec![])
         .key(Modifiers::COMMAND, Key::F)
         .disabled_if(|model, _| model.rows.is_empty().then_some(T::WhyEmpty));
-
-    /// Opens the command palette.
-    pub const COMMAND_PALETTE: Self = Self::new(T::CommandPalette, T::CommandPaletteTip, |model, _| {
-        model.command_palette = Some(CommandPalette::default());
-        vec![]
-    })
-    .in_menu(T::MenuHelp)
-    .key(Modifiers::COMMAND, Key::K);
 }

@@ -2,10 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::JobId;
+use super::{JobId, UiCommand};
 use crate::model::Problem;
 use crate::texts::TextKey;
-use crate::ui::command::UiCommand;
 use crate::workspace::Recognised;
 
 /// More files at once are not looked at.

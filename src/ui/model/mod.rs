@@ -19,6 +19,7 @@ mod row_state;
 mod rows;
 mod secret;
 mod task;
+mod ui_command;
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -26,7 +27,6 @@ use std::path::PathBuf;
 
 use chrono::{DateTime, Utc};
 
-use super::command::UiCommand;
 use crate::model::{Language, Problem};
 use crate::texts::Zone;
 use crate::workspace::{Configuration, Options, StoreStatus, ThemeChoice, Workspace};
@@ -46,6 +46,7 @@ pub use row_state::RowState;
 pub use rows::{Column, EXPIRES_SOON, Expiry, Row, RowId, Rows};
 pub use secret::SecretInput;
 pub use task::{Task, TaskEvent, TaskFacts, TaskReport};
+pub use ui_command::UiCommand;
 
 /// What a change of the model asks the backend for.
 pub type Commands = Vec<Command>;

@@ -19,7 +19,7 @@ fn log(model: &mut Model) -> &mut LogView {
 fn opened() -> Model {
     let mut model = model();
     tick(&mut model, &["Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::ServerLog)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::SERVER_LOG)));
     assert!(!log(&mut model).is_read());
     done(&mut model, id, 0, chunk());
     ended(&mut model, id, 1, 0);
@@ -29,11 +29,11 @@ fn opened() -> Model {
 #[test]
 fn it_is_about_one_controller() {
     let mut model = model();
-    assert!(UiCommand::ServerLog.why_disabled(&model).is_some());
+    assert!(UiCommand::SERVER_LOG.why_disabled(&model).is_some());
     tick(&mut model, &["Paint"]);
-    assert!(UiCommand::ServerLog.why_disabled(&model).is_none());
+    assert!(UiCommand::SERVER_LOG.why_disabled(&model).is_none());
     tick(&mut model, &["Weld 2"]);
-    assert!(UiCommand::ServerLog.why_disabled(&model).is_some());
+    assert!(UiCommand::SERVER_LOG.why_disabled(&model).is_some());
 }
 
 #[test]

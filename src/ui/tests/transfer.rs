@@ -25,7 +25,7 @@ fn form(model: &mut Model) -> &mut TransferForm {
 #[test]
 fn only_legacy_firmware_has_its_settings_exported() {
     let mut model = model();
-    let why = |model: &Model| UiCommand::ExportSettings.why_disabled(model);
+    let why = |model: &Model| UiCommand::EXPORT_SETTINGS.why_disabled(model);
     assert_eq!(why(&model), Some(crate::texts::TextKey::WhyTick));
     tick(&mut model, &["Paint", "Weld 2"]);
     assert_eq!(why(&model), None, "nothing is known yet; the controllers say so themselves");
@@ -41,7 +41,7 @@ fn only_legacy_firmware_has_its_settings_exported() {
 fn an_export_goes_out_after_it_was_confirmed_with_the_passphrase_or_none() {
     let mut model = model();
     tick(&mut model, &["Paint", "Weld 2"]);
-    assert!(reduce(&mut model, Message::Invoke(UiCommand::ExportSettings)).is_empty());
+    assert!(reduce(&mut model, Message::Invoke(UiCommand::EXPORT_SETTINGS)).is_empty());
     assert!(form(&mut model).path.ends_with("<serial>/option.json"));
     let workspace = model.workspace.clone();
     let task = form(&mut model).task(&workspace).unwrap();
@@ -65,7 +65,7 @@ fn the_file_is_looked_at_before_an_import() {
     let mut model = model();
     know(&mut model, "Paint", legacy());
     tick(&mut model, &["Paint"]);
-    let look = |model: &mut Model| match reduce(model, Message::Invoke(UiCommand::ImportSettings))[..] {
+    let look = |model: &mut Model| match reduce(model, Message::Invoke(UiCommand::IMPORT_SETTINGS))[..] {
         [Command::LookAtExport { job, .. }] => job,
         ref other => panic!("{other:?}"),
     };
@@ -100,7 +100,7 @@ fn the_file_is_looked_at_before_an_import() {
 fn many_are_imported_without_a_look_and_cancel_leads_back() {
     let mut model = model();
     tick(&mut model, &["Paint", "Weld 2"]);
-    assert!(reduce(&mut model, Message::Invoke(UiCommand::ImportSettings)).is_empty());
+    assert!(reduce(&mut model, Message::Invoke(UiCommand::IMPORT_SETTINGS)).is_empty());
     reduce(&mut model, Message::Submit);
     reduce(&mut model, Message::Close);
     assert_eq!(form(&mut model).preview, Preview::None);

@@ -78,7 +78,7 @@ fn act(model: &mut Model, action: TrustAction) -> Vec<Command> {
 fn opened() -> (Model, JobId) {
     let mut model = model();
     tick(&mut model, &["Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::ClientLists)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::CLIENT_LISTS)));
     let commands = done(&mut model, id, 0, held(4));
     ended(&mut model, id, 1, 0);
     let Some(Command::WatchTrust { job, .. }) = commands.last() else { panic!("{commands:?}") };
@@ -246,7 +246,7 @@ fn a_lost_connection_is_said_and_a_given_up_one_can_be_tried_again() {
 fn without_lists_there_is_no_dialog() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
-    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Crl)));
+    let id = job(&reduce(&mut model, Message::Invoke(UiCommand::CRL)));
     fail(&mut model, id, 0, ErrorCode::Unreachable);
     ended(&mut model, id, 0, 1);
     assert!(model.is_only::<ErrorDialog>());
@@ -315,7 +315,7 @@ fn too_many_files_are_not_even_read() {
 fn several_controllers_are_asked_about_once_and_each_reports() {
     let mut model = model();
     tick(&mut model, &["Paint", "Weld 2"]);
-    reduce(&mut model, Message::Invoke(UiCommand::ClientLists));
+    reduce(&mut model, Message::Invoke(UiCommand::CLIENT_LISTS));
     act(&mut model, TrustAction::ChooseFiles);
     let picking = adding(&model).picking.unwrap();
     let result = Ok(vec![PathBuf::from("a.der")]);

@@ -18,7 +18,7 @@ fn with_vault(vault: VaultState) -> Model {
 /// Two controllers are read; the first is done, the password of the second is in the closed vault.
 fn find_it_closed(model: &mut Model) {
     tick(model, &["Weld 2", "Paint"]);
-    let id = job(&reduce(model, Message::Invoke(UiCommand::GetInfo)));
+    let id = job(&reduce(model, Message::Invoke(UiCommand::GET_INFO)));
     done(model, id, 0, Done);
     fail(model, id, 1, ErrorCode::VaultLocked);
     ended(model, id, 1, 1);
@@ -73,7 +73,7 @@ fn a_password_that_is_not_kept_opens_no_dialog() {
     for code in [ErrorCode::KeyringUnavailable, ErrorCode::VaultLocked, ErrorCode::WorkspaceFull] {
         let mut model = with_vault(VaultState::Declined);
         tick(&mut model, &["Weld 2", "Paint"]);
-        let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GetInfo)));
+        let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
         reduce(&mut model, Message::Event(Event::PasswordNotKept(code.into())));
         done(&mut model, id, 0, Done);
         fail(&mut model, id, 1, ErrorCode::Unreachable);
@@ -150,7 +150,7 @@ fn the_passphrase_is_changed_with_the_present_one_and_a_place_is_chosen() {
 #[test]
 fn a_controller_is_added_before_the_vault_is_asked_for() {
     let mut model = with_vault(VaultState::Closed);
-    reduce(&mut model, Message::Invoke(UiCommand::AddController));
+    reduce(&mut model, Message::Invoke(UiCommand::ADD_CONTROLLER));
     let Some(open) = model.top_mut::<AddController>() else { panic!("no form") };
     (open.name, open.address) = ("New".into(), "10.0.0.77".into());
     let [Command::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
@@ -169,7 +169,7 @@ fn a_controller_is_added_before_the_vault_is_asked_for() {
 
 /// Tries to add a controller; what came of it.
 fn probed(model: &mut Model, result: Result<Fingerprint, Problem>) {
-    reduce(model, Message::Invoke(UiCommand::AddController));
+    reduce(model, Message::Invoke(UiCommand::ADD_CONTROLLER));
     let Some(open) = model.top_mut::<AddController>() else { panic!("no form") };
     (open.name, open.address) = ("New".into(), "10.0.0.77".into());
     let [Command::Probe { job, .. }] = reduce(model, Message::Submit)[..] else { panic!("no probe") };
@@ -187,8 +187,8 @@ fn a_controller_that_is_switched_off_is_added_without_a_fingerprint() {
         assert_eq!((row.entry.name.as_str(), row.entry.fingerprint, row.info()), ("New", None, None));
         assert!(model.dialogs.is_empty());
         tick(&mut model, &["New"]);
-        assert_eq!(UiCommand::ConfirmIdentity.why_disabled(&model), None);
-        let asked = reduce(&mut model, Message::Invoke(UiCommand::GetInfo));
+        assert_eq!(UiCommand::CONFIRM_IDENTITY.why_disabled(&model), None);
+        let asked = reduce(&mut model, Message::Invoke(UiCommand::GET_INFO));
         assert_eq!(probe(&asked).1, "10.0.0.77", "its identity comes first");
     }
     // Something else is there, or it was not tried.
@@ -196,7 +196,7 @@ fn a_controller_that_is_switched_off_is_added_without_a_fingerprint() {
     probed(&mut model, Err(ErrorCode::NotAController.into()));
     assert!(reduce(&mut model, Message::act(Model::add_unconfirmed)).is_empty());
     reduce(&mut model, Message::Close);
-    reduce(&mut model, Message::Invoke(UiCommand::AddController));
+    reduce(&mut model, Message::Invoke(UiCommand::ADD_CONTROLLER));
     assert!(reduce(&mut model, Message::act(Model::add_unconfirmed)).is_empty());
     reduce(&mut model, Message::Close);
     // The name was taken meanwhile.

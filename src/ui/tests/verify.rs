@@ -55,7 +55,7 @@ fn view(model: &mut Model) -> &mut VerifyView {
 fn verifying(names: &[&str]) -> (Model, JobId) {
     let mut model = model();
     tick(&mut model, names);
-    let commands = reduce(&mut model, Message::Invoke(UiCommand::Verify));
+    let commands = reduce(&mut model, Message::Invoke(UiCommand::VERIFY));
     let [Command::Run { job, ref task, .. }] = commands[..] else { panic!("{commands:?}") };
     assert!(task.operation::<Verify>().unwrap().login.is_none());
     (model, job)
@@ -152,7 +152,7 @@ fn servers_that_were_started_again_are_verified_by_themselves_if_that_is_wanted(
         let mut model = model();
         reduce(&mut model, Message::SetVerifyAfterChanges(wanted));
         tick(&mut model, &["Paint"]);
-        let id = job(&reduce(&mut model, Message::Invoke(UiCommand::Start)));
+        let id = job(&reduce(&mut model, Message::Invoke(UiCommand::START)));
         done(&mut model, id, 0, Done);
         let summary = Summary { done: 1, ..Summary::default() };
         let commands = reduce(&mut model, Message::Event(Event::JobEnded { job: id, summary }));

@@ -3,8 +3,8 @@
 use egui::{Align, Align2, Button, Frame, Id, Key, Layout, Modal, Modifiers, RichText, ScrollArea, TextEdit, Ui, vec2};
 
 use crate::texts::TextKey as T;
-use crate::ui::command::UiCommand;
-use crate::ui::model::{Message, Model, PaletteAction};
+use crate::ui::features::COMMANDS;
+use crate::ui::model::{Message, Model, PaletteAction, UiCommand};
 use crate::ui::theme::{self, palette};
 
 /// How far Page Up and Page Down go.
@@ -13,7 +13,7 @@ const PAGE: isize = 8;
 pub fn show(ui: &Ui, model: &Model, messages: &mut Vec<Message>) {
     let Some(state) = &model.command_palette else { return };
     let ctx = ui.ctx();
-    let found = state.found(model.language);
+    let found = state.found(model.language, COMMANDS);
     let selected = state.selected(found.len());
     // Taken before the text field sees them.
     let pressed = |key: Key| ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key));
@@ -63,9 +63,10 @@ pub fn show(ui: &Ui, model: &Model, messages: &mut Vec<Message>) {
     });
     if let Some(command) = chosen.filter(|command| command.why_disabled(model).is_none()) {
         messages.push(Message::Palette(PaletteAction::Close));
-        match command {
-            UiCommand::Search => ctx.memory_mut(|memory| memory.request_focus(super::search_id())),
-            command => messages.push(Message::Invoke(command)),
+        if command == UiCommand::SEARCH {
+            ctx.memory_mut(|memory| memory.request_focus(super::search_id()));
+        } else {
+            messages.push(Message::Invoke(command));
         }
     }
 }

@@ -2,50 +2,35 @@ use egui::{MenuBar, TextWrapMode, Ui};
 
 use crate::model::Language;
 use crate::texts::{TextKey as T, theme};
-use crate::ui::command::UiCommand as C;
-use crate::ui::model::{Message, Model};
+use crate::ui::features::{
+    CERTIFICATE_MENU, CONTROLLER_MENU, CREATE_MENU, HELP_MENU, MenuEntries, SERVER_MENU, TOOLS_MENU,
+};
+use crate::ui::model::{Message, Model, UiCommand as C};
 use crate::ui::widgets::command_item;
 use crate::workspace::ThemeChoice;
 
-/// Below "Create and save" in the menu of certificates.
-pub(super) const CREATE: &[C] = &[C::SelfSigned, C::UserSpecified, C::CaSigned];
-pub(super) const CERTIFICATE: &[C] = &[C::ExportSelfSigned, C::TypeSelect, C::RestoreBackup];
-pub(super) const CLIENT_LISTS: &[C] = &[C::ClientLists, C::Crl];
-pub(super) const SERVER: &[C] = &[C::BasicSettings, C::Users, C::ServerLog, C::Activation];
-pub(super) const SERVER_FILES: &[C] = &[C::ExportSettings, C::ImportSettings];
-
 pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
-    let menu = |ui: &mut Ui, title: T, groups: &[&[C]], messages: &mut Vec<Message>| {
+    let menu = |ui: &mut Ui, title: T, groups: MenuEntries, messages: &mut Vec<Message>| {
         ui.menu_button(text(title), |ui| items(ui, groups, model, messages));
     };
     MenuBar::new().ui(ui, |ui| {
-        menu(
-            ui,
-            T::MenuController,
-            &[
-                &[C::AddController, C::ConnectionList],
-                &[C::ConfirmIdentity, C::DeleteControllers],
-                &[C::RowDetails],
-                &[C::Quit],
-            ],
-            messages,
-        );
+        menu(ui, T::MenuController, CONTROLLER_MENU, messages);
         ui.menu_button(text(T::MenuCertificate), |ui| {
             ui.menu_button(text(T::MenuCreate), |ui| {
-                items(ui, &[CREATE], model, messages);
+                items(ui, CREATE_MENU, model, messages);
             });
-            items(ui, &[CERTIFICATE, CLIENT_LISTS], model, messages);
+            items(ui, CERTIFICATE_MENU, model, messages);
         });
-        menu(ui, T::MenuServer, &[SERVER, SERVER_FILES], messages);
+        menu(ui, T::MenuServer, SERVER_MENU, messages);
         ui.menu_button(text(T::MenuOptions), |ui| options(ui, model, messages));
-        menu(ui, T::MenuTools, &[&[C::CertificateAuthority, C::Verify]], messages);
-        menu(ui, T::MenuHelp, &[&[C::CommandPalette], &[C::Shortcuts, C::Licences, C::About]], messages);
+        menu(ui, T::MenuTools, TOOLS_MENU, messages);
+        menu(ui, T::MenuHelp, HELP_MENU, messages);
     });
 }
 
 fn options(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
-    items(ui, &[&[C::Backup]], model, messages);
+    items(ui, &[&[C::BACKUP]], model, messages);
     ui.separator();
     ui.menu_button(T::LanguageLabel.text(model.language), |ui| {
         for language in Language::ALL {
@@ -61,7 +46,7 @@ fn options(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
             }
         }
     });
-    items(ui, &[&[C::Options]], model, messages);
+    items(ui, &[&[C::OPTIONS]], model, messages);
 }
 
 /// Groups of commands with lines between them.

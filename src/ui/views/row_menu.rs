@@ -2,10 +2,9 @@
 
 use egui::{Align, Id, LayerId, Layout, Popup, PopupAnchor, PopupCloseBehavior, PopupKind, Pos2, Rect, RichText, Ui};
 
-use super::main_menu::{CERTIFICATE, CLIENT_LISTS, CREATE, SERVER, SERVER_FILES};
 use crate::texts::{self, TextKey as T};
-use crate::ui::command::UiCommand as C;
-use crate::ui::model::{Message, Model, RowId, Targets};
+use crate::ui::features::{CERTIFICATE_MENU, CREATE_MENU, SERVER_MENU};
+use crate::ui::model::{Message, Model, RowId, Targets, UiCommand as C};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::row_command_item;
 
@@ -55,25 +54,24 @@ fn items(ui: &mut Ui, row: RowId, model: &Model, messages: &mut Vec<Message>) {
         messages.push(Message::OpenDetails(row));
     }
     ui.separator();
-    group(ui, &[C::Start, C::Stop, C::GetInfo, C::Verify], row, model, messages);
+    groups(ui, &[&[C::START, C::STOP, C::GET_INFO, C::VERIFY]], row, model, messages);
     ui.separator();
     ui.menu_button(text(T::MenuCertificate), |ui| {
-        ui.menu_button(text(T::MenuCreate), |ui| group(ui, CREATE, row, model, messages));
-        group(ui, CERTIFICATE, row, model, messages);
-        ui.separator();
-        group(ui, CLIENT_LISTS, row, model, messages);
+        ui.menu_button(text(T::MenuCreate), |ui| groups(ui, CREATE_MENU, row, model, messages));
+        groups(ui, CERTIFICATE_MENU, row, model, messages);
     });
-    ui.menu_button(text(T::MenuServer), |ui| {
-        group(ui, SERVER, row, model, messages);
-        ui.separator();
-        group(ui, SERVER_FILES, row, model, messages);
-    });
+    ui.menu_button(text(T::MenuServer), |ui| groups(ui, SERVER_MENU, row, model, messages));
     ui.separator();
-    group(ui, &[C::ConfirmIdentity, C::DeleteControllers], row, model, messages);
+    groups(ui, &[&[C::CONFIRM_IDENTITY, C::DELETE_CONTROLLERS]], row, model, messages);
 }
 
-fn group(ui: &mut Ui, commands: &[C], row: RowId, model: &Model, messages: &mut Vec<Message>) {
-    for command in commands {
-        row_command_item(ui, *command, row, model, messages);
+fn groups(ui: &mut Ui, groups: &[&[C]], row: RowId, model: &Model, messages: &mut Vec<Message>) {
+    for (index, group) in groups.iter().enumerate() {
+        if index > 0 {
+            ui.separator();
+        }
+        for command in *group {
+            row_command_item(ui, *command, row, model, messages);
+        }
     }
 }

@@ -1,8 +1,7 @@
 use egui::{Align, Id, Layout, TextEdit, Ui};
 
 use crate::texts::TextKey as T;
-use crate::ui::command::UiCommand as C;
-use crate::ui::model::{Message, Model};
+use crate::ui::model::{Message, Model, UiCommand as C};
 use crate::ui::theme;
 use crate::ui::widgets::command_button;
 
@@ -13,10 +12,10 @@ pub fn search_id() -> Id {
 
 pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     ui.horizontal(|ui| {
-        command_button(ui, C::Start, true, model, messages);
-        command_button(ui, C::Stop, false, model, messages);
+        command_button(ui, C::START, true, model, messages);
+        command_button(ui, C::STOP, false, model, messages);
         ui.separator();
-        command_button(ui, C::GetInfo, false, model, messages);
+        command_button(ui, C::GET_INFO, false, model, messages);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let mut text = model.rows.filter().to_owned();
             let edit = TextEdit::singleline(&mut text)

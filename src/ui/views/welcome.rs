@@ -1,8 +1,7 @@
 use egui::{Button, RichText, Ui, vec2};
 
 use crate::texts::TextKey as T;
-use crate::ui::command::UiCommand as C;
-use crate::ui::model::{Message, Model};
+use crate::ui::model::{Message, Model, UiCommand as C};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{fine_print, primary};
 
@@ -18,7 +17,7 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
         let size = vec2(280.0, 36.0);
         let add = primary(ui, text(T::WelcomeAdd)).min_size(size);
         if ui.add(add).clicked() {
-            messages.push(Message::Invoke(C::AddController));
+            messages.push(Message::Invoke(C::ADD_CONTROLLER));
         }
         if model.virtual_available {
             ui.add_space(theme::SPACE_LARGE);

@@ -1,8 +1,7 @@
 use egui::{Button, Response, RichText, Stroke, Ui};
 
 use crate::texts::TextKey;
-use crate::ui::command::UiCommand;
-use crate::ui::model::{Message, Model, RowId};
+use crate::ui::model::{Message, Model, RowId, UiCommand};
 use crate::ui::theme::palette;
 
 /// The one filled button of a window or dialog.

@@ -11,10 +11,10 @@ use crate::jobs::{Activate, KeySource};
 use crate::model::activation::{
     self, ActivationFile, ActivationKey, ActivationKeys, KeyError, LicenceKey, MAX_ACTIVATION_FILE_BYTES, Plan,
 };
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Feature, Problem};
 use crate::texts::TextKey;
 use crate::ui::model::{
-    Answer, Command, Dialog, FileForm, Message, Model, Place, RowId, SecretInput, Task, first_path,
+    Answer, Command, Dialog, FileForm, Message, Model, Place, RowId, SecretInput, Task, UiCommand, first_path,
 };
 use crate::ui::picker::FileKind;
 
@@ -126,6 +126,19 @@ pub fn key_error<K: std::str::FromStr<Err = KeyError>>(typed: &SecretInput) -> O
         .parse::<K>()
         .err()
         .filter(|error| !matches!(error, KeyError::Length { found, expected } if found < expected))
+}
+
+impl UiCommand {
+    /// Asks for the keys that activate legacy controllers.
+    pub const ACTIVATION: Self = Self::new(TextKey::Activation, TextKey::ActivationTip, |model, rows| {
+        model.open(ActivationForm::new(rows, model));
+        vec![]
+    })
+    .in_menu(TextKey::MenuServer)
+    .for_controllers()
+    .disabled_if(|model, targets| {
+        model.any_target_lacks(targets, Feature::ActivationKeys).then_some(TextKey::WhyActivationOption)
+    });
 }
 
 impl Dialog for ActivationForm {

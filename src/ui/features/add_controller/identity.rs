@@ -1,8 +1,20 @@
 //! Controllers of the list that nobody has confirmed yet, as after an import.
 
+use crate::texts::TextKey as T;
 use crate::ui::features::add_controller::{AddController, AddStage, Identity};
 use crate::ui::features::server_control::get_info;
-use crate::ui::model::{Command, Model, RowId};
+use crate::ui::model::{Command, Model, RowId, UiCommand};
+
+impl UiCommand {
+    /// Compares the fingerprints of the controllers that are not confirmed.
+    pub const CONFIRM_IDENTITY: Self = Self::new(T::ConfirmIdentity, T::ConfirmIdentityTip, |model, _| {
+        let rows = model.ticked_unconfirmed().collect();
+        model.confirm_identities(rows, vec![])
+    })
+    .in_menu(T::MenuController)
+    .for_controllers()
+    .disabled_if(|model, targets| model.all_targets_are_confirmed(targets).then_some(T::WhyConfirmed));
+}
 
 impl Model {
     /// Ticked rows without a fingerprint.

@@ -4,16 +4,26 @@ mod form;
 mod identity;
 mod view;
 
-use egui::Ui;
+use egui::{Key, Modifiers, Ui};
 
 use crate::jobs::Enrolled;
 use crate::model::{Credentials, Problem};
 use crate::pki::Fingerprint;
-use crate::texts;
-use crate::ui::model::{Answer, Command, Dialog, JobId, Message, Model, Place};
+use crate::texts::{self, TextKey as T};
+use crate::ui::model::{Answer, Command, Dialog, JobId, Message, Model, Place, UiCommand};
 use crate::workspace::{ControllerEntry, Retrieved};
 
 pub use form::{AddController, AddStage, Identity};
+
+impl UiCommand {
+    /// Registers a controller.
+    pub const ADD_CONTROLLER: Self = Self::new(T::AddController, T::AddControllerTip, |model, _| {
+        model.open(AddController::new());
+        vec![]
+    })
+    .in_menu(T::MenuController)
+    .key(Modifiers::COMMAND, Key::N);
+}
 
 impl Dialog for AddController {
     fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
@@ -35,7 +45,7 @@ impl Dialog for AddController {
 }
 
 impl Model {
-    fn submit_controller(&mut self, mut form: super::AddController) -> Vec<Command> {
+    fn submit_controller(&mut self, mut form: AddController) -> Vec<Command> {
         form.tried = true;
         form.problem = None;
         let target = form.target(self);
@@ -71,7 +81,7 @@ impl Model {
     }
 
     /// The dialog that waits for a controller, unless it was closed or tries another by now.
-    fn adding(&mut self, job: JobId) -> Option<&mut super::AddController> {
+    fn adding(&mut self, job: JobId) -> Option<&mut AddController> {
         if job != JobId(self.last_job) {
             return None;
         }

@@ -20,7 +20,7 @@ use crate::texts::TextKey;
 use crate::ui::features::trust::change_task;
 use crate::ui::model::{
     Answer, AuthorityDone, AuthorityWork, Command, Dialog, FileForm, JobId, Message, Model, Place, RowId, SecretInput,
-    Task,
+    Task, UiCommand,
 };
 use crate::ui::picker::FileKind;
 use crate::workspace::MIN_PASSPHRASE_CHARS;
@@ -246,6 +246,13 @@ fn rule(error: SubjectError) -> TextKey {
         SubjectError::TooLong(..) => TextKey::LengthRule,
         _ => TextKey::HalfWidthRule,
     }
+}
+
+impl UiCommand {
+    /// Shows the small CA of the workspace.
+    pub const CERTIFICATE_AUTHORITY: Self =
+        Self::new(TextKey::CertificateAuthority, TextKey::CertificateAuthorityTip, |model, _| model.open_authority())
+            .in_menu(TextKey::MenuTools);
 }
 
 impl Dialog for AuthorityView {

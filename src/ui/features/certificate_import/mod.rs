@@ -15,9 +15,11 @@ use crate::jobs::{
     CaCertificateSource, CertificateChecked, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate,
     Confirmation, ImportCaCertificate, ImportUserCertificate, RestoreCertificate, ServerEffect, UserCertificateFiles,
 };
-use crate::model::{FileFormat, Problem};
+use crate::model::{Feature, FileFormat, Problem};
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task, first_path};
+use crate::ui::model::{
+    Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task, UiCommand, first_path,
+};
 use crate::workspace::{BackupKind, KeyBackupSource, Workspace};
 
 /// What is imported.
@@ -227,6 +229,39 @@ impl ImportReview {
         let checked = self.found.iter().filter_map(|(_, _, found)| found.as_ref().ok());
         checked.filter(|checked| !checked.is_refused()).any(|checked| !checked.findings.is_empty())
     }
+}
+
+impl UiCommand {
+    /// Makes a CSR, and imports the certificate that a CA issued for it.
+    pub const CA_SIGNED: Self = Self::new(TextKey::CaSigned, TextKey::CaSignedTip, |model, rows| {
+        model.open_ca_signed(rows);
+        vec![]
+    })
+    .in_menu(TextKey::MenuCertificate)
+    .for_controllers();
+
+    /// Imports a key and a certificate that were made with another tool.
+    pub const USER_SPECIFIED: Self = Self::new(TextKey::UserSpecified, TextKey::UserSpecifiedTip, |model, rows| {
+        model.open_user_specified(&rows);
+        vec![]
+    })
+    .in_menu(TextKey::MenuCertificate)
+    .for_controllers()
+    .disabled_if(|model, targets| match model.target_count(targets) {
+        ..=1 => model.any_target_lacks(targets, Feature::UserSpecifiedCertificate).then_some(TextKey::WhyUserLegacy),
+        _ => Some(TextKey::WhyUserOne),
+    });
+
+    /// Puts a backup of a key back.
+    pub const RESTORE_BACKUP: Self = Self::new(TextKey::RestoreBackup, TextKey::RestoreBackupTip, |model, rows| {
+        model.open_restore(rows);
+        vec![]
+    })
+    .in_menu(TextKey::MenuCertificate)
+    .for_controllers()
+    .disabled_if(|model, targets| {
+        model.any_target_lacks(targets, Feature::KeyImport).then_some(TextKey::WhyLegacyOnly)
+    });
 }
 
 impl Dialog for CaSignedForm {

@@ -8,7 +8,7 @@ use egui::Ui;
 
 use crate::model::{ControllerSeries, Problem};
 use crate::texts::{self, TextKey};
-use crate::ui::model::{Answer, Command, Dialog, FileForm, Message, Model, Place, first_path};
+use crate::ui::model::{Answer, Command, Dialog, FileForm, Message, Model, Place, UiCommand, first_path};
 use crate::ui::picker::FileKind;
 use crate::workspace::{ConnectionList, MAX_CONNECTION_LIST_BYTES, NewConnection, Skipped};
 
@@ -70,6 +70,13 @@ impl ConnectionListForm {
         }
         Ok(())
     }
+}
+
+impl UiCommand {
+    /// Registers the controllers of a connection list.
+    pub const CONNECTION_LIST: Self =
+        Self::new(TextKey::ConnectionList, TextKey::ConnectionListTip, |model, _| model.open_connection_list())
+            .in_menu(TextKey::MenuController);
 }
 
 impl Dialog for ConnectionListForm {

@@ -8,9 +8,8 @@ use egui::Ui;
 
 use crate::pki::PkiKind;
 use crate::texts::TextKey;
-use crate::ui::command::UiCommand;
 use crate::ui::model::{
-    Answer, Choice, Command, Dialog, DropForm, DroppedFile, Hover, JobId, MAX_DROPPED, Message, Model, Place,
+    Answer, Choice, Command, Dialog, DropForm, DroppedFile, Hover, JobId, MAX_DROPPED, Message, Model, Place, UiCommand,
 };
 use crate::workspace::Recognised;
 
@@ -47,19 +46,19 @@ const KEY_AND_CERTIFICATE: Recognised = Recognised::Pki(PkiKind::KeyAndCertifica
 /// be chosen at all is its own affair, see [`UiCommand::why_disabled`].
 #[rustfmt::skip]
 const ROUTES: &[Route] = &[
-    Route { command: UiCommand::Activation, title: TextKey::ActivationTitle, takes: Takes::One(Recognised::Activation), of_one: false, open: Model::open_activation_of },
-    Route { command: UiCommand::ConnectionList, title: TextKey::ConnectionListTitle, takes: Takes::One(Recognised::ConnectionList), of_one: false, open: Model::open_connection_list_of },
-    Route { command: UiCommand::ImportSettings, title: TextKey::ImportTitle, takes: Takes::One(Recognised::SettingsExport), of_one: true, open: Model::open_import_of },
-    Route { command: UiCommand::CaSigned, title: TextKey::CaSignedTitle, takes: Takes::One(CERTIFICATE), of_one: true, open: Model::open_ca_signed_of },
-    Route { command: UiCommand::CaSigned, title: TextKey::CaSignedTitle, takes: Takes::One(CHAIN), of_one: true, open: Model::open_ca_signed_of },
-    Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::Pair(CERTIFICATE, KEY), of_one: true, open: Model::open_user_pair },
-    Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::One(PKCS12), of_one: true, open: Model::open_user_pfx },
-    Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::One(CERTIFICATE), of_one: true, open: Model::open_user_certificate },
-    Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::One(KEY), of_one: true, open: Model::open_user_key },
-    Route { command: UiCommand::UserSpecified, title: TextKey::UserSpecifiedTitle, takes: Takes::Not(KEY_AND_CERTIFICATE, TextKey::WhySplitKey), of_one: true, open: Model::open_nothing },
-    Route { command: UiCommand::ClientLists, title: TextKey::MenuClients, takes: Takes::Any(&[CERTIFICATE, CHAIN, BUNDLE]), of_one: false, open: Model::open_clients_of },
-    Route { command: UiCommand::Crl, title: TextKey::DropCrl, takes: Takes::Any(&[CRL, BUNDLE]), of_one: false, open: Model::open_crls_of },
-    Route { command: UiCommand::CertificateAuthority, title: TextKey::DropAuthority, takes: Takes::One(CSR), of_one: false, open: Model::open_authority_of },
+    Route { command: UiCommand::ACTIVATION, title: TextKey::ActivationTitle, takes: Takes::One(Recognised::Activation), of_one: false, open: Model::open_activation_of },
+    Route { command: UiCommand::CONNECTION_LIST, title: TextKey::ConnectionListTitle, takes: Takes::One(Recognised::ConnectionList), of_one: false, open: Model::open_connection_list_of },
+    Route { command: UiCommand::IMPORT_SETTINGS, title: TextKey::ImportTitle, takes: Takes::One(Recognised::SettingsExport), of_one: true, open: Model::open_import_of },
+    Route { command: UiCommand::CA_SIGNED, title: TextKey::CaSignedTitle, takes: Takes::One(CERTIFICATE), of_one: true, open: Model::open_ca_signed_of },
+    Route { command: UiCommand::CA_SIGNED, title: TextKey::CaSignedTitle, takes: Takes::One(CHAIN), of_one: true, open: Model::open_ca_signed_of },
+    Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::Pair(CERTIFICATE, KEY), of_one: true, open: Model::open_user_pair },
+    Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::One(PKCS12), of_one: true, open: Model::open_user_pfx },
+    Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::One(CERTIFICATE), of_one: true, open: Model::open_user_certificate },
+    Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::One(KEY), of_one: true, open: Model::open_user_key },
+    Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::Not(KEY_AND_CERTIFICATE, TextKey::WhySplitKey), of_one: true, open: Model::open_nothing },
+    Route { command: UiCommand::CLIENT_LISTS, title: TextKey::MenuClients, takes: Takes::Any(&[CERTIFICATE, CHAIN, BUNDLE]), of_one: false, open: Model::open_clients_of },
+    Route { command: UiCommand::CRL, title: TextKey::DropCrl, takes: Takes::Any(&[CRL, BUNDLE]), of_one: false, open: Model::open_crls_of },
+    Route { command: UiCommand::CERTIFICATE_AUTHORITY, title: TextKey::DropAuthority, takes: Takes::One(CSR), of_one: false, open: Model::open_authority_of },
 ];
 
 impl Dialog for DropForm {

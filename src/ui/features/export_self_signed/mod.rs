@@ -7,7 +7,7 @@ use egui::Ui;
 use crate::jobs::ExportSelfSigned;
 use crate::model::FileFormat;
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task, UiCommand};
 use crate::workspace::Workspace;
 
 pub use view::format;
@@ -29,6 +29,17 @@ impl ExportForm {
         let operation = ExportSelfSigned { format: self.format, files: workspace.certificate_files() };
         Task::new(TextKey::ExportSelfSignedTitle, operation).act(TextKey::Export)
     }
+}
+
+impl UiCommand {
+    /// Saves the self-signed certificates on the PC.
+    pub const EXPORT_SELF_SIGNED: Self =
+        Self::new(TextKey::ExportSelfSigned, TextKey::ExportSelfSignedTip, |model, rows| {
+            model.open(ExportForm::new(rows, model));
+            vec![]
+        })
+        .in_menu(TextKey::MenuCertificate)
+        .for_controllers();
 }
 
 impl Dialog for ExportForm {

@@ -5,7 +5,8 @@ mod view;
 use egui::Ui;
 
 use crate::licences::{Component, Licences};
-use crate::ui::model::{Answer, Dialog, Message, Model, Place};
+use crate::texts::TextKey as T;
+use crate::ui::model::{Answer, Dialog, Message, Model, Place, UiCommand};
 
 /// The licences of what is linked in: a list to search, and the texts of one component.
 #[derive(Debug)]
@@ -53,6 +54,15 @@ impl LicencesView {
     pub fn selected(&self) -> Option<&'static Component> {
         Licences::get().components().get(self.selected)
     }
+}
+
+impl UiCommand {
+    /// Shows the licences.
+    pub const LICENCES: Self = Self::new(T::Licences, T::LicencesTip, |model, _| {
+        model.open(LicencesView::default());
+        vec![]
+    })
+    .in_menu(T::MenuHelp);
 }
 
 impl Dialog for LicencesView {

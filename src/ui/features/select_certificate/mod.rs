@@ -11,7 +11,7 @@ use crate::jobs::{ListCertificates, SelectCertificateType};
 use crate::model::{CertificateSummary, CertificateType, Feature, HeldCertificates, Problem, Revisioned, SerialNumber};
 use crate::pki::Certificate;
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task, UiCommand};
 use crate::workspace::CertificateFiles;
 
 /// Which certificate the server uses (manual 2.7.2).
@@ -70,6 +70,13 @@ impl TypeSelectForm {
         let task = || Task::new(TextKey::TypeSelectTitle, SelectCertificateType(kind)).act(TextKey::ActSelectType);
         (!self.reading && self.storing(kind) > 0).then(|| task().restarts_server())
     }
+}
+
+impl UiCommand {
+    /// Chooses which of its certificates a server uses.
+    pub const TYPE_SELECT: Self = Self::new(TextKey::TypeSelect, TextKey::TypeSelectTip, Model::open_type_select)
+        .in_menu(TextKey::MenuCertificate)
+        .for_controllers();
 }
 
 impl Dialog for TypeSelectForm {

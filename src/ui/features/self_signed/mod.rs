@@ -8,9 +8,17 @@ use egui::Ui;
 use crate::jobs;
 use crate::model::FileFormat;
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task, UiCommand};
 
 pub use form::SelfSignedForm;
+
+impl UiCommand {
+    /// Makes a self-signed certificate.
+    pub const SELF_SIGNED: Self =
+        Self::new(TextKey::SelfSigned, TextKey::SelfSignedTip, |model, rows| model.open_self_signed(rows, None))
+            .in_menu(TextKey::MenuCertificate)
+            .for_controllers();
+}
 
 impl Dialog for SelfSignedForm {
     fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {

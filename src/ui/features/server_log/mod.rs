@@ -10,7 +10,7 @@ use egui::Ui;
 use crate::jobs::{LogPart, ReadLog, SaveLog, SetSettings, SettingsChange};
 use crate::model::{LogChunk, foreign_text};
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task, UiCommand};
 
 /// The end of the log, as it was read last.
 #[derive(Debug)]
@@ -137,6 +137,16 @@ fn read_log() -> Task {
         vec![]
     })
     .for_dialog::<LogView>()
+}
+
+impl UiCommand {
+    /// Shows the server log of one controller.
+    pub const SERVER_LOG: Self = Self::new(TextKey::ServerLogCommand, TextKey::ServerLogTip, |model, rows| {
+        rows.first().map(|row| model.open_log(*row)).unwrap_or_default()
+    })
+    .in_menu(TextKey::MenuServer)
+    .for_controllers()
+    .disabled_if(|model, targets| (model.target_count(targets) > 1).then_some(TextKey::WhyOne));
 }
 
 impl Dialog for LogView {

@@ -3,13 +3,21 @@
 mod form;
 mod view;
 
-use egui::Ui;
+use egui::{Key, Modifiers, Ui};
 
 use crate::jobs;
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task, UiCommand};
 
 pub use form::SettingsForm;
+
+impl UiCommand {
+    /// Shows and changes the basic settings.
+    pub const BASIC_SETTINGS: Self = Self::new(TextKey::BasicSettings, TextKey::BasicSettingsTip, Model::open_settings)
+        .in_menu(TextKey::MenuServer)
+        .key(Modifiers::COMMAND, Key::B)
+        .for_controllers();
+}
 
 impl Dialog for SettingsForm {
     fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {

@@ -8,9 +8,11 @@ use egui::Ui;
 use secrecy::SecretString;
 
 use crate::jobs::{ExportSettings, ImportSettings};
-use crate::model::{ControllerInfo, Problem};
+use crate::model::{ControllerInfo, Feature, Problem};
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, ExportFound, JobId, Message, Model, Place, RowId, SecretInput, Task};
+use crate::ui::model::{
+    Answer, Command, Dialog, ExportFound, JobId, Message, Model, Place, RowId, SecretInput, Targets, Task, UiCommand,
+};
 use crate::workspace::{MIN_PASSPHRASE_CHARS, Workspace};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,6 +117,28 @@ fn one_info<'a>(rows: &[RowId], model: &'a Model) -> Option<&'a ControllerInfo> 
         [row] => model.rows.get(*row)?.info(),
         _ => None,
     }
+}
+
+impl UiCommand {
+    /// Saves the settings of legacy controllers.
+    pub const EXPORT_SETTINGS: Self = Self::new(TextKey::ExportSettings, TextKey::ExportSettingsTip, |model, rows| {
+        model.open_transfer(Transfer::Export, rows)
+    })
+    .in_menu(TextKey::MenuServer)
+    .for_controllers()
+    .disabled_if(why_no_transfer);
+
+    /// Puts saved settings back.
+    pub const IMPORT_SETTINGS: Self = Self::new(TextKey::ImportSettings, TextKey::ImportSettingsTip, |model, rows| {
+        model.open_transfer(Transfer::Import, rows)
+    })
+    .in_menu(TextKey::MenuServer)
+    .for_controllers()
+    .disabled_if(why_no_transfer);
+}
+
+fn why_no_transfer(model: &Model, targets: Targets) -> Option<TextKey> {
+    model.any_target_lacks(targets, Feature::SettingsTransfer).then_some(TextKey::WhyLegacyOnly)
 }
 
 impl Dialog for TransferForm {

@@ -25,7 +25,8 @@ mod watch;
 use chrono::{DateTime, Utc};
 use egui::Ui;
 
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place};
+use crate::texts::TextKey as T;
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, UiCommand};
 
 pub use add::{AddFile, AddTrustForm, MAX_TRUST_FILES};
 pub use change::change_task;
@@ -60,6 +61,19 @@ pub enum TrustAction {
     LeaveOut(usize),
     /// Another destination was chosen.
     Replan,
+}
+
+impl UiCommand {
+    /// Trusted, rejected and issuers.
+    pub const CLIENT_LISTS: Self =
+        Self::new(T::ClientLists, T::ClientListsTip, |model, rows| model.open_trust(Shows::Clients, rows))
+            .in_menu(T::MenuCertificate)
+            .for_controllers();
+
+    /// Certificate revocation lists.
+    pub const CRL: Self = Self::new(T::Crl, T::CrlTip, |model, rows| model.open_trust(Shows::Crls, rows))
+        .in_menu(T::MenuCertificate)
+        .for_controllers();
 }
 
 impl Dialog for TrustForm {

@@ -5,13 +5,21 @@ mod view;
 
 use std::collections::BTreeSet;
 
-use egui::Ui;
+use egui::{Key, Modifiers, Ui};
 
 use crate::jobs::{self, RemoveUsers};
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task, UiCommand};
 
 pub use form::{AddUserForm, UsersForm};
+
+impl UiCommand {
+    /// Lists, adds and deletes users.
+    pub const USERS: Self = Self::new(TextKey::Users, TextKey::UsersTip, Model::open_users)
+        .in_menu(TextKey::MenuServer)
+        .key(Modifiers::COMMAND, Key::U)
+        .for_controllers();
+}
 
 impl Dialog for UsersForm {
     fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {

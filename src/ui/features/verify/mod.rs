@@ -10,7 +10,7 @@ use crate::jobs::{TrustConfigurator, Verify, VerifyReport};
 use crate::model::{Credential, ErrorCode, Problem, UserName, UserPassword};
 use crate::session::opcua_client::ConnectTimeouts;
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task};
+use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task, UiCommand};
 use crate::ui::shell::processing::ProcessingDialog;
 
 /// The reports of one or more controllers. Not to be seen before all of them are there.
@@ -62,6 +62,12 @@ impl VerifyView {
         let password = UserPassword::new(&self.password.0).map_err(|_| TextKey::UserRule)?;
         Ok(Some(Credential { name, password }))
     }
+}
+
+impl UiCommand {
+    /// Connects to the servers as a client.
+    pub const VERIFY: Self =
+        Self::new(TextKey::Verify, TextKey::VerifyTip, Model::verify).in_menu(TextKey::MenuTools).for_controllers();
 }
 
 impl Dialog for VerifyView {
