@@ -98,6 +98,7 @@ macro_rules! packet {
             ];
 
             /// Looks at the bytes of a packet. Checks nothing.
+            #[inline(always)]
             pub const fn new(bytes: &'a [u8; $size]) -> Self {
                 Self(bytes)
             }
@@ -116,6 +117,7 @@ macro_rules! packet {
             )*
 
             /// Reads every field.
+            #[inline(always)]
             pub fn to_packet(self) -> $owned {
                 $owned { $($field: self.$field(),)* }
             }
@@ -145,9 +147,10 @@ macro_rules! packet {
 
             #[inline(always)]
             fn read(bytes: &[u8], at: usize) -> Self {
-                let mut packet = [0; $size];
-                packet.copy_from_slice(&bytes[at..at + $size]);
-                $view::new(&packet).to_packet()
+                match bytes[at..].first_chunk() {
+                    Some(packet) => $view::new(packet).to_packet(),
+                    None => panic!("{} bytes do not fit behind byte {at}", $size),
+                }
             }
 
             #[inline(always)]
@@ -160,10 +163,10 @@ macro_rules! packet {
 
 pub(crate) use packet;
 
-/// The field that holds the byte at `offset`, or that begins after it.
+/// The field that holds the byte at `offset`; bytes between two fields are reserved.
 pub(crate) fn field_at(fields: &[Field], offset: usize) -> Field {
-    let end = Field { name: "end", offset, size: 0 };
-    fields.iter().find(|field| offset < field.offset + field.size).copied().unwrap_or(end)
+    let reserved = Field { name: "reserved", offset, size: 1 };
+    fields.iter().find(|field| (field.offset..field.offset + field.size).contains(&offset)).copied().unwrap_or(reserved)
 }
 
 #[cfg(test)]
@@ -184,6 +187,6 @@ pub(crate) mod tests {
     fn a_byte_belongs_to_the_field_that_holds_it() {
         let fields = [Field { name: "a", offset: 1, size: 2 }, Field { name: "b", offset: 4, size: 1 }];
         let names = [0, 1, 2, 3, 4, 5].map(|offset| field_at(&fields, offset).name);
-        assert_eq!(names, ["a", "a", "a", "b", "b", "end"]);
+        assert_eq!(names, ["reserved", "a", "a", "reserved", "b", "reserved"]);
     }
 }

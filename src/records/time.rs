@@ -91,25 +91,43 @@ impl ControllerTime {
         }
     }
 
+    /// Whether every field is in its range. Looks at nothing else: February 31 is in range, the unset time is not.
+    #[inline(always)]
+    pub(crate) fn is_in_range(self) -> bool {
+        let Self { year, month, day, hour, minute, second, millisecond } = self;
+        // Without branches: every record of a recording is looked at.
+        (1970..10_000).contains(&year)
+            & (month.wrapping_sub(1) < 12)
+            & (day.wrapping_sub(1) < 31)
+            & (hour < 24)
+            & (minute < 60)
+            & (second < 60)
+            & (0..1000).contains(&millisecond)
+    }
+
     /// The first of its fields that is out of range: its name, its offset in the nine bytes, its value, and the range.
     /// The unset time has none.
     pub(crate) fn mistake(self) -> Option<(&'static str, usize, u64, &'static str)> {
-        if self == Self::default() {
+        if self.is_in_range() || self == Self::default() {
             return None;
         }
         let number = |value: i16| u64::from(value.cast_unsigned());
-        [
-            ("Year", 0, number(self.year), (1970..10_000).contains(&self.year), "expected 1970 to 9999"),
-            ("Month", 2, self.month.into(), (1..=12).contains(&self.month), "expected 1 to 12"),
-            ("Day", 3, self.day.into(), (1..=31).contains(&self.day), "expected 1 to 31"),
-            ("Hour", 4, self.hour.into(), self.hour < 24, "expected 0 to 23"),
-            ("Minutes", 5, self.minute.into(), self.minute < 60, "expected 0 to 59"),
-            ("Second", 6, self.second.into(), self.second < 60, "expected 0 to 59"),
-            ("MilliSecond", 7, number(self.millisecond), (0..1000).contains(&self.millisecond), "expected 0 to 999"),
-        ]
-        .into_iter()
-        .find(|(_, _, _, good, _)| !good)
-        .map(|(name, offset, found, _, expected)| (name, offset, found, expected))
+        let Self { year, month, day, hour, minute, second, millisecond } = self;
+        Some(if !(1970..10_000).contains(&year) {
+            ("Year", 0, number(year), "expected 1970 to 9999")
+        } else if !(1..=12).contains(&month) {
+            ("Month", 2, month.into(), "expected 1 to 12")
+        } else if !(1..=31).contains(&day) {
+            ("Day", 3, day.into(), "expected 1 to 31")
+        } else if hour > 23 {
+            ("Hour", 4, hour.into(), "expected 0 to 23")
+        } else if minute > 59 {
+            ("Minutes", 5, minute.into(), "expected 0 to 59")
+        } else if second > 59 {
+            ("Second", 6, second.into(), "expected 0 to 59")
+        } else {
+            ("MilliSecond", 7, number(millisecond), "expected 0 to 999")
+        })
     }
 }
 

@@ -17,6 +17,9 @@ use opcua_configurator::protocol::{
     ImportCertificate, ImportCsr, ImportSettings, Installed, Login, MakeCsr, MakeSelfSigned, RemoveUsers,
     SelectCertificate, Session, SetSettings, SettingsExport, WireSecret,
 };
+use opcua_configurator::records::force::{AllData, DataHead, ForceDataType, ForceFooter, ForceHeader, Header};
+use opcua_configurator::records::motion::{Encoder, MotionBlock};
+use opcua_configurator::records::{ControllerTime, Label, Ticks};
 use opcua_configurator::virtual_controller::{
     Faults, Identity, KeyPair, PendingCsr, SecretBytes, State, Store, StoredCertificate, demo_keys,
     hash_connection_password,
@@ -42,6 +45,7 @@ pub fn write(corpus: &Path) {
     seeds.trust();
     seeds.messages();
     seeds.controller_state();
+    seeds.records();
     seeds.practice();
     seeds.everything();
 }
@@ -136,6 +140,38 @@ impl Seeds<'_> {
         let odd = "Name,Type,Address\n\"Cell, 9\",ethernet,\"[fe80::1]:8000\"\n,Ethernet,10.0.0.999\nx,Bluetooth\n\
                    \"two\nlines\",USB,\nCell 9,Ethernet,robot.plant.example:7943\n";
         self.seed("connection_list", "odd", odd);
+    }
+
+    /// One packet of every kind and DataType.
+    fn records(&self) {
+        let start = ControllerTime { year: 2026, month: 6, day: 1, hour: 8, minute: 30, ..ControllerTime::default() };
+        let robot_name = Label::new("robot1");
+        let sensor_label = Label::from_bytes(&[0x97, 0xcd, 0x8a, 0x6f]);
+        let header = Header { id: 7, start, interval: 0.002, robot_name, sensor_label, ..Header::default() };
+        self.seed("force_packet", "header-1", ForceHeader { header, record_start: None }.encode());
+        self.seed("force_packet", "header-2", ForceHeader { header, record_start: Some(Ticks(80_000_000)) }.encode());
+        for data_type in ForceDataType::ALL {
+            let mut bytes = Vec::new();
+            for count in 0..3 {
+                let head = DataHead { version: 2, id: 7, count, elapsed: 2 * count, ..DataHead::default() };
+                AllData { head, time: start, ..AllData::default() }.reduced(data_type).encode_into(&mut bytes);
+            }
+            self.seed("force_packet", &format!("data-{}", data_type.number()), bytes);
+        }
+        let footer = ForceFooter { version: 2, id: 7, end: start, robot_name, ..ForceFooter::default() };
+        self.seed("force_packet", "footer", footer.encode());
+        let mut bytes = Vec::new();
+        let mut block = MotionBlock::default();
+        for number in 1..3 {
+            for (axis, encoders) in block.encoders.iter_mut().enumerate() {
+                encoders[0] =
+                    Encoder { timestamp: Ticks(number * 80_000), position: axis as i64 - 3, timer: 1, temperature: 40 };
+            }
+            block.force_sensor.axes.force = [1, -2, 131_071];
+            block.tcp.components[0] = 250.5;
+            block.encode_into(&mut bytes);
+        }
+        self.seed("motion_packet", "two-blocks", bytes);
     }
 
     /// Files of other tools, which the tests read too.

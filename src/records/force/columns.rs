@@ -1,7 +1,15 @@
-use super::data::{AllView, ForceDataType, ForceView, Forces, HeadView, MotionView, PositionView, TcpSpeed};
+use super::data::{AllView, DataHead, ForceDataType, ForceView, Forces, MotionView, PositionView, TcpSpeed};
 use super::read::DataRecords;
 use crate::records::columns::{Column, NO_TIME, Values};
 use crate::records::time::ControllerTime;
+
+/// Appends to each column its value of each record. Column by column, because a loop over one column of many records
+/// is several times as fast as one over many columns of one record; the compiler has to see each column's number.
+macro_rules! extend_each {
+    ($columns:expr, $records:expr, $values:expr, $($index:literal)*) => {
+        $($columns[$index].extend($records.iter().map(|record| $values(record)[$index]));)*
+    };
+}
 
 /// Force sensor data as columns. A group that the DataType does not hold stays empty; every other column has one value
 /// for each record.
@@ -41,61 +49,57 @@ impl ForceColumns {
     pub fn extend(&mut self, records: DataRecords<'_>) {
         match records {
             DataRecords::All(records) => {
-                self.extend_by(records, AllView::new);
-                for record in records {
-                    let record = AllView::new(record);
-                    push(&mut self.reference, record.reference());
-                    push(&mut self.correction, record.correction());
-                    self.force_control.push(record.force_control());
-                    self.push_forces(record.forces());
-                    self.push_motion(record.speed(), record.joints(), record.overload(), record.time());
+                for records in records.chunks(TOGETHER) {
+                    self.extend_by(records, AllView::new);
+                    extend_each!(self.forces, records, |record| forces(AllView::new(record).forces()), 0 1 2 3 4 5 6 7);
+                    extend_each!(self.reference, records, |record| AllView::new(record).reference(), 0 1 2 3 4 5);
+                    extend_each!(self.correction, records, |record| AllView::new(record).correction(), 0 1 2);
+                    extend_each!(self.speed, records, |record| speed(AllView::new(record).speed()), 0 1 2 3);
+                    extend_each!(self.joints, records, |record| AllView::new(record).joints(), 0 1 2 3 4 5);
+                    extend_each!(self.overload, records, |record| AllView::new(record).overload(), 0 1 2 3 4 5);
+                    self.force_control.extend(records.iter().map(|record| AllView::new(record).force_control()));
+                    self.extend_time(records, |record| AllView::new(record).time());
                 }
             }
             DataRecords::Motion(records) => {
-                self.extend_by(records, MotionView::new);
-                for record in records {
-                    let record = MotionView::new(record);
-                    self.push_motion(record.speed(), record.joints(), record.overload(), record.time());
+                for records in records.chunks(TOGETHER) {
+                    self.extend_by(records, MotionView::new);
+                    extend_each!(self.speed, records, |record| speed(MotionView::new(record).speed()), 0 1 2 3);
+                    extend_each!(self.joints, records, |record| MotionView::new(record).joints(), 0 1 2 3 4 5);
+                    extend_each!(self.overload, records, |record| MotionView::new(record).overload(), 0 1 2 3 4 5);
+                    self.extend_time(records, |record| MotionView::new(record).time());
                 }
             }
             DataRecords::Force(records) => {
-                self.extend_by(records, ForceView::new);
-                for record in records {
-                    self.push_forces(ForceView::new(record).forces());
+                for records in records.chunks(TOGETHER) {
+                    self.extend_by(records, ForceView::new);
+                    extend_each!(self.forces, records, |record| forces(ForceView::new(record).forces()), 0 1 2 3 4 5 6 7);
                 }
             }
-            DataRecords::Position(records) => self.extend_by(records, PositionView::new),
+            DataRecords::Position(records) => {
+                for records in records.chunks(TOGETHER) {
+                    self.extend_by(records, PositionView::new);
+                }
+            }
         }
     }
 
     /// The groups that every DataType has.
-    fn extend_by<'a, const N: usize, V: Common>(&mut self, records: &'a [[u8; N]], view: impl Fn(&'a [u8; N]) -> V) {
-        for record in records {
-            let Some(head) = record.first_chunk().map(HeadView::new) else { continue };
-            self.id.push(head.id());
-            self.count.push(head.count());
-            self.elapsed.push(head.elapsed());
-            let record = view(record);
-            push(&mut self.position, record.position());
-            let (step_id, sequence_no, object_no, monitor_no) = record.numbers();
-            self.step_id.push(step_id);
-            self.sequence_no.push(sequence_no);
-            self.object_no.push(object_no);
-            self.monitor_no.push(monitor_no);
-        }
+    fn extend_by<'a, const N: usize, V: Common>(&mut self, records: &'a [[u8; N]], view: fn(&'a [u8; N]) -> V) {
+        let views = || records.iter().map(view);
+        self.id.extend(views().map(|record| record.head().id));
+        self.count.extend(views().map(|record| record.head().count));
+        self.elapsed.extend(views().map(|record| record.head().elapsed));
+        extend_each!(self.position, records, |record| view(record).position(), 0 1 2 3 4 5);
+        self.step_id.extend(views().map(|record| record.numbers().0));
+        self.sequence_no.extend(views().map(|record| record.numbers().1));
+        self.object_no.extend(views().map(|record| record.numbers().2));
+        self.monitor_no.extend(views().map(|record| record.numbers().3));
     }
 
-    fn push_forces(&mut self, forces: Forces) {
-        let Forces { force, torque, force_magnitude, torque_magnitude } = forces;
-        push(&mut self.forces, force.into_iter().chain(torque).chain([force_magnitude, torque_magnitude]));
-    }
-
-    fn push_motion(&mut self, speed: TcpSpeed, joints: [f32; 6], overload: [u8; 6], time: ControllerTime) {
-        let [x, y, z] = speed.components;
-        push(&mut self.speed, [speed.speed, x, y, z]);
-        push(&mut self.joints, joints);
-        push(&mut self.overload, overload);
-        self.time.push(self.day.milliseconds(time));
+    fn extend_time<const N: usize>(&mut self, records: &[[u8; N]], time: impl Fn(&[u8; N]) -> ControllerTime) {
+        let Self { time: column, day, .. } = self;
+        column.extend(records.iter().map(|record| day.milliseconds(time(record))));
     }
 
     /// How many records the columns hold.
@@ -186,15 +190,26 @@ impl<'a> Listed<'a> {
     }
 }
 
-/// Appends one value to each column.
-fn push<T>(columns: &mut [Vec<T>], values: impl IntoIterator<Item = T>) {
-    for (column, value) in columns.iter_mut().zip(values) {
-        column.push(value);
-    }
+/// Records that are taken apart together: few enough that they stay in the fastest cache while every field is read.
+const TOGETHER: usize = 64;
+
+/// The order of [`ForceColumns::forces`].
+#[inline(always)]
+const fn forces(forces: Forces) -> [f32; 8] {
+    let Forces { force: [fx, fy, fz], torque: [tx, ty, tz], force_magnitude, torque_magnitude } = forces;
+    [fx, fy, fz, tx, ty, tz, force_magnitude, torque_magnitude]
+}
+
+/// The order of [`ForceColumns::speed`].
+#[inline(always)]
+const fn speed(speed: TcpSpeed) -> [f32; 4] {
+    let [x, y, z] = speed.components;
+    [speed.speed, x, y, z]
 }
 
 /// The groups that every DataType has.
 trait Common {
+    fn head(&self) -> DataHead;
     fn position(&self) -> [f32; 6];
     /// StepID, SeqNo, ObjectNo, FMNo.
     fn numbers(&self) -> (u32, u8, u8, i16);
@@ -203,6 +218,11 @@ trait Common {
 macro_rules! common {
     ($($view:ident),*) => {$(
         impl Common for $view<'_> {
+            #[inline(always)]
+            fn head(&self) -> DataHead {
+                $view::head(*self)
+            }
+
             #[inline(always)]
             fn position(&self) -> [f32; 6] {
                 $view::position(*self)

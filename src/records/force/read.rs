@@ -276,9 +276,13 @@ fn alike<'a, const N: usize>(bytes: &'a [u8], fields: &[Field]) -> Result<&'a [[
 }
 
 fn times<const N: usize>(records: &[[u8; N]], offset: usize) -> Result<(), RecordError> {
+    let time = |record: &[u8; N]| ControllerTime::read(record, offset);
+    if records.iter().all(|record| time(record).is_in_range()) {
+        return Ok(());
+    }
     records.iter().enumerate().try_for_each(|(record, bytes)| {
         let place = Place { packet: PacketKind::ForceData, record, start: record * N };
-        place.time(offset, ControllerTime::read(bytes, offset))
+        place.time(offset, time(bytes))
     })
 }
 

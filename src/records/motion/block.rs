@@ -213,6 +213,19 @@ impl<'a> BlockView<'a> {
         self.timestamps().map(|(_, ticks)| ticks).filter(|ticks| ticks.is_some()).max()
     }
 
+    /// Every bit that any time stamp has.
+    fn timestamps_united(self) -> u64 {
+        let mut united =
+            self.force_sensor().timestamp().0 | self.pulse_counters().timestamp().0 | self.tcp().timestamp().0;
+        for sample in 0..SAMPLES {
+            for axis in 0..AXES {
+                united |= self.encoder(axis, sample).timestamp().0 | self.drive_command(axis, sample).timestamp().0;
+            }
+            united |= self.real_time_io(sample).timestamp().0 | self.standard_io(sample).timestamp().0;
+        }
+        united
+    }
+
     /// Every time stamp with its offset in the block.
     fn timestamps(self) -> impl Iterator<Item = (usize, Ticks)> {
         let strides = [24, 24, 24, 24, 24, 24, 20, 20, 20, 20, 20, 20, 16, 24, 72, 24, 80];
@@ -279,7 +292,7 @@ impl<'a> MotionRead<'a> {
         }
         for (record, block) in blocks.iter().enumerate() {
             let block = BlockView::new(block);
-            if block.timestamps().fold(0, |all, (_, ticks)| all | ticks.0) < Ticks::LIMIT.0 {
+            if block.timestamps_united() < Ticks::LIMIT.0 {
                 continue;
             }
             if let Some((offset, ticks)) = block.timestamps().find(|(_, ticks)| *ticks >= Ticks::LIMIT) {

@@ -14,6 +14,8 @@ pub mod pki;
 #[path = "../../../src/protocol/mod.rs"]
 pub mod protocol;
 pub mod readers;
+#[path = "../../../src/records/mod.rs"]
+pub mod records;
 pub mod virtual_controller;
 #[path = "../../../src/workspace/mod.rs"]
 pub mod workspace;

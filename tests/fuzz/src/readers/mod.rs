@@ -10,6 +10,7 @@ mod keys;
 mod lists;
 mod messages;
 mod names;
+mod records;
 mod trust;
 mod workspace;
 
@@ -20,6 +21,7 @@ pub use keys::{key_and_certificate, pkcs12, private_key};
 pub use lists::{activation_file, connection_list};
 pub use messages::{management_message, settings_export};
 pub use names::names;
+pub use records::{force_packet, motion_packet};
 pub use trust::{bundle, revocation_list, trust};
 pub use workspace::configuration;
 
@@ -36,8 +38,10 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("connection_list", connection_list),
     ("controller_state", controller_state),
     ("description", description),
+    ("force_packet", force_packet),
     ("key_and_certificate", key_and_certificate),
     ("management_message", management_message),
+    ("motion_packet", motion_packet),
     ("names", names),
     ("pkcs12", pkcs12),
     ("private_key", private_key),
