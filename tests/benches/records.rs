@@ -4,6 +4,7 @@
 //! `cargo bench --bench records -- [BLOCKS]`; 8,000 without an argument. NumPy is taken from the Python of `RECORDS_PYTHON`
 //! or from `python3`; without it, its lines are missing.
 
+#[allow(dead_code, reason = "other benches need more of it")]
 mod report;
 
 use std::hint::black_box;
