@@ -2,7 +2,7 @@ use clap::Subcommand;
 use serde_json::json;
 
 use super::output::json_path;
-use super::{CommandContext, Ending};
+use super::{CommandContext, CommandOutcome};
 use crate::model::Problem;
 use crate::texts::cli as texts;
 
@@ -16,7 +16,7 @@ pub enum BackupCommand {
     Show,
 }
 
-pub fn run(cli: &CommandContext, command: BackupCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: BackupCommand) -> Result<CommandOutcome, Problem> {
     let backup = match command {
         BackupCommand::Show => cli.configuration()?.options.backup,
         BackupCommand::On | BackupCommand::Off => {
@@ -33,5 +33,5 @@ pub fn run(cli: &CommandContext, command: BackupCommand) -> Result<Ending, Probl
     } else {
         cli.output.text(&texts::backup(cli.output.language(), backup, root.display()));
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }

@@ -9,27 +9,27 @@ use parking_lot::Mutex;
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
 
-use super::cell::Cell;
 use super::output::say;
 use super::table::table;
-use super::{CommandContext, Ending, runtime};
+use super::table_cell::TableCell;
+use super::{CommandContext, CommandOutcome, runtime};
 use crate::jobs::{
-    self, CertificateChecked, Confirmation, Done, JobContext, JobController, JobEvent, Operation, OperationOutput,
-    Report,
+    self, CertificateChecked, Confirmation, ControllerReport, JobContext, JobController, JobEvent, NoOutput, Operation,
+    OperationOutput,
 };
 use crate::model::{ControllerInfo, ErrorCode, Problem, clock};
 use crate::pki::Severity;
 use crate::platform::stop_signal::StopSignals;
 use crate::session::Connectors;
 use crate::texts::{TextKey, cli as texts};
-use crate::workspace::{Configuration, ControllerEntry, Retrieved, WorkspaceLock};
+use crate::workspace::{Configuration, ControllerEntry, RetrievedInfo, WorkspaceLock};
 
 /// What is shown of one controller's success.
-pub struct Shown {
+pub struct PrintedResult {
     /// `result` of the JSON line.
     pub json: Value,
     /// One row of the table, after the name.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<TableCell>,
 }
 
 /// How the results of an operation are printed. `O`: the operation's [`Operation::Output`].
@@ -37,21 +37,23 @@ pub struct Presentation<O> {
     /// Column headings after `NAME`.
     pub header: &'static [TextKey],
     /// One result, with the information that was read from the controller afterwards.
-    pub show: fn(&O, &ControllerInfo) -> Shown,
+    pub show: fn(&O, &ControllerInfo) -> PrintedResult,
 }
 
 /// The usual: the server's state after the change.
-pub const STATE: Presentation<Done> = Presentation {
+pub const STATE: Presentation<NoOutput> = Presentation {
     header: &[TextKey::HeadingStatus, TextKey::HeadingRevision],
-    show: |_, info| Shown {
+    show: |_, info| PrintedResult {
         json: json!({ "status": info.status, "revision": info.revision }),
         cells: vec![info.status.into(), info.revision.to_string().into()],
     },
 };
 
-impl Ending {
-    pub fn of<O: OperationOutput>(reports: &[Report<O>]) -> Self {
-        let good = |report: &Report<O>| report.result.as_ref().is_ok_and(|output| output.facts().shortcoming.is_none());
+impl CommandOutcome {
+    pub fn of<O: OperationOutput>(reports: &[ControllerReport<O>]) -> Self {
+        let good = |report: &ControllerReport<O>| {
+            report.result.as_ref().is_ok_and(|output| output.facts().shortcoming.is_none())
+        };
         if reports.iter().all(good) { Self::AllDone } else { Self::SomeFailed }
     }
 }
@@ -76,12 +78,12 @@ impl CommandContext {
         chosen: &[ControllerEntry],
         operation: impl Operation<Output = O> + 'static,
         presentation: &Presentation<O>,
-    ) -> Result<Ending, Problem> {
+    ) -> Result<CommandOutcome, Problem> {
         let reports = self.reports(configuration, chosen, operation, presentation)?;
         if !self.output.is_json() {
             self.print(chosen, &reports, presentation);
         }
-        Ok(Ending::of(&reports))
+        Ok(CommandOutcome::of(&reports))
     }
 
     /// As [`CommandContext::batch`], but without `--json` the printing is left to the caller.
@@ -91,7 +93,7 @@ impl CommandContext {
         chosen: &[ControllerEntry],
         operation: impl Operation<Output = O> + 'static,
         presentation: &Presentation<O>,
-    ) -> Result<Vec<Report<O>>, Problem> {
+    ) -> Result<Vec<ControllerReport<O>>, Problem> {
         if let Some(confirmation) = operation.confirmation() {
             self.confirm(confirmation, chosen, &[])?;
         }
@@ -105,8 +107,8 @@ impl CommandContext {
         configuration: &Configuration,
         chosen: &[ControllerEntry],
         operation: impl Operation<Output = O> + 'static,
-        on_report: impl Fn(&str, &Report<O>) + Send + Sync + 'static,
-    ) -> Result<Vec<Report<O>>, Problem> {
+        on_report: impl Fn(&str, &ControllerReport<O>) + Send + Sync + 'static,
+    ) -> Result<Vec<ControllerReport<O>>, Problem> {
         let context = self.context(configuration.options.parallelism)?;
         let controllers: Vec<JobController> = chosen.iter().map(JobController::from).collect();
         let reports = self.run_job(controllers, Arc::new(operation), context, on_report)?;
@@ -130,7 +132,7 @@ impl CommandContext {
         import: impl FnOnce(bool) -> I,
         accept_warnings: bool,
         presentation: &Presentation<O>,
-    ) -> Result<Ending, Problem> {
+    ) -> Result<CommandOutcome, Problem> {
         if accept_warnings || self.output.is_json() || !self.asks() {
             return self.batch(configuration, chosen, import(accept_warnings), presentation);
         }
@@ -152,7 +154,7 @@ impl CommandContext {
             // The import says for each why it is refused, and sends nothing.
             let reports = self.confirmed(configuration, chosen, import(false), |_, _| {})?;
             self.print(chosen, &reports, presentation);
-            return Ok(Ending::of(&reports));
+            return Ok(CommandOutcome::of(&reports));
         }
         remarks.dedup();
         let import = import(true);
@@ -161,11 +163,14 @@ impl CommandContext {
         }
         let reports = self.confirmed(configuration, chosen, import, |_, _| {})?;
         self.print(chosen, &reports, presentation);
-        Ok(Ending::of(&reports))
+        Ok(CommandOutcome::of(&reports))
     }
 
     /// What prints the JSON line of a controller as soon as it is finished; nothing without `--json`.
-    fn json_lines<O: OperationOutput>(&self, presentation: &Presentation<O>) -> impl Fn(&str, &Report<O>) + use<O> {
+    fn json_lines<O: OperationOutput>(
+        &self,
+        presentation: &Presentation<O>,
+    ) -> impl Fn(&str, &ControllerReport<O>) + use<O> {
         let (output, show) = (self.output, presentation.show);
         move |name, report| {
             if !output.is_json() {
@@ -179,7 +184,7 @@ impl CommandContext {
             let shown = report.info.as_ref().map(|info| show(result, info).json);
             match (result.facts().shortcoming, shown) {
                 (None, shown) => output.done(name, &shown.unwrap_or(Value::Null)),
-                (Some(problem), Some(shown)) => output.fell_short(name, &problem, &shown),
+                (Some(problem), Some(shown)) => output.done_with_shortcoming(name, &problem, &shown),
                 (Some(problem), None) => output.failed(name, &problem),
             }
         }
@@ -190,12 +195,13 @@ impl CommandContext {
         controllers: Vec<JobController>,
         operation: Arc<dyn Operation<Output = O>>,
         context: JobContext,
-        on_report: impl Fn(&str, &Report<O>) + Send + Sync + 'static,
-    ) -> Result<Vec<Report<O>>, Problem> {
+        on_report: impl Fn(&str, &ControllerReport<O>) + Send + Sync + 'static,
+    ) -> Result<Vec<ControllerReport<O>>, Problem> {
         let count = controllers.len();
         let names: Vec<String> = controllers.iter().map(|c| c.name.to_string()).collect();
         let progress = if self.output.shows_progress() { bar(count) } else { ProgressBar::hidden() };
-        let slots: Arc<Mutex<Vec<Option<Report<O>>>>> = Arc::new(Mutex::new((0..count).map(|_| None).collect()));
+        let slots: Arc<Mutex<Vec<Option<ControllerReport<O>>>>> =
+            Arc::new(Mutex::new((0..count).map(|_| None).collect()));
         let finished = Arc::new(AtomicUsize::new(0));
         let on_event = {
             let (slots, progress) = (slots.clone(), progress.clone());
@@ -234,7 +240,7 @@ impl CommandContext {
     }
 
     /// Keeps what was read for the window. A window that is open keeps its own.
-    fn remember<O>(&self, chosen: &[ControllerEntry], reports: &[Report<O>]) {
+    fn remember<O>(&self, chosen: &[ControllerEntry], reports: &[ControllerReport<O>]) {
         let now = clock::now();
         let keep = || -> Result<(), Problem> {
             let lock = self.lock()?;
@@ -242,7 +248,7 @@ impl CommandContext {
             for (entry, report) in chosen.iter().zip(reports) {
                 let found = configuration.controllers.iter_mut().find(|c| c.name == entry.name);
                 if let (Some(entry), Some(info)) = (found, &report.info) {
-                    entry.last = Some(Retrieved { at: now, info: info.clone() });
+                    entry.last = Some(RetrievedInfo { at: now, info: info.clone() });
                 }
             }
             Ok(self.workspace.save(&configuration, &lock)?)
@@ -255,7 +261,7 @@ impl CommandContext {
     fn print<O: OperationOutput>(
         &self,
         chosen: &[ControllerEntry],
-        reports: &[Report<O>],
+        reports: &[ControllerReport<O>],
         presentation: &Presentation<O>,
     ) {
         let language = self.output.language();

@@ -3,22 +3,21 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 use serde_json::{Value, json};
 
-use super::batch::{Presentation, STATE, Shown};
-use super::cell::Cell;
+use super::batch::{Presentation, PrintedResult, STATE};
+use super::controller_selection::{ControllerSelection, ItemsThenControllers};
 use super::output::{json_path, json_paths};
 use super::secret_file::read_secret;
-use super::select::{Select, ThingsThenSelect};
-use super::{CommandContext, Ending};
+use super::table_cell::TableCell;
+use super::{CommandContext, CommandOutcome};
 use crate::jobs::{
-    CaCertificateSource, CertificateExported, CertificateImported, CertificateMade, CertificateRestored,
-    CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate, CreateCsr, CsrFields, CsrSaved, ExportSelfSigned,
-    ImportCaCertificate, ImportUserCertificate, RestoreCertificate, SelectCertificateType, SelfSigned,
-    SelfSignedFields, UserCertificateFiles,
+    BackupRestored, CaSignedSource, CertificateExported, CertificateImported, CertificateMade, CheckBackup,
+    CheckCaSigned, CheckUserSpecified, CreateCsr, CsrFields, CsrSaved, ExportSelfSigned, ImportCaSigned,
+    ImportUserSpecified, RestoreBackup, SelectCertificateType, SelfSigned, SelfSignedFields, UserSpecifiedFiles,
 };
 use crate::model::{
     CertificateSummary, CertificateType, ErrorCode, FileFormat, KeyLength, Language, Problem, Validity,
 };
-use crate::pki::{Finding, Severity};
+use crate::pki::{CertificateFinding, Severity};
 use crate::texts::TextKey;
 use crate::workspace::{BackupKind, Configuration, ControllerEntry, KeyBackupSource};
 
@@ -36,7 +35,7 @@ pub enum CertCommand {
         #[command(flatten)]
         warnings: WarningsArgs,
         #[command(flatten)]
-        select: Select,
+        select: ControllerSelection,
     },
     /// Import key and certificate made with another tool into one controller with firmware below 8.0.0: FILE.pfx
     /// CONTROLLER, or CERTIFICATE KEYFILE CONTROLLER
@@ -47,22 +46,22 @@ pub enum CertCommand {
         #[command(flatten)]
         warnings: WarningsArgs,
         #[command(flatten)]
-        arguments: ThingsThenSelect,
+        arguments: ItemsThenControllers,
     },
     /// Select which of the certificates held the server uses
     #[command(name = "select")]
     SelectType {
         #[arg(value_name = "TYPE")]
-        kind: Kind,
+        kind: CertificateTypeArg,
         #[command(flatten)]
-        select: Select,
+        select: ControllerSelection,
     },
     /// Put a backup of a key back into controllers with firmware below 8.0.0, as what it was made as
     Restore {
         /// What it is a backup of: a self-signed certificate with its key (Cert/SelfSigned/1_key.pfx), or a signing
         /// request with its key and the certificate from the CA (Cert/CASigned/3_key.pfx)
         #[arg(value_name = "TYPE")]
-        kind: BackupOf,
+        kind: BackupKindArg,
         /// This key file instead, such as one that was moved into a folder named after its date; for one controller
         #[arg(long)]
         file: Option<PathBuf>,
@@ -72,14 +71,14 @@ pub enum CertCommand {
         #[command(flatten)]
         warnings: WarningsArgs,
         #[command(flatten)]
-        select: Select,
+        select: ControllerSelection,
     },
     /// Save the self-signed certificate as Cert/SelfSigned/1_cert in the controller's folder of the workspace
     Export {
-        #[arg(long, value_enum, default_value_t = Format::Der)]
-        format: Format,
+        #[arg(long, value_enum, default_value_t = FileFormatArg::Der)]
+        format: FileFormatArg,
         #[command(flatten)]
-        select: Select,
+        select: ControllerSelection,
     },
 }
 
@@ -92,48 +91,48 @@ pub struct WarningsArgs {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Kind {
+pub enum CertificateTypeArg {
     SelfSigned,
     User,
     Ca,
 }
 
-impl From<Kind> for CertificateType {
-    fn from(kind: Kind) -> Self {
+impl From<CertificateTypeArg> for CertificateType {
+    fn from(kind: CertificateTypeArg) -> Self {
         match kind {
-            Kind::SelfSigned => Self::SelfSigned,
-            Kind::User => Self::UserSpecified,
-            Kind::Ca => Self::CaSigned,
+            CertificateTypeArg::SelfSigned => Self::SelfSigned,
+            CertificateTypeArg::User => Self::UserSpecified,
+            CertificateTypeArg::Ca => Self::CaSigned,
         }
     }
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum BackupOf {
+pub enum BackupKindArg {
     SelfSigned,
     Ca,
 }
 
-impl From<BackupOf> for BackupKind {
-    fn from(kind: BackupOf) -> Self {
+impl From<BackupKindArg> for BackupKind {
+    fn from(kind: BackupKindArg) -> Self {
         match kind {
-            BackupOf::SelfSigned => Self::SelfSigned,
-            BackupOf::Ca => Self::CaSigned,
+            BackupKindArg::SelfSigned => Self::SelfSigned,
+            BackupKindArg::Ca => Self::CaSigned,
         }
     }
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-pub enum Format {
+pub enum FileFormatArg {
     Der,
     Pem,
 }
 
-impl From<Format> for FileFormat {
-    fn from(format: Format) -> Self {
+impl From<FileFormatArg> for FileFormat {
+    fn from(format: FileFormatArg) -> Self {
         match format {
-            Format::Der => Self::Der,
-            Format::Pem => Self::Pem,
+            FileFormatArg::Der => Self::Der,
+            FileFormatArg::Pem => Self::Pem,
         }
     }
 }
@@ -166,10 +165,10 @@ pub struct CsrArgs {
     #[command(flatten)]
     subject: SubjectArgs,
     /// Format of the file
-    #[arg(long, value_enum, default_value_t = Format::Der)]
-    format: Format,
+    #[arg(long, value_enum, default_value_t = FileFormatArg::Der)]
+    format: FileFormatArg,
     #[command(flatten)]
-    select: Select,
+    select: ControllerSelection,
 }
 
 #[derive(Debug, Args)]
@@ -180,14 +179,14 @@ pub struct SelfSignedArgs {
     #[arg(long, value_name = "N", default_value_t = 5)]
     years: u8,
     #[command(flatten)]
-    select: Select,
+    select: ControllerSelection,
 }
 
 const CERTIFICATE: Presentation<CertificateMade> = Presentation {
     header: &[TextKey::HeadingStatus, TextKey::HeadingCommonName, TextKey::HeadingExpiry, TextKey::HeadingThumbprint],
     show: |CertificateMade { summary, saved }, info| {
         let moved_aside = saved.as_ref().map_or(&[][..], |saved| &saved.moved_aside);
-        Shown {
+        PrintedResult {
             json: json!({
                 "status": info.status,
                 "certificate": summary,
@@ -209,7 +208,7 @@ const CERTIFICATE: Presentation<CertificateMade> = Presentation {
 
 const CSR: Presentation<CsrSaved> = Presentation {
     header: &[TextKey::HeadingStatus, TextKey::HeadingCommonName, TextKey::HeadingFile],
-    show: |CsrSaved { common_name, saved }, info| Shown {
+    show: |CsrSaved { common_name, saved }, info| PrintedResult {
         json: json!({
             "status": info.status,
             "common_name": common_name,
@@ -229,7 +228,7 @@ pub const IMPORTED: Presentation<CertificateImported> = Presentation {
         TextKey::HeadingThumbprint,
         TextKey::HeadingWarnings,
     ],
-    show: |CertificateImported { summary, findings, moved_aside }, info| Shown {
+    show: |CertificateImported { summary, findings, moved_aside }, info| PrintedResult {
         json: json!({
             "status": info.status,
             "certificate": summary,
@@ -249,7 +248,7 @@ pub const IMPORTED: Presentation<CertificateImported> = Presentation {
 
 const EXPORTED: Presentation<CertificateExported> = Presentation {
     header: &[TextKey::HeadingExpiry, TextKey::HeadingThumbprint, TextKey::HeadingFile],
-    show: |CertificateExported { summary, saved }, _| Shown {
+    show: |CertificateExported { summary, saved }, _| PrintedResult {
         json: json!({
             "certificate": summary,
             "file": json_path(&saved.file),
@@ -263,7 +262,7 @@ const EXPORTED: Presentation<CertificateExported> = Presentation {
     },
 };
 
-const RESTORED: Presentation<CertificateRestored> = Presentation {
+const RESTORED: Presentation<BackupRestored> = Presentation {
     header: &[
         TextKey::HeadingStatus,
         TextKey::HeadingIssuedTo,
@@ -271,9 +270,9 @@ const RESTORED: Presentation<CertificateRestored> = Presentation {
         TextKey::HeadingThumbprint,
         TextKey::HeadingWarnings,
     ],
-    show: |CertificateRestored { summary, findings }, info| {
-        let cell = |of: fn(&CertificateSummary) -> String| Cell::from(summary.as_ref().map_or("-".to_owned(), of));
-        Shown {
+    show: |BackupRestored { summary, findings }, info| {
+        let cell = |of: fn(&CertificateSummary) -> String| TableCell::from(summary.as_ref().map_or("-".to_owned(), of));
+        PrintedResult {
             json: json!({
                 "status": info.status,
                 "certificate": summary,
@@ -290,7 +289,7 @@ const RESTORED: Presentation<CertificateRestored> = Presentation {
     },
 };
 
-fn finding(finding: &Finding) -> Value {
+fn finding(finding: &CertificateFinding) -> Value {
     json!({
         "severity": match finding.severity {
             Severity::Error => "error",
@@ -302,7 +301,7 @@ fn finding(finding: &Finding) -> Value {
     })
 }
 
-pub fn run(cli: &CommandContext, command: CertCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: CertCommand) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     match command {
         CertCommand::SelfSigned(args) => self_signed(cli, &configuration, args),
@@ -310,31 +309,31 @@ pub fn run(cli: &CommandContext, command: CertCommand) -> Result<Ending, Problem
         CertCommand::ImportCa { file, warnings, select } => {
             let chosen = select.resolve(&configuration)?;
             let source = match file {
-                None => CaCertificateSource::Folder(cli.workspace.certificate_files()),
+                None => CaSignedSource::Folder(cli.workspace.certificate_files()),
                 Some(file) => {
                     one_only(&chosen)?;
                     // Read once before anything is sent, so that a wrong file is a wrong request.
-                    let source = CaCertificateSource::File(file);
+                    let source = CaSignedSource::File(file);
                     source.read_chosen()?;
                     source
                 }
             };
-            let check = CheckCaCertificate(source.clone());
-            let import = |accept_warnings| ImportCaCertificate { source, accept_warnings };
+            let check = CheckCaSigned(source.clone());
+            let import = |accept_warnings| ImportCaSigned { source, accept_warnings };
             cli.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
         }
         CertCommand::ImportUser { password_file, warnings, arguments } => {
             let (files, chosen) = arguments.resolve(&configuration)?;
             one_only(&chosen)?;
             let files = match files.as_slice() {
-                [pfx] => UserCertificateFiles::Pfx(pfx.into()),
-                [certificate, key] => UserCertificateFiles::Pair { certificate: certificate.into(), key: key.into() },
+                [pfx] => UserSpecifiedFiles::Pfx(pfx.into()),
+                [certificate, key] => UserSpecifiedFiles::Pair { certificate: certificate.into(), key: key.into() },
                 _ => return Err(Problem::with_detail(ErrorCode::SeveralFiles, files.join(", "))),
             };
             let password = password_file.as_deref().map(read_secret).transpose()?;
             files.read(password.as_ref())?;
-            let check = CheckUserCertificate { files: files.clone(), password: password.clone() };
-            let import = |accept_warnings| ImportUserCertificate { files, password, accept_warnings };
+            let check = CheckUserSpecified { files: files.clone(), password: password.clone() };
+            let import = |accept_warnings| ImportUserSpecified { files, password, accept_warnings };
             cli.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
         }
         CertCommand::SelectType { kind, select } => {
@@ -348,8 +347,8 @@ pub fn run(cli: &CommandContext, command: CertCommand) -> Result<Ending, Problem
             }
             let password = password_file.as_deref().map(read_secret).transpose()?;
             let source = KeyBackupSource { files: cli.workspace.certificate_files(), kind: kind.into(), chosen: file };
-            let check = CheckCertificateBackup { source: source.clone(), password: password.clone() };
-            let restore = |accept_warnings| RestoreCertificate { source, password, accept_warnings };
+            let check = CheckBackup { source: source.clone(), password: password.clone() };
+            let restore = |accept_warnings| RestoreBackup { source, password, accept_warnings };
             cli.import(&configuration, &chosen, check, restore, warnings.accept_warnings, &RESTORED)
         }
         CertCommand::Export { format, select } => {
@@ -364,7 +363,7 @@ fn one_only(chosen: &[ControllerEntry]) -> Result<(), Problem> {
     if chosen.len() > 1 { Err(ErrorCode::OneControllerOnly.into()) } else { Ok(()) }
 }
 
-fn csr(cli: &CommandContext, configuration: &Configuration, args: CsrArgs) -> Result<Ending, Problem> {
+fn csr(cli: &CommandContext, configuration: &Configuration, args: CsrArgs) -> Result<CommandOutcome, Problem> {
     let chosen = args.select.resolve(configuration)?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     if args.subject.cn.is_some() && chosen.len() > 1 {
@@ -388,7 +387,11 @@ fn csr(cli: &CommandContext, configuration: &Configuration, args: CsrArgs) -> Re
     cli.batch(configuration, &chosen, operation, &CSR)
 }
 
-fn self_signed(cli: &CommandContext, configuration: &Configuration, args: SelfSignedArgs) -> Result<Ending, Problem> {
+fn self_signed(
+    cli: &CommandContext,
+    configuration: &Configuration,
+    args: SelfSignedArgs,
+) -> Result<CommandOutcome, Problem> {
     let chosen = args.select.resolve(configuration)?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     if args.subject.cn.is_some() && chosen.len() > 1 {

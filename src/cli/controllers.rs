@@ -6,13 +6,13 @@ use serde_json::json;
 
 use super::output::say;
 use super::table::table;
-use super::{CommandContext, Ending, runtime};
+use super::{CommandContext, CommandOutcome, runtime};
 use crate::jobs::{self, Enrolled};
 use crate::model::{Address, ConnectionKind, ControllerName, ControllerSeries, ErrorCode, Problem, clock};
 use crate::pki::Fingerprint;
 use crate::texts::{TextKey, cli as texts};
 use crate::workspace::{
-    ConnectionList, ControllerEntry, MAX_CONNECTION_LIST_BYTES, PlannedConnection, Retrieved, VaultState,
+    ConnectionList, ControllerEntry, MAX_CONNECTION_LIST_BYTES, PlannedConnection, RetrievedInfo, VaultState,
 };
 
 #[derive(Debug, Subcommand)]
@@ -81,7 +81,7 @@ pub struct TrustArgs {
     password_file: Option<PathBuf>,
 }
 
-pub fn run(cli: &CommandContext, command: ControllersCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: ControllersCommand) -> Result<CommandOutcome, Problem> {
     match command {
         ControllersCommand::List => list(cli),
         ControllersCommand::Add(args) => add(cli, &args),
@@ -91,7 +91,7 @@ pub fn run(cli: &CommandContext, command: ControllersCommand) -> Result<Ending, 
     }
 }
 
-fn list(cli: &CommandContext) -> Result<Ending, Problem> {
+fn list(cli: &CommandContext) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     if cli.output.is_json() {
         for entry in &configuration.controllers {
@@ -120,10 +120,10 @@ fn list(cli: &CommandContext) -> Result<Ending, Problem> {
         ];
         cli.output.text(&table(&headings.map(|heading| heading.text(cli.output.language())), &rows));
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
-fn add(cli: &CommandContext, args: &AddArgs) -> Result<Ending, Problem> {
+fn add(cli: &CommandContext, args: &AddArgs) -> Result<CommandOutcome, Problem> {
     let bad = |code: ErrorCode, e: &dyn std::fmt::Display| Problem::with_detail(code, e);
     let name: ControllerName = args.name.parse().map_err(|e| bad(ErrorCode::BadName, &e))?;
     let address: Address = args.address.parse().map_err(|e| bad(ErrorCode::BadAddress, &e))?;
@@ -146,7 +146,7 @@ fn add(cli: &CommandContext, args: &AddArgs) -> Result<Ending, Problem> {
                 if code.is_unreached() && !cli.output.is_json() {
                     say(&format!("    {}", TextKey::CliAddUnconfirmed.text(language)));
                 }
-                return Ok(Ending::SomeFailed);
+                return Ok(CommandOutcome::SomeFailed);
             }
         };
         if info.series != series {
@@ -155,7 +155,7 @@ fn add(cli: &CommandContext, args: &AddArgs) -> Result<Ending, Problem> {
         let text = texts::added(language, &name, format!("{} {} {fingerprint}", info.series, info.serial));
         let shown = json!({ "fingerprint": fingerprint, "info": info });
         let connection = ConnectionKind::default();
-        let (series, last) = (info.series, Some(Retrieved { at: clock::now(), info }));
+        let (series, last) = (info.series, Some(RetrievedInfo { at: clock::now(), info }));
         (
             ControllerEntry { name: name.clone(), address, series, connection, fingerprint: Some(fingerprint), last },
             shown,
@@ -169,7 +169,7 @@ fn add(cli: &CommandContext, args: &AddArgs) -> Result<Ending, Problem> {
     } else {
         cli.output.text(&text);
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
 /// Logs in for the first time, under the fingerprint given or else the one that is found. An inner error is the
@@ -212,7 +212,7 @@ fn failed(cli: &CommandContext, name: &str, problem: &Problem) {
     }
 }
 
-fn import(cli: &CommandContext, file: Option<PathBuf>, series: &str) -> Result<Ending, Problem> {
+fn import(cli: &CommandContext, file: Option<PathBuf>, series: &str) -> Result<CommandOutcome, Problem> {
     let series: ControllerSeries = series.parse().map_err(|e| Problem::with_detail(ErrorCode::UnknownSeries, e))?;
     let language = cli.output.language();
     let path = file.unwrap_or_else(|| cli.workspace.connection_list_path());
@@ -224,7 +224,7 @@ fn import(cli: &CommandContext, file: Option<PathBuf>, series: &str) -> Result<E
     configuration.controllers.extend(new.map(|new| new.entry(series)));
     cli.workspace.save(&configuration, &lock)?;
 
-    let mut ending = Ending::AllDone;
+    let mut ending = CommandOutcome::AllDone;
     for PlannedConnection { line, name, verdict, .. } in &plan {
         let said = match verdict {
             Ok(new) => (json!({ "line": line, "address": new.address }), texts::added(language, name, &new.address)),
@@ -235,7 +235,7 @@ fn import(cli: &CommandContext, file: Option<PathBuf>, series: &str) -> Result<E
                 ),
                 Some(problem) => {
                     failed(cli, name, &problem);
-                    ending = Ending::SomeFailed;
+                    ending = CommandOutcome::SomeFailed;
                     continue;
                 }
             },
@@ -251,7 +251,7 @@ fn import(cli: &CommandContext, file: Option<PathBuf>, series: &str) -> Result<E
 
 /// An entry whose fingerprint was accepted already keeps it: a controller that comes with another one has to be
 /// removed and added again, on purpose.
-fn trust(cli: &CommandContext, args: &TrustArgs) -> Result<Ending, Problem> {
+fn trust(cli: &CommandContext, args: &TrustArgs) -> Result<CommandOutcome, Problem> {
     let given = args.fingerprint.as_deref().map(str::parse::<Fingerprint>).transpose()?;
     let lock = cli.lock()?;
     let mut configuration = cli.configuration()?;
@@ -265,7 +265,7 @@ fn trust(cli: &CommandContext, args: &TrustArgs) -> Result<Ending, Problem> {
     }
     let password = cli.first_password(&entry.name, args.password_file.as_deref())?;
     let Ok(enrolled) = meet(cli, &entry.name, &entry.address, given.or(entry.fingerprint), password)? else {
-        return Ok(Ending::SomeFailed);
+        return Ok(CommandOutcome::SomeFailed);
     };
     let shown = json!({ "fingerprint": enrolled.fingerprint, "info": enrolled.info });
     let Enrolled { fingerprint, info, .. } = enrolled;
@@ -273,17 +273,17 @@ fn trust(cli: &CommandContext, args: &TrustArgs) -> Result<Ending, Problem> {
     let text = texts::trusted(cli.output.language(), &entry.name, what);
     entry.series = info.series;
     entry.fingerprint = Some(fingerprint);
-    entry.last = Some(Retrieved { at: clock::now(), info });
+    entry.last = Some(RetrievedInfo { at: clock::now(), info });
     cli.workspace.save(&configuration, &lock)?;
     if cli.output.is_json() {
         cli.output.done(&args.name, &shown);
     } else {
         cli.output.text(&text);
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
-fn remove(cli: &CommandContext, names: &[String]) -> Result<Ending, Problem> {
+fn remove(cli: &CommandContext, names: &[String]) -> Result<CommandOutcome, Problem> {
     let lock = cli.lock()?;
     let mut configuration = cli.configuration()?;
     if let Some(unknown) = names.iter().find(|n| configuration.find(n).is_none()) {
@@ -308,5 +308,5 @@ fn remove(cli: &CommandContext, names: &[String]) -> Result<Ending, Problem> {
     if matches!(vault, Some(VaultState::Closed | VaultState::Declined)) {
         say(TextKey::CliVaultKeeps.text(cli.output.language()));
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }

@@ -3,12 +3,12 @@ use std::path::Path;
 use clap::Subcommand;
 use serde_json::json;
 
-use super::batch::{Presentation, Shown};
-use super::cell::Cell;
-use super::clients::{CHANGE, hexadecimal, listing};
-use super::select::{Select, ThingsThenSelect};
+use super::batch::{Presentation, PrintedResult};
+use super::client_certificates::{CHANGE, hexadecimal, listing};
+use super::controller_selection::{ControllerSelection, ItemsThenControllers};
+use super::table_cell::TableCell;
 use super::trust_files::{read_trust_files, show_plan};
-use super::{CommandContext, Ending};
+use super::{CommandContext, CommandOutcome};
 use crate::jobs::{AddTrust, Destination, ListTrust, RemoveCrls, TrustSnapshot};
 use crate::model::{Language, ListedCrl, Problem};
 use crate::pki::CrlHealth;
@@ -17,11 +17,11 @@ use crate::texts::{TextKey, cli as texts, crl_flaws};
 #[derive(Debug, Subcommand)]
 pub enum CrlCommand {
     /// List CRLs, by whose certificates clients are refused that their authority revoked
-    List(Select),
+    List(ControllerSelection),
     /// Add CRLs; one takes the place of an older one of the same issuer: FILE… CONTROLLER…
-    Add(ThingsThenSelect),
+    Add(ItemsThenControllers),
     /// Remove CRLs by the ids that list shows: ID… CONTROLLER…
-    Remove(ThingsThenSelect),
+    Remove(ItemsThenControllers),
 }
 
 const CRLS: Presentation<TrustSnapshot> = Presentation {
@@ -34,9 +34,11 @@ const CRLS: Presentation<TrustSnapshot> = Presentation {
             })
             .collect();
         let json = json!({ "revision": held.revision, "crls": json, "without_crl": held.health.without_crl });
-        Shown {
+        PrintedResult {
             json,
-            cells: vec![Cell::said(|language| listing(with_health().map(|(crl, health)| line(crl, health, language))))],
+            cells: vec![TableCell::said(|language| {
+                listing(with_health().map(|(crl, health)| line(crl, health, language)))
+            })],
         }
     },
 };
@@ -47,7 +49,7 @@ fn line(crl: &ListedCrl, health: &CrlHealth, language: Language) -> String {
     texts::crl_line(language, &summary.id, &summary.issuer, summary.entries, until, &crl_flaws(health))
 }
 
-pub fn run(cli: &CommandContext, command: CrlCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: CrlCommand) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     match command {
         CrlCommand::List(select) => cli.batch(&configuration, &select.resolve(&configuration)?, ListTrust, &CRLS),

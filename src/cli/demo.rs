@@ -5,7 +5,7 @@ use clap::Args;
 
 use super::output::say;
 use super::virtual_fleet_host::VirtualFleetHost;
-use super::{CommandContext, Ending, window};
+use super::{CommandContext, CommandOutcome, window};
 use crate::model::{ErrorCode, Language, Problem};
 use crate::texts::cli as texts;
 use crate::virtual_controller::DEMO_COUNT;
@@ -22,7 +22,7 @@ pub struct DemoArgs {
 }
 
 /// The window over virtual controllers, in a folder that is removed at the end.
-pub fn run(cli: &CommandContext, args: &DemoArgs, language: Option<Language>) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, args: &DemoArgs, language: Option<Language>) -> Result<CommandOutcome, Problem> {
     let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
     let workspace = Workspace::new(folder.path().join("OPCUA"));
     let lock = workspace.lock()?;

@@ -2,7 +2,7 @@ use clap::Args;
 use serde_json::json;
 
 use super::table::table;
-use super::{CommandContext, Ending};
+use super::{CommandContext, CommandOutcome};
 use crate::licences::{Component, Licences};
 use crate::model::{ErrorCode, Problem};
 use crate::texts::TextKey;
@@ -14,7 +14,7 @@ pub struct LicencesArgs {
     components: Vec<String>,
 }
 
-pub fn run(cli: &CommandContext, args: &LicencesArgs) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, args: &LicencesArgs) -> Result<CommandOutcome, Problem> {
     let licences = Licences::get();
     let all = args.components.iter().any(|name| name.eq_ignore_ascii_case("all"));
     let is_asked =
@@ -29,7 +29,7 @@ pub fn run(cli: &CommandContext, args: &LicencesArgs) -> Result<Ending, Problem>
     }
     if args.components.is_empty() {
         list(cli, licences.components());
-        return Ok(Ending::AllDone);
+        return Ok(CommandOutcome::AllDone);
     }
     for component in chosen {
         let texts: Vec<&str> = licences.texts_of(component).collect();
@@ -41,7 +41,7 @@ pub fn run(cli: &CommandContext, args: &LicencesArgs) -> Result<Ending, Problem>
             cli.output.text(&format!("==> {name} {version} ({licence}) <==\n\n{}\n", texts.join("\n\n")));
         }
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
 fn list(cli: &CommandContext, components: &[Component]) {

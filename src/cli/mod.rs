@@ -3,30 +3,30 @@
 //! One file a subcommand. Results go to standard output, logs and progress to standard error. Exit code 0: all done;
 //! 1: some or all controllers failed; 2: the request itself was wrong and nothing was sent.
 
-mod activate;
+mod activation;
 mod backup;
+mod basic_settings;
 mod batch;
-mod ca;
-mod cell;
 mod cert;
-mod clients;
+mod certificate_authority;
+mod client_certificates;
 mod connection_passwords;
+mod controller_selection;
 mod controllers;
 mod crl;
 mod demo;
 mod help;
 mod licences;
-mod log;
 mod output;
 mod passwords;
 mod pki;
 mod secret_file;
-mod select;
-mod server;
-mod settings;
+mod server_control;
+mod server_log;
 mod settings_transfer;
 mod start_failure;
 mod table;
+mod table_cell;
 mod trust_files;
 mod usage_error;
 mod users;
@@ -47,7 +47,7 @@ use clap::{CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 use crate::model::{Language, Problem};
 use crate::platform::console;
 use crate::workspace::{Passwords, Workspace};
-use output::Output;
+use output::Printer;
 
 /// Configures the OPC UA servers inside robot controllers.
 #[derive(Debug, Parser)]
@@ -120,19 +120,19 @@ enum Command {
     #[command(subcommand)]
     Controllers(controllers::ControllersCommand),
     /// Read and show the information of controllers
-    Info(select::Select),
+    Info(controller_selection::ControllerSelection),
     /// Start OPC UA servers
-    Start(select::Select),
+    Start(controller_selection::ControllerSelection),
     /// Stop OPC UA servers
-    Stop(select::Select),
+    Stop(controller_selection::ControllerSelection),
     /// Show or change the basic settings of OPC UA servers
     #[command(subcommand)]
-    Settings(settings::SettingsCommand),
+    Settings(basic_settings::SettingsCommand),
     /// List, add and remove the users of OPC UA servers
     #[command(subcommand)]
     Users(users::UsersCommand),
     /// Activate legacy controllers by their keys
-    Activate(activate::ActivateArgs),
+    Activate(activation::ActivateArgs),
     /// Make, request, import, select and export server certificates
     #[command(subcommand)]
     Cert(cert::CertCommand),
@@ -141,16 +141,16 @@ enum Command {
     Pki(pki::PkiCommand),
     /// The small CA of the workspace: create it, sign with it, revoke, publish its CRL, back it up
     #[command(subcommand)]
-    Ca(ca::CaCommand),
+    Ca(certificate_authority::CaCommand),
     /// List, add, trust and remove the certificates of clients and authorities
     #[command(subcommand)]
-    Clients(clients::ClientsCommand),
+    Clients(client_certificates::ClientsCommand),
     /// List, add and remove certificate revocation lists
     #[command(subcommand)]
     Crl(crl::CrlCommand),
     /// Show or delete the log of OPC UA servers
     #[command(subcommand)]
-    Log(log::LogCommand),
+    Log(server_log::LogCommand),
     /// Save settings, users and keys of legacy controllers in the workspace
     ExportSettings(settings_transfer::TransferArgs),
     /// Put exported settings, users and keys back into the controllers they came from
@@ -183,7 +183,7 @@ fn parse_language(code: &str) -> Option<Language> {
 /// What every subcommand needs to know.
 struct CommandContext {
     workspace: Workspace,
-    output: Output,
+    output: Printer,
     yes: bool,
     connection_password_file: Option<PathBuf>,
     connection_password_list: Option<PathBuf>,
@@ -194,7 +194,7 @@ struct CommandContext {
 
 /// How a command ended; a [`Problem`] instead means that the request was wrong and nothing was sent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ending {
+enum CommandOutcome {
     AllDone,
     SomeFailed,
 }
@@ -215,7 +215,7 @@ pub fn main() -> ExitCode {
         std::process::exit(error.exit_code())
     });
     init_log(cli.verbose);
-    let output = Output::new(cli.json, language);
+    let output = Printer::new(cli.json, language);
     let root = cli.workspace.clone();
     let context = CommandContext {
         workspace: Workspace::new(root.unwrap_or_else(Workspace::default_root)),
@@ -231,19 +231,19 @@ pub fn main() -> ExitCode {
         None => window::run(&context, cli.lang),
         Some(Command::Demo(args)) => demo::run(&context, &args, cli.lang),
         Some(Command::Virtual(args)) => virtual_fleet::run(&args),
-        Some(Command::Activate(args)) => activate::run(&context, &args),
+        Some(Command::Activate(args)) => activation::run(&context, &args),
         Some(Command::Controllers(command)) => controllers::run(&context, command),
-        Some(Command::Info(select)) => server::info(&context, &select),
-        Some(Command::Start(select)) => server::start(&context, &select),
-        Some(Command::Stop(select)) => server::stop(&context, &select),
-        Some(Command::Settings(command)) => settings::run(&context, command),
+        Some(Command::Info(select)) => server_control::info(&context, &select),
+        Some(Command::Start(select)) => server_control::start(&context, &select),
+        Some(Command::Stop(select)) => server_control::stop(&context, &select),
+        Some(Command::Settings(command)) => basic_settings::run(&context, command),
         Some(Command::Users(command)) => users::run(&context, command),
         Some(Command::Cert(command)) => cert::run(&context, command),
         Some(Command::Pki(command)) => pki::run(&context, command),
-        Some(Command::Ca(command)) => ca::run(&context, command),
-        Some(Command::Clients(command)) => clients::run(&context, command),
+        Some(Command::Ca(command)) => certificate_authority::run(&context, command),
+        Some(Command::Clients(command)) => client_certificates::run(&context, command),
         Some(Command::Crl(command)) => crl::run(&context, command),
-        Some(Command::Log(command)) => log::run(&context, command),
+        Some(Command::Log(command)) => server_log::run(&context, command),
         Some(Command::ExportSettings(args)) => settings_transfer::export(&context, &args),
         Some(Command::ImportSettings(args)) => settings_transfer::import(&context, &args),
         Some(Command::Verify(args)) => verify::run(&context, &args),
@@ -254,12 +254,12 @@ pub fn main() -> ExitCode {
             let mut script = Vec::new();
             clap_complete::generate(shell, &mut Cli::command(), "opcua-configurator", &mut script);
             output.text(&String::from_utf8_lossy(&script));
-            Ok(Ending::AllDone)
+            Ok(CommandOutcome::AllDone)
         }
     };
     match ending {
-        Ok(Ending::AllDone) => ExitCode::SUCCESS,
-        Ok(Ending::SomeFailed) => ExitCode::from(1),
+        Ok(CommandOutcome::AllDone) => ExitCode::SUCCESS,
+        Ok(CommandOutcome::SomeFailed) => ExitCode::from(1),
         Err(problem) => {
             context.output.request_wrong(&problem);
             start_failure::show(&problem, language, is_window);

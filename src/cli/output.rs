@@ -4,17 +4,17 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 
 use crate::model::{Language, Problem};
-use crate::pki::{Finding, Severity};
+use crate::pki::{CertificateFinding, Severity};
 use crate::texts::TextKey;
 
 /// Standard output and error, in the form that was asked for.
 #[derive(Debug, Clone, Copy)]
-pub struct Output {
+pub struct Printer {
     json: bool,
     language: Language,
 }
 
-impl Output {
+impl Printer {
     pub fn new(json: bool, language: Language) -> Self {
         Self { json, language }
     }
@@ -64,7 +64,7 @@ impl Output {
     }
 
     /// It was done, and what came of it is not good: both of the above.
-    pub fn fell_short(self, controller: &str, problem: &Problem, result: &Value) {
+    pub fn done_with_shortcoming(self, controller: &str, problem: &Problem, result: &Value) {
         let error = self.error(problem);
         line(&json!({ "controller": controller, "ok": false, "error": error, "result": result }).to_string());
     }
@@ -96,7 +96,7 @@ impl Output {
     }
 
     /// What clients will say about a certificate, on standard error.
-    pub fn findings(self, who: &str, findings: &[Finding]) {
+    pub fn findings(self, who: &str, findings: &[CertificateFinding]) {
         for finding in findings {
             let severity = match finding.severity {
                 Severity::Error => TextKey::CliError.text(self.language),

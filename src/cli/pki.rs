@@ -6,11 +6,11 @@ use serde_json::json;
 
 use super::output::{json_path, say};
 use super::secret_file::read_secret;
-use super::{CommandContext, Ending, read_bounded};
+use super::{CommandContext, CommandOutcome, read_bounded};
 use crate::model::{ErrorCode, Language, Problem, SecurityPolicy, clock};
 use crate::pki::{
-    self, Bundle, Certificate, MAX_BUNDLE_BYTES, PkiError, Presented, Rejection, Role, TrustLists, TrustPolicy,
-    read_bundle,
+    self, Bundle, Certificate, CertificateRejection, MAX_BUNDLE_BYTES, PeerRole, PkiError, PresentedCertificate,
+    TrustLists, TrustPolicy, read_bundle,
 };
 
 #[derive(Debug, Subcommand)]
@@ -25,11 +25,11 @@ pub enum PkiCommand {
     },
     /// Check a certificate as an OPC UA application does, and print the OPC UA status: Good, BadCertificateRevoked, …;
     /// exit code 0 for Good, 1 for anything else
-    Verify(VerifyArgs),
+    Verify(PkiVerifyArgs),
 }
 
 #[derive(Debug, Args)]
-pub struct VerifyArgs {
+pub struct PkiVerifyArgs {
     /// Certificates that are trusted, of applications and of CAs
     #[arg(long, value_name = "DIR")]
     trusted: Option<PathBuf>,
@@ -53,7 +53,7 @@ pub struct VerifyArgs {
     policy: Option<SecurityPolicy>,
     /// What the application is [default: server with --host, else either]
     #[arg(long, value_enum)]
-    role: Option<RoleName>,
+    role: Option<RoleArg>,
     /// Accept what no revocation list is at hand for
     #[arg(long)]
     allow_unknown_revocation: bool,
@@ -63,18 +63,18 @@ pub struct VerifyArgs {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum RoleName {
+enum RoleArg {
     Client,
     Server,
     Either,
 }
 
-impl From<RoleName> for Role {
-    fn from(role: RoleName) -> Self {
+impl From<RoleArg> for PeerRole {
+    fn from(role: RoleArg) -> Self {
         match role {
-            RoleName::Client => Self::Client,
-            RoleName::Server => Self::Server,
-            RoleName::Either => Self::Either,
+            RoleArg::Client => Self::Client,
+            RoleArg::Server => Self::Server,
+            RoleArg::Either => Self::Either,
         }
     }
 }
@@ -87,24 +87,24 @@ fn parse_policy(text: &str) -> Result<SecurityPolicy, String> {
     text.parse().map_err(|e: crate::model::SettingsError| e.to_string())
 }
 
-pub fn run(cli: &CommandContext, command: PkiCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: PkiCommand) -> Result<CommandOutcome, Problem> {
     match command {
         PkiCommand::Show { file, password_file } => show(cli, &file, password_file.as_deref()),
         PkiCommand::Verify(args) => verify(cli, &args),
     }
 }
 
-fn show(cli: &CommandContext, file: &Path, password_file: Option<&Path>) -> Result<Ending, Problem> {
+fn show(cli: &CommandContext, file: &Path, password_file: Option<&Path>) -> Result<CommandOutcome, Problem> {
     let password = password_file.map(read_secret).transpose()?;
     let password = password.as_ref().map(secrecy::ExposeSecret::expose_secret);
     let bytes = read_bounded(file, MAX_BUNDLE_BYTES)?;
     let contents = pki::describe(&bytes, password).map_err(|error| of_file(file, error))?;
     let contents = json!({ "file": json_path(file), "contents": contents });
     cli.output.text(&if cli.output.is_json() { contents.to_string() } else { format!("{contents:#}") });
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
-fn verify(cli: &CommandContext, args: &VerifyArgs) -> Result<Ending, Problem> {
+fn verify(cli: &CommandContext, args: &PkiVerifyArgs) -> Result<CommandOutcome, Problem> {
     let mut trusted = folder(args.trusted.as_deref())?;
     let mut issuers = folder(args.issuers.as_deref())?;
     let crls = folder(args.crls.as_deref())?;
@@ -126,11 +126,11 @@ fn verify(cli: &CommandContext, args: &VerifyArgs) -> Result<Ending, Problem> {
     let Some((certificate, chain)) = sent.certificates.split_first() else {
         return Err(of_file(&args.certificate, PkiError::NoCertificate));
     };
-    let default_role = if args.host.is_some() { Role::Server } else { Role::Either };
-    let presented = Presented {
+    let default_role = if args.host.is_some() { PeerRole::Server } else { PeerRole::Either };
+    let presented = PresentedCertificate {
         certificate,
         chain,
-        role: args.role.map_or(default_role, Role::from),
+        role: args.role.map_or(default_role, PeerRole::from),
         now: args.at.unwrap_or_else(clock::now),
         application_uri: args.uri.as_deref(),
         host: args.host.as_deref(),
@@ -144,15 +144,15 @@ fn verify(cli: &CommandContext, args: &VerifyArgs) -> Result<Ending, Problem> {
             } else {
                 cli.output.text("Good");
             }
-            Ok(Ending::AllDone)
+            Ok(CommandOutcome::AllDone)
         }
         Err(rejection) => Ok(rejected(cli, &rejection)),
     }
 }
 
-fn rejected(cli: &CommandContext, rejection: &Rejection) -> Ending {
+fn rejected(cli: &CommandContext, rejection: &CertificateRejection) -> CommandOutcome {
     let (status, language) = (rejection.status(), cli.output.language());
-    let Rejection { flaw, subject, depth } = rejection;
+    let CertificateRejection { flaw, subject, depth } = rejection;
     if cli.output.is_json() {
         let line = json!({
             "status": status,
@@ -167,12 +167,12 @@ fn rejected(cli: &CommandContext, rejection: &Rejection) -> Ending {
         cli.output.text(status.as_str());
     }
     say(&format!("{subject}: {}\n    {}", flaw.reason(language), flaw.remedy(language)));
-    Ending::SomeFailed
+    CommandOutcome::SomeFailed
 }
 
 /// What was shown is no certificate: step 1 of OPC 10000-4 §6.1.3.
-fn unreadable(file: &Path, error: &PkiError) -> Rejection {
-    Rejection::unreadable(error, &file.display().to_string())
+fn unreadable(file: &Path, error: &PkiError) -> CertificateRejection {
+    CertificateRejection::unreadable(error, &file.display().to_string())
 }
 
 /// Whether the file is something else than a certificate, rather than a damaged one.

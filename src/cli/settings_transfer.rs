@@ -3,11 +3,11 @@ use std::path::PathBuf;
 use clap::Args;
 use serde_json::json;
 
-use super::batch::{Presentation, Shown};
+use super::batch::{Presentation, PrintedResult};
+use super::controller_selection::ControllerSelection;
 use super::output::json_path;
 use super::secret_file::read_secret;
-use super::select::Select;
-use super::{CommandContext, Ending};
+use super::{CommandContext, CommandOutcome};
 use crate::jobs::{ExportSettings, ImportSettings, SettingsExported, SettingsImported};
 use crate::model::Problem;
 use crate::texts::TextKey;
@@ -20,12 +20,12 @@ pub struct TransferArgs {
     #[arg(long, value_name = "FILE")]
     passphrase_file: Option<PathBuf>,
     #[command(flatten)]
-    select: Select,
+    select: ControllerSelection,
 }
 
 const EXPORTED: Presentation<SettingsExported> = Presentation {
     header: &[TextKey::HeadingSerial, TextKey::HeadingFile],
-    show: |SettingsExported { path }, info| Shown {
+    show: |SettingsExported { path }, info| PrintedResult {
         json: json!({ "serial": info.serial, "file": json_path(path) }),
         cells: vec![info.serial.to_string().into(), path.display().to_string().into()],
     },
@@ -33,13 +33,13 @@ const EXPORTED: Presentation<SettingsExported> = Presentation {
 
 const IMPORTED: Presentation<SettingsImported> = Presentation {
     header: &[TextKey::HeadingStatus, TextKey::HeadingRevision, TextKey::HeadingFile],
-    show: |SettingsImported { path }, info| Shown {
+    show: |SettingsImported { path }, info| PrintedResult {
         json: json!({ "status": info.status, "revision": info.revision, "file": json_path(path) }),
         cells: vec![info.status.into(), info.revision.to_string().into(), path.display().to_string().into()],
     },
 };
 
-pub fn export(cli: &CommandContext, args: &TransferArgs) -> Result<Ending, Problem> {
+pub fn export(cli: &CommandContext, args: &TransferArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
@@ -48,7 +48,7 @@ pub fn export(cli: &CommandContext, args: &TransferArgs) -> Result<Ending, Probl
     cli.batch(&configuration, &chosen, operation, &EXPORTED)
 }
 
-pub fn import(cli: &CommandContext, args: &TransferArgs) -> Result<Ending, Problem> {
+pub fn import(cli: &CommandContext, args: &TransferArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;

@@ -1,13 +1,13 @@
 use unicode_width::UnicodeWidthStr as _;
 
-use crate::model::foreign_text;
+use crate::model::untrusted_text;
 
 /// A plain table for a terminal: columns padded to their widest cell, two blanks apart. Chinese and Japanese characters count double.
 ///
-/// Names in certificates and the like come from strangers: each cell is one line ([`foreign_text`]).
+/// Names in certificates and the like come from strangers: each cell is one line ([`untrusted_text`]).
 pub fn table(header: &[&str], rows: &[Vec<String>]) -> String {
     let rows: Vec<Vec<String>> =
-        rows.iter().map(|row| row.iter().map(|cell| foreign_text::one_line(cell, usize::MAX)).collect()).collect();
+        rows.iter().map(|row| row.iter().map(|cell| untrusted_text::one_line(cell, usize::MAX)).collect()).collect();
     let mut widths: Vec<usize> = header.iter().map(|h| h.width()).collect();
     for row in &rows {
         for (width, cell) in widths.iter_mut().zip(row) {

@@ -6,7 +6,9 @@ use std::path::Path;
 use super::output::say;
 use super::table::table;
 use super::{CommandContext, read_bounded};
-use crate::jobs::{Destination, ItemContent, Note, PlannedAction, Target, TrustFile, TrustPlan, TrustSnapshot};
+use crate::jobs::{
+    Destination, ItemContent, PlannedAction, TargetList, TrustFile, TrustNote, TrustPlan, TrustSnapshot,
+};
 use crate::model::{Capabilities, ClientList, ErrorCode, Feature, Language, ListLimits, MissingReason, Problem, clock};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
 use crate::session;
@@ -130,14 +132,14 @@ fn rows(plan: &TrustPlan, language: Language) -> Vec<Vec<String>> {
         .collect()
 }
 
-const fn target(target: Target) -> TextKey {
+const fn target(target: TargetList) -> TextKey {
     match target {
-        Target::Trusted => TextKey::HeadingTrusted,
-        Target::Issuers => TextKey::HeadingIssuers,
-        Target::Crls => TextKey::HeadingCrls,
+        TargetList::Trusted => TextKey::HeadingTrusted,
+        TargetList::Issuers => TextKey::HeadingIssuers,
+        TargetList::Crls => TextKey::HeadingCrls,
     }
 }
 
-fn words(notes: &[Note], language: Language) -> String {
+fn words(notes: &[TrustNote], language: Language) -> String {
     notes.iter().map(|note| note.text(language)).collect::<Vec<_>>().join("; ")
 }

@@ -4,18 +4,18 @@ use clap::Subcommand;
 use secrecy::ExposeSecret as _;
 use serde_json::json;
 
-use super::batch::{Presentation, STATE, Shown};
+use super::batch::{Presentation, PrintedResult, STATE};
+use super::controller_selection::{ControllerSelection, ItemsThenControllers};
 use super::secret_file::read_secret;
-use super::select::{Select, ThingsThenSelect};
-use super::{CommandContext, Ending};
+use super::{CommandContext, CommandOutcome};
 use crate::jobs::{AddUser, ListUsers, RemoveUsers};
-use crate::model::{Credential, CredentialError, ErrorCode, Problem, Revisioned, UserName, UserPassword};
+use crate::model::{ErrorCode, Problem, Revisioned, UserCredential, UserCredentialError, UserName, UserPassword};
 use crate::texts::TextKey;
 
 #[derive(Debug, Subcommand)]
 pub enum UsersCommand {
     /// List users; passwords never come back from a controller
-    List(Select),
+    List(ControllerSelection),
     /// Add a user: 8 to 32 letters and digits each for name and password
     Add {
         user: String,
@@ -23,25 +23,25 @@ pub enum UsersCommand {
         #[arg(long, value_name = "FILE")]
         password_file: PathBuf,
         #[command(flatten)]
-        select: Select,
+        select: ControllerSelection,
     },
     /// Remove users: USER… CONTROLLER…
-    Remove(ThingsThenSelect),
+    Remove(ItemsThenControllers),
 }
 
 const USERS: Presentation<Revisioned<Vec<UserName>>> = Presentation {
     header: &[TextKey::HeadingUsers],
     show: |users, _| {
         let names: Vec<&str> = users.value.iter().map(UserName::as_str).collect();
-        Shown { json: json!({ "users": names }), cells: vec![names.join(",").into()] }
+        PrintedResult { json: json!({ "users": names }), cells: vec![names.join(",").into()] }
     },
 };
 
-fn bad(error: CredentialError) -> Problem {
+fn bad(error: UserCredentialError) -> Problem {
     Problem::with_detail(ErrorCode::BadCredential, error)
 }
 
-pub fn run(cli: &CommandContext, command: UsersCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: UsersCommand) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     match command {
         UsersCommand::List(select) => cli.batch(&configuration, &select.resolve(&configuration)?, ListUsers, &USERS),
@@ -49,7 +49,7 @@ pub fn run(cli: &CommandContext, command: UsersCommand) -> Result<Ending, Proble
             let chosen = select.resolve(&configuration)?;
             let name = user.parse::<UserName>().map_err(bad)?;
             let password = UserPassword::new(read_secret(&password_file)?.expose_secret()).map_err(bad)?;
-            let operation = AddUser { credential: Credential { name, password }, based_on: None };
+            let operation = AddUser { credential: UserCredential { name, password }, based_on: None };
             cli.batch(&configuration, &chosen, operation, &STATE)
         }
         UsersCommand::Remove(arguments) => {

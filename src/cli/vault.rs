@@ -5,7 +5,7 @@ use serde_json::json;
 
 use super::connection_passwords::read_password_list;
 use super::passwords::passphrase;
-use super::{CommandContext, Ending};
+use super::{CommandContext, CommandOutcome};
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Fingerprint;
 use crate::texts::{TextKey, cli as texts};
@@ -44,7 +44,7 @@ pub enum VaultCommand {
     Off,
 }
 
-pub fn run(cli: &CommandContext, command: VaultCommand) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, command: VaultCommand) -> Result<CommandOutcome, Problem> {
     match command {
         VaultCommand::Init => init(cli),
         VaultCommand::Status => status(cli),
@@ -56,7 +56,7 @@ pub fn run(cli: &CommandContext, command: VaultCommand) -> Result<Ending, Proble
     }
 }
 
-fn init(cli: &CommandContext) -> Result<Ending, Problem> {
+fn init(cli: &CommandContext) -> Result<CommandOutcome, Problem> {
     let lock = cli.lock()?;
     let mut configuration = cli.configuration()?;
     let store = cli.store(&configuration);
@@ -70,10 +70,10 @@ fn init(cli: &CommandContext) -> Result<Ending, Problem> {
     cli.workspace.save(&configuration, &lock)?;
     let text = texts::vault_created(cli.output.language(), &path(cli), passwords);
     cli.output.finished(&json!({ "vault": path(cli), "passwords": passwords }), &text);
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
-fn status(cli: &CommandContext) -> Result<Ending, Problem> {
+fn status(cli: &CommandContext) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     let store = cli.store(&configuration);
     if cli.vault_passphrase_file.is_some() {
@@ -97,7 +97,7 @@ fn status(cli: &CommandContext) -> Result<Ending, Problem> {
         result["unlisted"] = json!(unlisted);
     }
     cli.output.finished(&result, &text);
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
 /// The names of controllers in the list, and the fingerprints of the others.
@@ -114,7 +114,7 @@ fn named(configuration: &Configuration, controllers: &[Fingerprint]) -> (Vec<Str
     (names, unlisted)
 }
 
-fn import(cli: &CommandContext, file: &std::path::Path) -> Result<Ending, Problem> {
+fn import(cli: &CommandContext, file: &std::path::Path) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     let list = read_password_list(file)?;
     let found: Vec<_> = list
@@ -124,10 +124,10 @@ fn import(cli: &CommandContext, file: &std::path::Path) -> Result<Ending, Proble
     let count = found.len();
     opened(cli, &configuration)?.put_into_vault(found)?;
     cli.output.finished(&json!({ "passwords": count }), &texts::vault_imported(cli.output.language(), count));
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
-fn forget(cli: &CommandContext, names: &[String]) -> Result<Ending, Problem> {
+fn forget(cli: &CommandContext, names: &[String]) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     let wanted: Vec<Fingerprint> = names
         .iter()
@@ -148,10 +148,10 @@ fn forget(cli: &CommandContext, names: &[String]) -> Result<Ending, Problem> {
             cli.output.text(&text(cli.output.language(), name));
         }
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
-fn change_passphrase(cli: &CommandContext, file: Option<PathBuf>) -> Result<Ending, Problem> {
+fn change_passphrase(cli: &CommandContext, file: Option<PathBuf>) -> Result<CommandOutcome, Problem> {
     let store = cli.store(&cli.configuration()?);
     let present = cli.vault_passphrase(false)?;
     // Not after the new one was entered twice.
@@ -159,10 +159,10 @@ fn change_passphrase(cli: &CommandContext, file: Option<PathBuf>) -> Result<Endi
     let new = passphrase(TextKey::CliAskNewVaultPassphrase, file.as_deref(), true, cli.output.language())?;
     store.change_passphrase(&present, &new)?;
     cli.output.finished(&json!({ "vault": path(cli) }), TextKey::VaultPassphraseChanged.text(cli.output.language()));
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
-fn use_place(cli: &CommandContext, place: PasswordPlace) -> Result<Ending, Problem> {
+fn use_place(cli: &CommandContext, place: PasswordPlace) -> Result<CommandOutcome, Problem> {
     if place == PasswordPlace::Vault && !cli.workspace.vault().exists() {
         return Err(Problem::with_detail(ErrorCode::VaultMissing, path(cli)));
     }

@@ -4,15 +4,15 @@ use clap::Args;
 use secrecy::ExposeSecret as _;
 use serde_json::{Value, json};
 
-use super::batch::{Presentation, Shown};
+use super::batch::{Presentation, PrintedResult};
+use super::controller_selection::ControllerSelection;
 use super::output::json_path;
 use super::secret_file::read_secret;
-use super::select::Select;
 use super::table::table;
-use super::{CommandContext, Ending};
-use crate::jobs::{Refusal, TokenOutcome, Verify, VerifyReport};
-use crate::model::{Credential, ErrorCode, Language, Problem, UserPassword, foreign_text};
-use crate::pki::{Rejection, Severity};
+use super::{CommandContext, CommandOutcome};
+use crate::jobs::{ConnectRefusal, TokenOutcome, Verify, VerifyReport};
+use crate::model::{ErrorCode, Language, Problem, UserCredential, UserPassword, untrusted_text};
+use crate::pki::{CertificateRejection, Severity};
 use crate::session::opcua_client::{ConnectTimeouts, MessageSecurity};
 use crate::texts::{TextKey, cli as texts};
 
@@ -32,17 +32,17 @@ pub struct VerifyArgs {
     trust_me: bool,
 
     #[command(flatten)]
-    select: Select,
+    select: ControllerSelection,
 }
 
-pub fn run(cli: &CommandContext, args: &VerifyArgs) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, args: &VerifyArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration)?;
     let login = match (&args.user, &args.user_password_file) {
         (Some(user), Some(file)) => {
             let bad = |e| Problem::with_detail(ErrorCode::BadCredential, e);
             let password = UserPassword::new(read_secret(file)?.expose_secret()).map_err(bad)?;
-            Some(Credential { name: user.parse().map_err(bad)?, password })
+            Some(UserCredential { name: user.parse().map_err(bad)?, password })
         }
         _ => None,
     };
@@ -50,7 +50,7 @@ pub fn run(cli: &CommandContext, args: &VerifyArgs) -> Result<Ending, Problem> {
         identity: cli.workspace.own_identity(),
         login,
         trust_first: args.trust_me,
-        patience: ConnectTimeouts::default(),
+        timeouts: ConnectTimeouts::default(),
     };
     let language = cli.output.language();
     let reports = cli.reports(&configuration, &chosen, verify, &REPORT)?;
@@ -62,12 +62,14 @@ pub fn run(cli: &CommandContext, args: &VerifyArgs) -> Result<Ending, Problem> {
             }
         }
     }
-    Ok(Ending::of(&reports))
+    Ok(CommandOutcome::of(&reports))
 }
 
 /// With `--json` only: [`words`] is what a person reads. JSON is for programs: its messages are English.
-const REPORT: Presentation<VerifyReport> =
-    Presentation { header: &[], show: |report, _| Shown { json: as_json(report, Language::En), cells: Vec::new() } };
+const REPORT: Presentation<VerifyReport> = Presentation {
+    header: &[],
+    show: |report, _| PrintedResult { json: as_json(report, Language::En), cells: Vec::new() },
+};
 
 fn as_json(report: &VerifyReport, language: Language) -> Value {
     let severity = |severity| match severity {
@@ -102,8 +104,8 @@ fn as_json(report: &VerifyReport, language: Language) -> Value {
             .collect();
         json!({
             "status": status,
-            "reason": refused.map(Rejection::reason),
-            "cause": refused.map(Rejection::cause),
+            "reason": refused.map(CertificateRejection::reason),
+            "cause": refused.map(CertificateRejection::cause),
             "certificate": verdict.summary,
             "findings": findings,
         })
@@ -121,12 +123,12 @@ fn as_json(report: &VerifyReport, language: Language) -> Value {
                         "result": token.verdict.code(),
                         "message": token.verdict.explain(language),
                     });
-                    if let TokenOutcome::Fails(Refusal::OwnCertificate(Some(told))) = &token.verdict {
+                    if let TokenOutcome::Fails(ConnectRefusal::OwnCertificate(Some(told))) = &token.verdict {
                         json["status"] = json!(told.status);
                         json["reason"] = json!(told.reason);
                         json["cause"] = json!(told.cause);
                     }
-                    if let TokenOutcome::Fails(Refusal::Status { name, .. }) = &token.verdict {
+                    if let TokenOutcome::Fails(ConnectRefusal::Status { name, .. }) = &token.verdict {
                         json["status"] = json!(name);
                     }
                     json
@@ -154,7 +156,7 @@ fn words(report: &VerifyReport, language: Language) -> String {
     let mut text = report.url.clone();
     let mark = |severity| if severity == Severity::Error { '✗' } else { '!' };
     let mut line = |mark: char, said: &str| {
-        text.push_str(&format!("\n  {mark} {}", foreign_text::one_line(said, usize::MAX)));
+        text.push_str(&format!("\n  {mark} {}", untrusted_text::one_line(said, usize::MAX)));
     };
     for finding in &report.findings {
         line(mark(finding.severity()), &finding.explain(language));

@@ -5,7 +5,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use secrecy::SecretString;
 
 use super::secret_file::read_secret;
-use super::{Ending, runtime, virtual_switch};
+use super::{CommandOutcome, runtime, virtual_switch};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::platform::stop_signal::StopSignals;
@@ -48,8 +48,8 @@ struct FleetArgs {
     /// First port of the OPC UA servers, each next controller takes the next one; 0 picks free ones
     #[arg(long, value_name = "P", default_value_t = 0)]
     opcua_port: u16,
-    #[arg(long, value_enum, default_value_t = Firmware::Mixed)]
-    firmware: Firmware,
+    #[arg(long, value_enum, default_value_t = FirmwareArg::Mixed)]
+    firmware: FirmwareArg,
     /// Legacy controllers come without keys, to be activated by those that "virtual keys" prints
     #[arg(long)]
     not_activated: bool,
@@ -71,7 +71,7 @@ struct FleetArgs {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Firmware {
+enum FirmwareArg {
     /// Below 8.0.0
     Legacy,
     /// 8.0.0 and later
@@ -80,17 +80,17 @@ enum Firmware {
     Mixed,
 }
 
-impl From<Firmware> for FleetFirmware {
-    fn from(firmware: Firmware) -> Self {
+impl From<FirmwareArg> for FleetFirmware {
+    fn from(firmware: FirmwareArg) -> Self {
         match firmware {
-            Firmware::Legacy => Self::Legacy,
-            Firmware::Current => Self::Current,
-            Firmware::Mixed => Self::Mixed,
+            FirmwareArg::Legacy => Self::Legacy,
+            FirmwareArg::Current => Self::Current,
+            FirmwareArg::Mixed => Self::Mixed,
         }
     }
 }
 
-pub fn run(args: &VirtualArgs) -> Result<Ending, Problem> {
+pub fn run(args: &VirtualArgs) -> Result<CommandOutcome, Problem> {
     match &args.command {
         Some(VirtualCommand::Keys { serials }) => keys(serials),
         Some(VirtualCommand::Switch(args)) => virtual_switch::run(args),
@@ -98,7 +98,7 @@ pub fn run(args: &VirtualArgs) -> Result<Ending, Problem> {
     }
 }
 
-fn keys(serials: &[String]) -> Result<Ending, Problem> {
+fn keys(serials: &[String]) -> Result<CommandOutcome, Problem> {
     let bad = |error| Problem::with_detail(ErrorCode::BadName, error);
     let serials = serials.iter().map(|s| s.parse()).collect::<Result<Vec<SerialNumber>, _>>().map_err(bad)?;
     super::output::line(FIRST_LINE);
@@ -106,10 +106,10 @@ fn keys(serials: &[String]) -> Result<Ending, Problem> {
         let ActivationKeys { licence, activation } = demo_keys(&serial);
         super::output::line(&format!("{serial},{licence},{activation}"));
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
-fn fleet(args: &FleetArgs) -> Result<Ending, Problem> {
+fn fleet(args: &FleetArgs) -> Result<CommandOutcome, Problem> {
     let password = args.password_file.as_ref().map(|f| read_secret(f)).transpose()?;
     // Removed when this function ends.
     let temporary = match args.data {
@@ -148,6 +148,6 @@ fn fleet(args: &FleetArgs) -> Result<Ending, Problem> {
         }
         stop.received().await;
         fleet.shutdown().await;
-        Ok(Ending::AllDone)
+        Ok(CommandOutcome::AllDone)
     })
 }

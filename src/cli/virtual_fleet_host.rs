@@ -11,18 +11,18 @@ use tokio::runtime::{Handle, Runtime};
 use super::runtime;
 use crate::model::{ConnectionKind, ErrorCode, Problem, clock};
 use crate::pki::Fingerprint;
-use crate::ui::backend::{NewVirtual, VirtualFleetStarter};
+use crate::ui::backend::{NewVirtualController, VirtualFleetStarter};
 use crate::virtual_controller::{DEMO_COUNT, DemoEntry, DemoFleet, demo_fleet};
-use crate::workspace::{Configuration, ControllerEntry, Passwords, Retrieved};
+use crate::workspace::{Configuration, ControllerEntry, Passwords, RetrievedInfo};
 
 /// Runs the demo's controllers on a runtime of their own for as long as it lives.
 pub struct VirtualFleetHost {
     runtime: Runtime,
-    stage: Arc<Stage>,
+    shared: Arc<SharedFleet>,
 }
 
 /// What the welcome page gets hold of.
-struct Stage {
+struct SharedFleet {
     handle: Handle,
     data: PathBuf,
     count: usize,
@@ -35,7 +35,7 @@ impl VirtualFleetHost {
     pub fn new(data: PathBuf, count: usize, seed: u64) -> Result<Self, Problem> {
         let runtime = runtime()?;
         let handle = runtime.handle().clone();
-        Ok(Self { runtime, stage: Arc::new(Stage { handle, data, count, seed, fleet: Mutex::new(None) }) })
+        Ok(Self { runtime, shared: Arc::new(SharedFleet { handle, data, count, seed, fleet: Mutex::new(None) }) })
     }
 
     /// The usual demo, kept in a workspace.
@@ -45,16 +45,16 @@ impl VirtualFleetHost {
 
     /// Whether controllers were started here before.
     pub fn has_controllers(&self) -> bool {
-        self.stage.data.is_dir()
+        self.shared.data.is_dir()
     }
 
     pub fn starter(&self) -> Arc<dyn VirtualFleetStarter> {
-        self.stage.clone()
+        self.shared.clone()
     }
 
     /// Starts the controllers now and enters them into a list: new ones at its end, known ones at their new address.
     pub fn enter(&self, configuration: &mut Configuration, passwords: &dyn Passwords) -> Result<(), Problem> {
-        for NewVirtual { entry, password } in self.runtime.block_on(self.stage.start())? {
+        for NewVirtualController { entry, password } in self.runtime.block_on(self.shared.start())? {
             if let Some(fingerprint) = entry.fingerprint {
                 // Worth nothing to anybody but this process: not for the keyring's failures to be reported.
                 let _kept = passwords.set(fingerprint, password.into());
@@ -69,7 +69,7 @@ impl VirtualFleetHost {
 
     /// Switches the controllers off and waits for them.
     pub fn shutdown(self) {
-        let fleet = self.stage.fleet.lock().take();
+        let fleet = self.shared.fleet.lock().take();
         if let Some(fleet) = fleet {
             self.runtime.block_on(fleet.shutdown());
         }
@@ -77,8 +77,8 @@ impl VirtualFleetHost {
 }
 
 #[async_trait]
-impl VirtualFleetStarter for Stage {
-    async fn start(&self) -> Result<Vec<NewVirtual>, Problem> {
+impl VirtualFleetStarter for SharedFleet {
+    async fn start(&self) -> Result<Vec<NewVirtualController>, Problem> {
         let (data, count, seed) = (self.data.clone(), self.count, self.seed);
         let fleet = self
             .handle
@@ -91,18 +91,18 @@ impl VirtualFleetStarter for Stage {
     }
 }
 
-fn listed(entry: &DemoEntry, fleet: &DemoFleet) -> NewVirtual {
+fn listed(entry: &DemoEntry, fleet: &DemoFleet) -> NewVirtualController {
     let running = fleet.controllers().iter().find(|c| Some(c.fingerprint()) == entry.fingerprint);
     // The one that cannot be reached was met once, as every controller in a list.
     let fingerprint = entry.fingerprint.unwrap_or_else(|| Fingerprint::of(entry.name.as_str().as_bytes()));
-    NewVirtual {
+    NewVirtualController {
         entry: ControllerEntry {
             name: entry.name.clone(),
             address: entry.address.clone(),
             series: entry.series,
             connection: ConnectionKind::Management,
             fingerprint: Some(fingerprint),
-            last: running.map(|controller| Retrieved { at: clock::now(), info: controller.info() }),
+            last: running.map(|controller| RetrievedInfo { at: clock::now(), info: controller.info() }),
         },
         password: entry.password.clone(),
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde_json::json;
 
-use super::Ending;
+use super::CommandOutcome;
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::virtual_controller::{OutsideSwitches, Switchboard};
 use crate::workspace::write_atomic;
@@ -16,13 +16,13 @@ pub struct SwitchArgs {
     #[arg(long, value_name = "DIR")]
     data: PathBuf,
     /// A program runs: changes, start and stop are refused
-    #[arg(long, value_name = "on|off", value_parser = super::settings::on_off)]
+    #[arg(long, value_name = "on|off", value_parser = super::basic_settings::on_off)]
     task_running: Option<bool>,
     /// A teach pendant is connected: changes, start and stop are refused
-    #[arg(long, value_name = "on|off", value_parser = super::settings::on_off)]
+    #[arg(long, value_name = "on|off", value_parser = super::basic_settings::on_off)]
     teach_pendant: Option<bool>,
     /// The OPC UA server fails with error 580 when it is started
-    #[arg(long, value_name = "on|off", value_parser = super::settings::on_off)]
+    #[arg(long, value_name = "on|off", value_parser = super::basic_settings::on_off)]
     server_error: Option<bool>,
     /// Every controller in the folder
     #[arg(long, conflicts_with = "serials")]
@@ -33,7 +33,7 @@ pub struct SwitchArgs {
 }
 
 /// Writes the switches, and one line of JSON about each controller.
-pub fn run(args: &SwitchArgs) -> Result<Ending, Problem> {
+pub fn run(args: &SwitchArgs) -> Result<CommandOutcome, Problem> {
     let unreadable =
         |e: std::io::Error| Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", args.data.display()));
     let chosen = if args.all { controllers(&args.data).map_err(unreadable)? } else { args.chosen()? };
@@ -54,7 +54,7 @@ pub fn run(args: &SwitchArgs) -> Result<Ending, Problem> {
         line["serial"] = json!(serial);
         super::output::line(&line.to_string());
     }
-    Ok(Ending::AllDone)
+    Ok(CommandOutcome::AllDone)
 }
 
 impl SwitchArgs {

@@ -4,22 +4,22 @@ use std::time::{Duration, Instant};
 use serde_json::json;
 
 use super::virtual_fleet_host::VirtualFleetHost;
-use super::{CommandContext, Ending, system_language};
+use super::{CommandContext, CommandOutcome, system_language};
 use crate::model::{Language, Problem};
 use crate::platform::console;
 use crate::session::Connectors;
 use crate::texts::TextKey;
 use crate::ui::{self, WindowOptions};
 use crate::workspace::{
-    Configuration, Passwords, Shown, Workspace, WorkspaceError, WorkspaceLock, show_running_window,
+    Configuration, Passwords, ShowWindowOutcome, Workspace, WorkspaceError, WorkspaceLock, show_running_window,
 };
 
 /// The window on the workspace.
-pub fn run(cli: &CommandContext, language: Option<Language>) -> Result<Ending, Problem> {
+pub fn run(cli: &CommandContext, language: Option<Language>) -> Result<CommandOutcome, Problem> {
     let Some(lock) = lock_or_show(&cli.workspace)? else {
         let text = TextKey::CliWindowBroughtToFront.text(cli.output.language());
         cli.output.finished(&json!({ "window": "shown" }), text);
-        return Ok(Ending::AllDone);
+        return Ok(CommandOutcome::AllDone);
     };
     let loaded = cli.workspace.load()?;
     let mut notice = loaded.notice();
@@ -49,9 +49,9 @@ fn lock_or_show(workspace: &Workspace) -> Result<Option<WorkspaceLock>, Problem>
             result => return Ok(Some(result?)),
         };
         match show_running_window(workspace.root()) {
-            Ok(Shown::InFront) => return Ok(None),
+            Ok(ShowWindowOutcome::InFront) => return Ok(None),
             Err(_) if Instant::now() < until => std::thread::sleep(PAUSE),
-            Ok(Shown::Marked) | Err(_) => return Err(busy.into()),
+            Ok(ShowWindowOutcome::Marked) | Err(_) => return Err(busy.into()),
         }
     }
 }
@@ -68,7 +68,7 @@ pub fn open(
     passwords: Arc<dyn Passwords>,
     notice: Option<Problem>,
     fleet: VirtualFleetHost,
-) -> Result<Ending, Problem> {
+) -> Result<CommandOutcome, Problem> {
     if language.is_some() {
         configuration.options.language = language;
     }
@@ -85,7 +85,7 @@ pub fn open(
     console::detach();
     let closed = ui::run(options);
     fleet.shutdown();
-    closed.map(|()| Ending::AllDone)
+    closed.map(|()| CommandOutcome::AllDone)
 }
 
 #[cfg(test)]

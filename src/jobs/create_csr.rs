@@ -2,7 +2,7 @@ use async_trait::async_trait;
 use secrecy::ExposeSecret as _;
 
 use super::self_signed::{bad_request, server_names, transfer_password};
-use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, Step};
+use super::{Confirmation, JobController, JobStep, Operation, OperationOutput, OperationRun, OutputFacts};
 use crate::model::{ControllerInfo, CsrRequest, Feature, FileFormat, KeyLength, Problem, Subject};
 use crate::pki::{self, Csr, PkiError, PrivateKey};
 use crate::session::{CsrImport, SealedKey, StoredCsr};
@@ -81,8 +81,8 @@ impl Operation for CreateCsr {
         self.fields.request(application_name).subject.check().map_err(bad_request)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<CsrSaved, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<CsrSaved, Problem> {
+        run.begin(JobStep::Read)?;
         let info = run.session.info().await?;
         let (csr, saved) = self.make(run, &info).await?;
         Ok(CsrSaved { common_name: csr.common_name().unwrap_or_default().to_owned(), saved })
@@ -91,7 +91,11 @@ impl Operation for CreateCsr {
 
 impl CreateCsr {
     /// What the operation does once it knows the controller.
-    pub(super) async fn make(&self, run: &mut Run<'_>, info: &ControllerInfo) -> Result<(Csr, SavedCsr), Problem> {
+    pub(super) async fn make(
+        &self,
+        run: &mut OperationRun<'_>,
+        info: &ControllerInfo,
+    ) -> Result<(Csr, SavedCsr), Problem> {
         let settings = run.session.settings().await?;
         let request = self.fields.request(&info.application_name);
         request.check(&settings.value.security_policies).map_err(bad_request)?;
@@ -103,12 +107,12 @@ impl CreateCsr {
             let (made, key) = make_and_send(run, info, request).await?;
             (made, Some(key))
         } else {
-            run.begin(Step::Apply)?;
+            run.begin(JobStep::Apply)?;
             (run.session.make_csr(info.revision, request).await?, None)
         };
         let csr = Csr::from_der(&made.csr)?;
         // Saved also after a cancel: the controller holds it by now.
-        (run.on_step)(Step::SaveBackup);
+        (run.on_step)(JobStep::SaveBackup);
         let (files, serial, password) = (self.files.clone(), info.serial.clone(), run.password.clone());
         let (format, key, saving) = (self.format, key.filter(|_| self.backup), csr.clone());
         let save = move || files.save_csr(&serial, &saving, format, key.as_ref(), &password).map_err(Problem::from);
@@ -117,11 +121,11 @@ impl CreateCsr {
 }
 
 async fn make_and_send(
-    run: &mut Run<'_>,
+    run: &mut OperationRun<'_>,
     info: &ControllerInfo,
     request: CsrRequest,
 ) -> Result<(StoredCsr, PrivateKey), Problem> {
-    run.begin(Step::MakeKey)?;
+    run.begin(JobStep::MakeKey)?;
     let names = server_names(info, run.controller);
     let password = transfer_password()?;
     let alias = info.serial.to_string();
@@ -133,7 +137,7 @@ async fn make_and_send(
             Ok((key, csr, pkcs12, password))
         })
         .await??;
-    run.begin(Step::Apply)?;
+    run.begin(JobStep::Apply)?;
     let key_transfer = SealedKey { pkcs12, password };
     let import = CsrImport { csr: csr.der().to_vec(), key: key_transfer, certificate: None };
     Ok((run.session.import_csr(info.revision, import).await?, key))

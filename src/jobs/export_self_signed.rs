@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
+use super::{Confirmation, JobStep, Operation, OperationOutput, OperationRun, OutputFacts};
 use crate::model::{CertificateSummary, CertificateType, ErrorCode, FileFormat, Problem};
 use crate::pki::Certificate;
 use crate::workspace::{CertificateFiles, SavedFile};
@@ -38,13 +38,13 @@ impl Operation for ExportSelfSigned {
         Some(Confirmation { moves_files_aside: true, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateExported, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<CertificateExported, Problem> {
+        run.begin(JobStep::Read)?;
         let info = run.session.info().await?;
         let held = run.session.certificates().await?;
         let missing = || Problem::with_detail(ErrorCode::CertificateNotStored, CertificateType::SelfSigned.as_str());
         let certificate = Certificate::from_der(held.value.of(CertificateType::SelfSigned).ok_or_else(missing)?)?;
-        run.begin(Step::SaveBackup)?;
+        run.begin(JobStep::SaveBackup)?;
         let (files, format, password) = (self.files.clone(), self.format, run.password.clone());
         let exporting = certificate.clone();
         let export =

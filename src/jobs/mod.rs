@@ -7,79 +7,81 @@
 //! |---|---|
 //! | `get_info` | read everything a row shows |
 //! | `server_control` | start and stop the OPC UA server |
-//! | `settings` | read and change the basic settings |
+//! | `basic_settings` | read and change the basic settings |
 //! | `overview` | settings and the length of the lists, for a look at one controller |
 //! | `users` | list, add, remove users |
 //! | `self_signed` | make and install a self-signed certificate |
 //! | `create_csr` | make a key and its certificate signing request |
-//! | `import_ca` | check and import what a CA issued for that |
+//! | `import_ca_signed` | check and import what a CA issued for that |
 //! | `sign_csrs` | have the small CA sign what controllers ask for, and import it |
 //! | `push_authority` | give controllers the CRL and certificate of the small CA |
-//! | `import_user` | check and import key and certificate made with another tool |
-//! | `restore_certificate` | check and put back a backup of a key |
+//! | `user_specified` | check and import key and certificate made with another tool |
+//! | `restore_backup` | check and put back a backup of a key |
 //! | `preflight` | what is looked at before such an import |
-//! | `select_certificate` | list the server certificates held, select one |
+//! | `type_select` | list the server certificates held, select one |
 //! | `export_self_signed` | save the self-signed certificate on the PC |
-//! | `trust` | client certificate lists and CRLs: list, watch, add, move, remove, undo |
-//! | `activate` | activate legacy controllers by their keys |
+//! | `client_certificates` | client certificate lists and CRLs: list, watch, add, move, remove, undo |
+//! | `activation` | activate legacy controllers by their keys |
 //! | `server_log` | read the server log, save it on the PC |
 //! | `settings_transfer` | export settings to the PC and import them again |
 //! | `verify` | connect to the OPC UA server as a client does |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
-mod activate;
+mod activation;
+mod basic_settings;
+mod client_certificates;
 mod controller;
 mod create_csr;
 mod enroll;
 mod export_self_signed;
 mod get_info;
-mod import_ca;
-mod import_user;
+mod import_ca_signed;
 mod operation;
 mod overview;
 mod preflight;
 mod push_authority;
-mod restore_certificate;
+mod restore_backup;
 mod runner;
-mod select_certificate;
 mod self_signed;
 mod server_control;
 mod server_log;
-mod settings;
 mod settings_transfer;
 mod sign_csrs;
-mod trust;
+mod type_select;
+mod user_specified;
 mod users;
 mod verify;
 
-pub use activate::{Activate, KeySource};
+pub use activation::{Activate, KeySource};
+pub use basic_settings::{BasicSettingsChange, ReadBasicSettings, SetBasicSettings};
+pub use client_certificates::{
+    AddTrust, Destination, ItemContent, ListTrust, MoveClients, PlannedAction, PlannedItem, RemoveClients, RemoveCrls,
+    SkipReason, TargetList, TrustChange, TrustFile, TrustNote, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust,
+    WATCH_INTERVAL, WatchEvent, watch_trust,
+};
 pub use controller::JobController;
 pub use create_csr::{CreateCsr, CsrFields, CsrSaved};
 pub use enroll::{Enrolled, enroll, probe};
 pub use export_self_signed::{CertificateExported, ExportSelfSigned};
 pub use get_info::GetInfo;
-pub use import_ca::{CaCertificateSource, CheckCaCertificate, ImportCaCertificate};
-pub use import_user::{CheckUserCertificate, ImportUserCertificate, UserCertificateFiles};
-pub use operation::{Confirmation, Done, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
+pub use import_ca_signed::{CaSignedSource, CheckCaSigned, ImportCaSigned};
+pub use operation::{
+    Confirmation, JobStep, NoOutput, Operation, OperationOutput, OperationRun, OutputFacts, ServerEffect,
+};
 pub use overview::{Overview, ReadOverview};
 pub use preflight::{CertificateChecked, CertificateImported};
 pub use push_authority::PushAuthority;
-pub use restore_certificate::{CertificateRestored, CheckCertificateBackup, RestoreCertificate};
-pub use runner::{JobContext, JobEvent, Report, Summary, run};
-pub use select_certificate::{ListCertificates, SelectCertificateType};
+pub use restore_backup::{BackupRestored, CheckBackup, RestoreBackup};
+pub use runner::{ControllerReport, JobContext, JobEvent, JobSummary, run};
 pub use self_signed::{CertificateMade, SelfSigned, SelfSignedFields};
 pub use server_control::{StartServer, StopServer};
 pub use server_log::{LogPart, LogSaved, ReadLog, SaveLog};
-pub use settings::{ReadSettings, SetSettings, SettingsChange};
 pub use settings_transfer::{ExportSettings, ImportSettings, SettingsExported, SettingsImported};
 pub use sign_csrs::{SharedAuthority, SignCsrs};
-pub use trust::{
-    AddTrust, Destination, ItemContent, ListTrust, MoveClients, Note, PlannedAction, PlannedItem, RemoveClients,
-    RemoveCrls, SkipReason, Target, TrustChange, TrustFile, TrustPlan, TrustSnapshot, TrustUndo, UndoTrust,
-    WATCH_INTERVAL, WatchEvent, watch_trust,
-};
+pub use type_select::{ListCertificates, SelectCertificateType};
+pub use user_specified::{CheckUserSpecified, ImportUserSpecified, UserSpecifiedFiles};
 pub use users::{AddUser, ListUsers, RemoveUsers};
 pub use verify::{
-    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict,
-    TrustConfigurator, Verify, VerifyFinding, VerifyReport,
+    CertificateVerdict, ConnectRefusal, EndpointVerdict, NotTried, RefusalDetails, TokenOutcome, TokenVerdict,
+    TrustConfigurator, Verify, VerifyCounts, VerifyFinding, VerifyReport,
 };

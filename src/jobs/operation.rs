@@ -23,7 +23,7 @@ pub trait Operation: std::fmt::Debug + Send + Sync {
     }
 
     /// Does it, once everything was agreed to.
-    async fn run(&self, run: &mut Run<'_>) -> Result<Self::Output, Problem>;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<Self::Output, Problem>;
 
     /// The status in which it leaves the server, and its result then, for an operation that changes nothing else. When
     /// the answer was lost and the server has this status, the operation succeeded. Default: none.
@@ -88,7 +88,7 @@ pub struct Confirmation {
 
 /// The step a controller is at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Step {
+pub enum JobStep {
     Connect,
     Read,
     /// Connecting as an OPC UA client.
@@ -128,9 +128,9 @@ impl OutputFacts<'_> {
 
 /// The result of an operation that returns nothing: the information the runner reads afterwards says the rest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Done;
+pub struct NoOutput;
 
-impl OperationOutput for Done {
+impl OperationOutput for NoOutput {
     fn facts(&self) -> OutputFacts<'_> {
         OutputFacts::NONE
     }
@@ -144,30 +144,30 @@ impl<T: std::fmt::Debug + Send + 'static> OperationOutput for Revisioned<T> {
 }
 
 /// One controller's turn: the open session, and a way to say where it is.
-pub struct Run<'a> {
+pub struct OperationRun<'a> {
     pub controller: &'a JobController,
     pub session: &'a mut dyn ControllerSession,
     /// The password among the controller's credentials: protects the files that are saved for it.
     pub password: &'a SecretString,
     pub(super) key_makers: &'a tokio::sync::Semaphore,
     pub(super) cancel: &'a CancellationToken,
-    pub(super) on_step: &'a (dyn Fn(Step) + Send + Sync),
+    pub(super) on_step: &'a (dyn Fn(JobStep) + Send + Sync),
 }
 
-impl std::fmt::Debug for Run<'_> {
+impl std::fmt::Debug for OperationRun<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Run").field("controller", &self.controller.name).finish_non_exhaustive()
+        f.debug_struct("OperationRun").field("controller", &self.controller.name).finish_non_exhaustive()
     }
 }
 
-impl Run<'_> {
+impl OperationRun<'_> {
     /// An error if the controller does not offer this ([`Capabilities::require`](crate::model::Capabilities::require)).
     pub async fn require(&mut self, feature: Feature) -> Result<(), Problem> {
         self.session.capabilities().await?.require(feature)
     }
 
     /// Reports the next step. After a cancel there is none: the step in hand was the last.
-    pub fn begin(&self, step: Step) -> Result<(), Problem> {
+    pub fn begin(&self, step: JobStep) -> Result<(), Problem> {
         if self.cancel.is_cancelled() {
             return Err(ErrorCode::Cancelled.into());
         }

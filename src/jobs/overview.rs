@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
+use super::{Confirmation, JobStep, Operation, OperationOutput, OperationRun, OutputFacts};
 use crate::model::{ClientList, Feature, Problem, ServerSettings};
 
 /// Reads what [`ControllerInfo`](crate::model::ControllerInfo) does not hold, for a look at one controller. Changes
@@ -34,8 +34,8 @@ impl Operation for ReadOverview {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Overview, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<Overview, Problem> {
+        run.begin(JobStep::Read)?;
         let session = &mut *run.session;
         let issuers = if session.capabilities().await?.offers(Feature::IssuersList) {
             Some(session.clients(ClientList::Issuers).await?.value.len())

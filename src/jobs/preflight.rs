@@ -3,16 +3,18 @@
 use std::path::PathBuf;
 
 use super::self_signed::server_names;
-use super::{OperationOutput, OutputFacts, Run};
+use super::{OperationOutput, OperationRun, OutputFacts};
 use crate::model::{CertificateSummary, ControllerInfo, ErrorCode, Language, Problem};
-use crate::pki::{Certificate, CertificateFlaw, Expected, Finding, Issuers, PkiError, Severity, check_import};
+use crate::pki::{
+    Certificate, CertificateFinding, CertificateFlaw, ExpectedServer, Issuers, PkiError, Severity, check_import,
+};
 
 /// A server certificate from elsewhere was installed and selected.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertificateImported {
     pub summary: CertificateSummary,
     /// What clients may complain about, and was accepted.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<CertificateFinding>,
     /// Where the files of the former request are now, if one was made for it.
     pub moved_aside: Vec<PathBuf>,
 }
@@ -29,7 +31,7 @@ pub struct CertificateChecked {
     /// `None`: a signing request and its key, without a certificate.
     pub summary: Option<CertificateSummary>,
     /// What clients would say of it.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<CertificateFinding>,
     /// Of a certificate from a CA.
     pub issuers: Option<Issuers>,
 }
@@ -49,26 +51,27 @@ impl OperationOutput for CertificateChecked {
 
 /// Compares a certificate with the controller it is for. Reads the controller's settings.
 pub(super) async fn examine(
-    run: &mut Run<'_>,
+    run: &mut OperationRun<'_>,
     info: &ControllerInfo,
     certificate: &Certificate,
-) -> Result<Vec<Finding>, Problem> {
+) -> Result<Vec<CertificateFinding>, Problem> {
     let policies = run.session.settings().await?.value.security_policies;
     let application_uri = server_names(info, run.controller).application_uri;
     // The name that this computer uses, and that `verify` compares with the certificate.
     let hosts = [run.controller.address.host().to_owned()];
-    let expected = Expected { application_uri: &application_uri, hosts: &hosts, policies: &policies, now: info.clock };
+    let expected =
+        ExpectedServer { application_uri: &application_uri, hosts: &hosts, policies: &policies, now: info.clock };
     Ok(check_import(certificate, &expected))
 }
 
 /// Refuses what clients would refuse, and what they may complain about unless that is accepted. An expired certificate
 /// and a key of the wrong length have codes of their own.
 pub(super) async fn admit(
-    run: &mut Run<'_>,
+    run: &mut OperationRun<'_>,
     info: &ControllerInfo,
     certificate: &Certificate,
     accept_warnings: bool,
-) -> Result<Vec<Finding>, Problem> {
+) -> Result<Vec<CertificateFinding>, Problem> {
     let findings = examine(run, info, certificate).await?;
     for finding in &findings {
         match &finding.flaw {
@@ -87,7 +90,7 @@ pub(super) async fn admit(
     Ok(findings)
 }
 
-fn listed<'a>(findings: impl Iterator<Item = &'a Finding>) -> String {
+fn listed<'a>(findings: impl Iterator<Item = &'a CertificateFinding>) -> String {
     let texts: Vec<String> =
         findings.map(|finding| format!("{}: {}", finding.status(), finding.explain(Language::En))).collect();
     texts.join("; ")

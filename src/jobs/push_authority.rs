@@ -1,6 +1,8 @@
 use async_trait::async_trait;
 
-use super::{AddTrust, Confirmation, Destination, JobController, Operation, Run, Step, TrustChange, TrustFile};
+use super::{
+    AddTrust, Confirmation, Destination, JobController, JobStep, Operation, OperationRun, TrustChange, TrustFile,
+};
 use crate::model::{Capabilities, Feature, Problem};
 use crate::pki::Bundle;
 use crate::workspace::authority::AuthorityOverview;
@@ -61,8 +63,8 @@ impl Operation for PushAuthority {
         }
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<TrustChange, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<TrustChange, Problem> {
+        run.begin(JobStep::Read)?;
         let capabilities = run.session.capabilities().await?;
         self.operation(&capabilities).run(run).await
     }

@@ -6,7 +6,7 @@ use tokio::sync::Semaphore;
 use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
-use super::{JobController, Operation, OperationOutput, Run, Step};
+use super::{JobController, JobStep, Operation, OperationOutput, OperationRun};
 use crate::model::{ControllerInfo, Credentials, ErrorCode, Problem, RevisionToken};
 use crate::pki::Fingerprint;
 use crate::session::{Connectors, ControllerSession};
@@ -63,7 +63,7 @@ impl JobContext {
 
 /// The result of an operation for one controller. `O`: the operation's [`Operation::Output`].
 #[derive(Debug, Clone, PartialEq)]
-pub struct Report<O> {
+pub struct ControllerReport<O> {
     pub result: Result<O, Problem>,
     /// The controller's information after the operation, whether that succeeded or not; `None` if it was not reached.
     pub info: Option<ControllerInfo>,
@@ -72,20 +72,20 @@ pub struct Report<O> {
 /// What happens while a job runs. `index` counts the job's controllers.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JobEvent<O> {
-    Step { index: usize, step: Step },
-    Finished { index: usize, report: Box<Report<O>> },
+    Step { index: usize, step: JobStep },
+    Finished { index: usize, report: Box<ControllerReport<O>> },
 }
 
 /// How a job ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Summary {
+pub struct JobSummary {
     pub done: usize,
     pub failed: usize,
     /// Cancelled before their turn, or before their change was sent.
     pub not_started: usize,
 }
 
-impl Summary {
+impl JobSummary {
     pub fn add<O>(&mut self, result: &Result<O, Problem>) {
         match result {
             Ok(_) => self.done += 1,
@@ -108,14 +108,14 @@ pub async fn run<O: OperationOutput>(
     context: JobContext,
     cancel: CancellationToken,
     on_event: impl Fn(JobEvent<O>) + Send + Sync + 'static,
-) -> Summary {
+) -> JobSummary {
     let on_event = Arc::new(on_event);
     let at_once = context.parallelism.max(1);
-    let mut summary = Summary::default();
+    let mut summary = JobSummary::default();
     let mut waiting = controllers.into_iter().enumerate();
     let mut turns = JoinSet::new();
     let mut index_of = HashMap::new();
-    let mut goodbyes = JoinSet::new();
+    let mut closing_sessions = JoinSet::new();
     loop {
         while turns.len() < at_once
             && let Some((index, controller)) = waiting.next()
@@ -131,34 +131,34 @@ pub async fn run<O: OperationOutput>(
         let (id, turn) = match turns.join_next_with_id().await {
             None => break,
             Some(Ok((id, turn))) => (id, turn),
-            Some(Err(e)) => (e.id(), Turn::failed(Problem::with_detail(ErrorCode::Internal, &e))),
+            Some(Err(e)) => (e.id(), TurnResult::failed(Problem::with_detail(ErrorCode::Internal, &e))),
         };
         summary.add(&turn.report.result);
         if let Some(index) = index_of.remove(&id) {
             on_event(JobEvent::Finished { index, report: Box::new(turn.report) });
         }
         if let Some(mut session) = turn.session {
-            while goodbyes.try_join_next().is_some() {}
-            if goodbyes.len() >= at_once {
-                goodbyes.join_next().await;
+            while closing_sessions.try_join_next().is_some() {}
+            if closing_sessions.len() >= at_once {
+                closing_sessions.join_next().await;
             }
-            goodbyes.spawn(async move { session.close().await });
+            closing_sessions.spawn(async move { session.close().await });
         }
     }
-    while goodbyes.join_next().await.is_some() {}
+    while closing_sessions.join_next().await.is_some() {}
     summary
 }
 
 /// A controller's turn is over.
-struct Turn<O> {
-    report: Report<O>,
+struct TurnResult<O> {
+    report: ControllerReport<O>,
     /// Still to be closed.
     session: Option<Box<dyn ControllerSession>>,
 }
 
-impl<O> Turn<O> {
+impl<O> TurnResult<O> {
     fn failed(problem: Problem) -> Self {
-        Self { report: Report { result: Err(problem), info: None }, session: None }
+        Self { report: ControllerReport { result: Err(problem), info: None }, session: None }
     }
 }
 
@@ -167,20 +167,20 @@ async fn one<O: OperationOutput>(
     operation: &dyn Operation<Output = O>,
     context: &JobContext,
     cancel: &CancellationToken,
-    on_step: &(dyn Fn(Step) + Send + Sync),
-) -> Turn<O> {
+    on_step: &(dyn Fn(JobStep) + Send + Sync),
+) -> TurnResult<O> {
     if cancel.is_cancelled() {
-        return Turn::failed(ErrorCode::Cancelled.into());
+        return TurnResult::failed(ErrorCode::Cancelled.into());
     }
     if let Err(problem) = operation.check(controller) {
-        return Turn::failed(problem);
+        return TurnResult::failed(problem);
     }
     let Some(fingerprint) = controller.fingerprint else {
-        return Turn::failed(ErrorCode::FingerprintUnknown.into());
+        return TurnResult::failed(ErrorCode::FingerprintUnknown.into());
     };
     let open = async {
         let credentials = context.credentials(fingerprint).await?;
-        on_step(Step::Connect);
+        on_step(JobStep::Connect);
         let session = context.connect(controller, fingerprint, &credentials).await?;
         Ok((credentials, session))
     };
@@ -193,10 +193,10 @@ async fn one<O: OperationOutput>(
     };
     let (credentials, mut session) = match opened {
         Ok(opened) => opened,
-        Err(problem) => return Turn::failed(problem),
+        Err(problem) => return TurnResult::failed(problem),
     };
     let result = operation
-        .run(&mut Run {
+        .run(&mut OperationRun {
             controller,
             session: session.as_mut(),
             password: credentials.password(),
@@ -206,23 +206,25 @@ async fn one<O: OperationOutput>(
         })
         .await;
     let unanswered = session.unanswered();
-    let again = Again { controller, context, fingerprint, credentials: &credentials };
+    let again = Rereading { controller, context, fingerprint, credentials: &credentials };
     // Also after a failure: the row must show what the controller is like now.
     let report = match result {
         Err(problem) if unanswered.is_some() || (is_silence(&problem) && operation.wanted_status().is_some()) => {
-            again.find_out(problem, unanswered, operation, cancel).await
+            again.determine_outcome(problem, unanswered, operation, cancel).await
         }
         Err(problem) if matches!(problem.code, ErrorCode::Timeout | ErrorCode::Unreachable) => {
-            Report { result: Err(problem), info: None }
+            ControllerReport { result: Err(problem), info: None }
         }
         result => match (result, session.info().await) {
-            (Ok(_), Err(problem)) if operation.is_information() => Report { result: Err(problem), info: None },
+            (Ok(_), Err(problem)) if operation.is_information() => {
+                ControllerReport { result: Err(problem), info: None }
+            }
             // The change counts as done although the connection was lost afterwards.
-            (Ok(output), Err(_)) => Report { result: Ok(output), info: again.read().await.ok() },
-            (result, info) => Report { result, info: info.ok() },
+            (Ok(output), Err(_)) => ControllerReport { result: Ok(output), info: again.read().await.ok() },
+            (result, info) => ControllerReport { result, info: info.ok() },
         },
     };
-    Turn { report, session: Some(session) }
+    TurnResult { report, session: Some(session) }
 }
 
 /// Nothing came back.
@@ -234,14 +236,14 @@ fn is_silence(problem: &Problem) -> bool {
 const READ_AGAIN: [Duration; 3] = [Duration::ZERO, Duration::from_secs(1), Duration::from_secs(2)];
 
 /// A way to a controller besides the session that failed.
-struct Again<'a> {
+struct Rereading<'a> {
     controller: &'a JobController,
     context: &'a JobContext,
     fingerprint: Fingerprint,
     credentials: &'a Credentials,
 }
 
-impl Again<'_> {
+impl Rereading<'_> {
     async fn read(&self) -> Result<ControllerInfo, Problem> {
         let mut session = self.context.connect(self.controller, self.fingerprint, self.credentials).await?;
         let info = session.info().await;
@@ -256,13 +258,13 @@ impl Again<'_> {
     ///   cases it was somebody else's change; the row shows how it is.
     /// - It is where a start or a stop should bring it: done, whoever did it.
     /// - Neither: what went wrong, saying that the change was not seen. The controller may still be at work on it.
-    async fn find_out<O: OperationOutput>(
+    async fn determine_outcome<O: OperationOutput>(
         &self,
         problem: Problem,
         based_on: Option<RevisionToken>,
         operation: &dyn Operation<Output = O>,
         cancel: &CancellationToken,
-    ) -> Report<O> {
+    ) -> ControllerReport<O> {
         let mut last = None;
         for pause in READ_AGAIN {
             if cancel.is_cancelled() && last.is_some() {
@@ -273,11 +275,14 @@ impl Again<'_> {
             if let Some((wanted, output)) = operation.wanted_status()
                 && info.status == wanted
             {
-                return Report { result: Ok(output), info: Some(info) };
+                return ControllerReport { result: Ok(output), info: Some(info) };
             }
             if let Some(before) = based_on.filter(|before| info.revision != *before) {
                 let detail = format!("{}; revision {before} is now {}", problem.code.as_str(), info.revision);
-                return Report { result: Err(Problem::with_detail(ErrorCode::AnswerLost, detail)), info: Some(info) };
+                return ControllerReport {
+                    result: Err(Problem::with_detail(ErrorCode::AnswerLost, detail)),
+                    info: Some(info),
+                };
             }
             last = Some(info);
         }
@@ -286,6 +291,6 @@ impl Again<'_> {
             None => "whether it was applied could not be read".to_owned(),
         };
         let detail = problem.detail.map_or(seen.clone(), |detail| format!("{detail}; {seen}"));
-        Report { result: Err(Problem::with_detail(problem.code, detail)), info: last }
+        ControllerReport { result: Err(Problem::with_detail(problem.code, detail)), info: last }
     }
 }

@@ -3,7 +3,9 @@ use std::net::IpAddr;
 use async_trait::async_trait;
 use secrecy::SecretString;
 
-use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
+use super::{
+    Confirmation, JobController, JobStep, Operation, OperationOutput, OperationRun, OutputFacts, ServerEffect,
+};
 use crate::model::{
     CertificateSummary, CertificateType, ControllerInfo, ErrorCode, Feature, KeyLength, Problem, SelfSignedRequest,
     Subject, Validity, clock,
@@ -93,8 +95,8 @@ impl Operation for SelfSigned {
         self.fields.request(application_name).subject.check().map_err(bad_request)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateMade, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<CertificateMade, Problem> {
+        run.begin(JobStep::Read)?;
         let info = run.session.info().await?;
         let settings = run.session.settings().await?;
         let request = self.fields.request(&info.application_name);
@@ -106,7 +108,7 @@ impl Operation for SelfSigned {
             run.off_thread(move || files.check_writable(&serial, key_password.as_ref()).map_err(Problem::from)).await?;
         }
         let (installed, key) = if made_in_controller {
-            run.begin(Step::Apply)?;
+            run.begin(JobStep::Apply)?;
             (run.session.make_self_signed(info.revision, request).await?, None)
         } else {
             let (installed, key) = make_and_send(run, &info, request).await?;
@@ -117,7 +119,7 @@ impl Operation for SelfSigned {
             None => None,
             Some(files) => {
                 // Saved also after a cancel: a certificate that is in use without its backup is what nobody wants.
-                (run.on_step)(Step::SaveBackup);
+                (run.on_step)(JobStep::SaveBackup);
                 let (files, serial, password) = (files.clone(), info.serial.clone(), run.password.clone());
                 let certificate = certificate.clone();
                 let save = move || {
@@ -131,11 +133,11 @@ impl Operation for SelfSigned {
 }
 
 async fn make_and_send(
-    run: &mut Run<'_>,
+    run: &mut OperationRun<'_>,
     info: &ControllerInfo,
     request: SelfSignedRequest,
 ) -> Result<(InstalledCertificate, PrivateKey), Problem> {
-    run.begin(Step::MakeKey)?;
+    run.begin(JobStep::MakeKey)?;
     let names = server_names(info, run.controller);
     let password = transfer_password()?;
     let alias = info.serial.to_string();
@@ -148,7 +150,7 @@ async fn make_and_send(
             Ok((key, pkcs12, password))
         })
         .await??;
-    run.begin(Step::Apply)?;
+    run.begin(JobStep::Apply)?;
     let sealed = SealedKey { pkcs12, password };
     Ok((run.session.import_certificate(info.revision, CertificateType::SelfSigned, sealed).await?, key))
 }

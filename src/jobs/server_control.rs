@@ -1,6 +1,6 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Done, Operation, Run, ServerEffect, Step};
+use super::{Confirmation, JobStep, NoOutput, Operation, OperationRun, ServerEffect};
 use crate::model::{Problem, ServerStatus};
 
 /// Starts the OPC UA server (manual 2.4.3).
@@ -9,20 +9,20 @@ pub struct StartServer;
 
 #[async_trait]
 impl Operation for StartServer {
-    type Output = Done;
+    type Output = NoOutput;
 
     fn confirmation(&self) -> Option<Confirmation> {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
-        run.begin(Step::Apply)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<NoOutput, Problem> {
+        run.begin(JobStep::Apply)?;
         run.session.start_server().await?;
-        Ok(Done)
+        Ok(NoOutput)
     }
 
-    fn wanted_status(&self) -> Option<(ServerStatus, Done)> {
-        Some((ServerStatus::Run, Done))
+    fn wanted_status(&self) -> Option<(ServerStatus, NoOutput)> {
+        Some((ServerStatus::Run, NoOutput))
     }
 }
 
@@ -32,19 +32,19 @@ pub struct StopServer;
 
 #[async_trait]
 impl Operation for StopServer {
-    type Output = Done;
+    type Output = NoOutput;
 
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Stops, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
-        run.begin(Step::Apply)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<NoOutput, Problem> {
+        run.begin(JobStep::Apply)?;
         run.session.stop_server().await?;
-        Ok(Done)
+        Ok(NoOutput)
     }
 
-    fn wanted_status(&self) -> Option<(ServerStatus, Done)> {
-        Some((ServerStatus::Stop, Done))
+    fn wanted_status(&self) -> Option<(ServerStatus, NoOutput)> {
+        Some((ServerStatus::Stop, NoOutput))
     }
 }

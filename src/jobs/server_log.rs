@@ -3,8 +3,8 @@ use std::time::{Duration, Instant};
 
 use async_trait::async_trait;
 
-use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
-use crate::model::{ErrorCode, LogChunk, Problem, foreign_text};
+use super::{Confirmation, JobStep, Operation, OperationOutput, OperationRun, OutputFacts};
+use crate::model::{ErrorCode, LogChunk, Problem, untrusted_text};
 use crate::workspace::write_atomic;
 
 /// No log is longer; a controller that gives more than this is not read to the end.
@@ -15,7 +15,7 @@ const MAX_ANSWERS: u64 = 4 * MAX_LOG_BYTES / LogChunk::MAX_BYTES as u64;
 const MAX_TIME: Duration = Duration::from_secs(120);
 
 /// Reads the log of an OPC UA server (manual 6.3). It is switched on and off, and deleted, by
-/// [`SetSettings`](super::SetSettings).
+/// [`SetBasicSettings`](super::SetBasicSettings).
 ///
 /// Reads what the log holds when this begins, at most 16 MiB, in at most 256 requests and 120 s;
 /// [`LogChunk::next`] of the outcome says how far it came. Lines written meanwhile are left out.
@@ -36,7 +36,7 @@ pub enum LogPart {
     From(u64),
 }
 
-/// Reads the whole server log and saves it on the PC as text ([`foreign_text::lines`]), readable by its owner only. A file of the same name is replaced. Limits and errors are those of [`ReadLog`].
+/// Reads the whole server log and saves it on the PC as text ([`untrusted_text::lines`]), readable by its owner only. A file of the same name is replaced. Limits and errors are those of [`ReadLog`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SaveLog {
     pub path: PathBuf,
@@ -69,8 +69,8 @@ impl Operation for ReadLog {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<LogChunk, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<LogChunk, Problem> {
+        run.begin(JobStep::Read)?;
         let log = match self.part {
             LogPart::End => run.session.log(None).await?,
             LogPart::From(from) => read_from(from, run).await?,
@@ -91,18 +91,18 @@ impl Operation for SaveLog {
         true
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<LogSaved, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<LogSaved, Problem> {
+        run.begin(JobStep::Read)?;
         let text = read_from(0, run).await?.text;
-        run.begin(Step::SaveBackup)?;
+        run.begin(JobStep::SaveBackup)?;
         let path = self.path.clone();
-        run.off_thread(move || Ok(write_atomic(&path, foreign_text::lines(&text).as_bytes())?)).await?;
+        run.off_thread(move || Ok(write_atomic(&path, untrusted_text::lines(&text).as_bytes())?)).await?;
         Ok(LogSaved { path: self.path.clone() })
     }
 }
 
 /// Everything from this byte to what is the end now, within the limits of [`ReadLog`].
-async fn read_from(from: u64, run: &mut Run<'_>) -> Result<LogChunk, Problem> {
+async fn read_from(from: u64, run: &mut OperationRun<'_>) -> Result<LogChunk, Problem> {
     let until = Instant::now() + MAX_TIME;
     let first = run.session.log(Some(from)).await?;
     let end = first.size.min(first.from.saturating_add(MAX_LOG_BYTES));
@@ -122,7 +122,7 @@ async fn read_from(from: u64, run: &mut Run<'_>) -> Result<LogChunk, Problem> {
         if advance == 0 || whole.next >= end || answer == MAX_ANSWERS || Instant::now() >= until {
             break;
         }
-        run.begin(Step::Read)?;
+        run.begin(JobStep::Read)?;
         chunk = run.session.log(Some(whole.next)).await?;
     }
     Ok(whole)

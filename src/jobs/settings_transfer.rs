@@ -3,7 +3,9 @@ use std::path::PathBuf;
 use async_trait::async_trait;
 use secrecy::SecretString;
 
-use super::{Confirmation, JobController, Operation, OperationOutput, OutputFacts, Run, ServerEffect, Step};
+use super::{
+    Confirmation, JobController, JobStep, Operation, OperationOutput, OperationRun, OutputFacts, ServerEffect,
+};
 use crate::model::{Feature, Problem};
 use crate::workspace::{SettingsFiles, check_passphrase, check_protects_files};
 
@@ -62,8 +64,8 @@ impl Operation for ExportSettings {
         controller.capabilities().require(Feature::SettingsTransfer)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<SettingsExported, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<SettingsExported, Problem> {
+        run.begin(JobStep::Read)?;
         let info = run.session.info().await?;
         run.require(Feature::SettingsTransfer).await?;
         if self.passphrase.is_none() {
@@ -73,7 +75,7 @@ impl Operation for ExportSettings {
         let export = run.session.export_settings(passphrase).await?;
         // Another one's would be refused at the import, when it is too late.
         export.check_for(&info.serial, info.series, info.firmware)?;
-        run.begin(Step::SaveBackup)?;
+        run.begin(JobStep::SaveBackup)?;
         let files = self.files.clone();
         let path = run.on_a_core(move || files.save(&info.serial, &export)).await??;
         Ok(SettingsExported { path })
@@ -92,8 +94,8 @@ impl Operation for ImportSettings {
         controller.capabilities().require(Feature::SettingsTransfer)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<SettingsImported, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<SettingsImported, Problem> {
+        run.begin(JobStep::Read)?;
         let info = run.session.info().await?;
         run.require(Feature::SettingsTransfer).await?;
         let (files, revision) = (self.files.clone(), info.revision);
@@ -108,7 +110,7 @@ impl Operation for ImportSettings {
                 Ok((export, path))
             })
             .await??;
-        run.begin(Step::Apply)?;
+        run.begin(JobStep::Apply)?;
         run.session.import_settings(revision, export, passphrase).await?;
         Ok(SettingsImported { path })
     }

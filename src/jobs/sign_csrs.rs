@@ -5,18 +5,19 @@ use parking_lot::Mutex;
 use secrecy::SecretString;
 
 use super::{
-    CertificateImported, Confirmation, CreateCsr, JobController, Operation, Run, ServerEffect, Step, preflight,
+    CertificateImported, Confirmation, CreateCsr, JobController, JobStep, Operation, OperationRun, ServerEffect,
+    preflight,
 };
 use crate::model::{CertificateProfile, CertificateType, ControllerInfo, Problem, ServerStatus, Validity, clock};
 use crate::pki::{Certificate, Csr, IssueRequest};
-use crate::workspace::authority::{Authority, AuthorityFiles, Drafted, IssuedFor};
+use crate::workspace::authority::{AuthorityFiles, IssuedFor, UnlockedAuthority, UnrecordedCertificate};
 
 /// The small CA for one job: taken up when it is first needed, and held until the job is over.
 #[derive(Debug)]
 pub struct SharedAuthority {
     files: AuthorityFiles,
     passphrase: SecretString,
-    opened: Mutex<Option<Authority>>,
+    opened: Mutex<Option<UnlockedAuthority>>,
 }
 
 impl SharedAuthority {
@@ -25,7 +26,7 @@ impl SharedAuthority {
     }
 
     /// Blocks while others use it, and while it is opened.
-    fn with<R>(&self, work: impl FnOnce(&mut Authority) -> Result<R, Problem>) -> Result<R, Problem> {
+    fn with<R>(&self, work: impl FnOnce(&mut UnlockedAuthority) -> Result<R, Problem>) -> Result<R, Problem> {
         let mut opened = self.opened.lock();
         match opened.as_mut() {
             Some(authority) => work(authority),
@@ -38,7 +39,7 @@ impl SharedAuthority {
 /// controller has to a CA-signed server certificate in one operation.
 ///
 /// The signing request is the one the controller holds; one is made where there is none. What is signed is looked at
-/// as [`ImportCaCertificate`](super::ImportCaCertificate) does before the CA writes it down or anything is sent. A
+/// as [`ImportCaSigned`](super::ImportCaSigned) does before the CA writes it down or anything is sent. A
 /// request that was signed before, and whose certificate is still valid, gets that certificate: after a failure the
 /// operation can simply be repeated. A controller that uses it already is left alone.
 #[derive(Debug, Clone)]
@@ -59,12 +60,12 @@ pub struct SignCsrs {
 }
 
 /// Where the certificate for a request comes from.
-enum Signed {
+enum CertificateOrigin {
     Before(Certificate),
-    Now(Drafted),
+    Now(UnrecordedCertificate),
 }
 
-impl Signed {
+impl CertificateOrigin {
     const fn certificate(&self) -> &Certificate {
         match self {
             Self::Before(certificate) => certificate,
@@ -92,8 +93,8 @@ impl Operation for SignCsrs {
         self.request.check(controller)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<CertificateImported, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<CertificateImported, Problem> {
+        run.begin(JobStep::Read)?;
         let info = run.session.info().await?;
         let held = run.session.certificates().await?.value;
         let (csr, moved_aside) = match &held.csr {
@@ -103,7 +104,7 @@ impl Operation for SignCsrs {
                 (csr, saved.moved_aside)
             }
         };
-        run.begin(Step::Sign)?;
+        run.begin(JobStep::Sign)?;
         let signed = self.sign(run, csr).await?;
         let certificate = signed.certificate().clone();
         let findings = preflight::admit(run, &info, &certificate, self.accept_warnings).await?;
@@ -111,7 +112,7 @@ impl Operation for SignCsrs {
         let in_use =
             held.selected == CertificateType::CaSigned && held.of(CertificateType::CaSigned) == Some(certificate.der());
         if !in_use {
-            run.begin(Step::Apply)?;
+            run.begin(JobStep::Apply)?;
             // Another one than above, if a request was made.
             let revision = run.session.info().await?.revision;
             let imported = run.session.import_ca_signed(revision, certificate.der().to_vec()).await?;
@@ -125,7 +126,7 @@ impl Operation for SignCsrs {
 }
 
 impl SignCsrs {
-    async fn sign(&self, run: &Run<'_>, csr: Csr) -> Result<Signed, Problem> {
+    async fn sign(&self, run: &OperationRun<'_>, csr: Csr) -> Result<CertificateOrigin, Problem> {
         let request = IssueRequest {
             profile: CertificateProfile::Server,
             validity: self.validity,
@@ -139,16 +140,21 @@ impl SignCsrs {
                 let before = if renew { None } else { authority.valid_for(&csr, now) };
                 // One whose file is missing was never given to anybody.
                 match before.and_then(|issued| authority.files().issued(&issued.serial_number).ok()) {
-                    Some(certificate) => Ok(Signed::Before(certificate)),
-                    None => Ok(Signed::Now(authority.draft(&csr, &request, now)?)),
+                    Some(certificate) => Ok(CertificateOrigin::Before(certificate)),
+                    None => Ok(CertificateOrigin::Now(authority.draft(&csr, &request, now)?)),
                 }
             })
         })
         .await
     }
 
-    async fn record(&self, run: &Run<'_>, signed: Signed, info: &ControllerInfo) -> Result<(), Problem> {
-        let Signed::Now(drafted) = signed else { return Ok(()) };
+    async fn record(
+        &self,
+        run: &OperationRun<'_>,
+        signed: CertificateOrigin,
+        info: &ControllerInfo,
+    ) -> Result<(), Problem> {
+        let CertificateOrigin::Now(drafted) = signed else { return Ok(()) };
         let controller = IssuedFor { name: run.controller.name.clone(), serial: info.serial.clone() };
         let authority = self.authority.clone();
         run.off_thread(move || {

@@ -1,7 +1,7 @@
 use async_trait::async_trait;
 
-use super::{Confirmation, Done, Operation, Run, ServerEffect, Step};
-use crate::model::{Credential, ErrorCode, MAX_USERS, Problem, RevisionToken, Revisioned, UserName};
+use super::{Confirmation, JobStep, NoOutput, Operation, OperationRun, ServerEffect};
+use crate::model::{ErrorCode, MAX_USERS, Problem, RevisionToken, Revisioned, UserCredential, UserName};
 
 /// Lists the users of an OPC UA server; never their passwords (manual 2.6.2.1).
 #[derive(Debug, Clone, Copy)]
@@ -15,8 +15,8 @@ impl Operation for ListUsers {
         None
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Revisioned<Vec<UserName>>, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<Revisioned<Vec<UserName>>, Problem> {
+        run.begin(JobStep::Read)?;
         run.session.users().await
     }
 }
@@ -24,21 +24,21 @@ impl Operation for ListUsers {
 /// Adds one user (manual 2.6.2.2).
 #[derive(Debug, Clone)]
 pub struct AddUser {
-    pub credential: Credential,
+    pub credential: UserCredential,
     /// The configuration that a dialog showed; `None` bases the change on the present one.
     pub based_on: Option<RevisionToken>,
 }
 
 #[async_trait]
 impl Operation for AddUser {
-    type Output = Done;
+    type Output = NoOutput;
 
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<NoOutput, Problem> {
+        run.begin(JobStep::Read)?;
         let current = run.session.users().await?;
         if current.value.contains(&self.credential.name) {
             return Err(Problem::with_detail(ErrorCode::UserExists, &self.credential.name));
@@ -46,9 +46,9 @@ impl Operation for AddUser {
         if current.value.len() >= MAX_USERS {
             return Err(ErrorCode::TooManyUsers.into());
         }
-        run.begin(Step::Apply)?;
+        run.begin(JobStep::Apply)?;
         run.session.add_user(self.based_on.unwrap_or(current.revision), self.credential.clone()).await?;
-        Ok(Done)
+        Ok(NoOutput)
     }
 }
 
@@ -62,20 +62,20 @@ pub struct RemoveUsers {
 
 #[async_trait]
 impl Operation for RemoveUsers {
-    type Output = Done;
+    type Output = NoOutput;
 
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation { server: ServerEffect::Restarts, ..Confirmation::default() })
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<NoOutput, Problem> {
+        run.begin(JobStep::Read)?;
         let current = run.session.users().await?;
         if let Some(missing) = self.names.iter().find(|name| !current.value.contains(name)) {
             return Err(Problem::with_detail(ErrorCode::UserNotFound, missing));
         }
-        run.begin(Step::Apply)?;
+        run.begin(JobStep::Apply)?;
         run.session.remove_users(self.based_on.unwrap_or(current.revision), self.names.clone()).await?;
-        Ok(Done)
+        Ok(NoOutput)
     }
 }

@@ -34,7 +34,7 @@ pub struct AuthorityValidity(u8);
 /// The number is no [`AuthorityValidity`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("{0} years is not a validity of a CA; choose 1 to 30")]
-pub struct AuthorityYears(pub u8);
+pub struct InvalidAuthorityValidity(pub u8);
 
 impl AuthorityValidity {
     pub const MIN_YEARS: u8 = 1;
@@ -58,10 +58,14 @@ impl Default for AuthorityValidity {
 }
 
 impl TryFrom<u8> for AuthorityValidity {
-    type Error = AuthorityYears;
+    type Error = InvalidAuthorityValidity;
 
-    fn try_from(years: u8) -> Result<Self, AuthorityYears> {
-        if (Self::MIN_YEARS..=Self::MAX_YEARS).contains(&years) { Ok(Self(years)) } else { Err(AuthorityYears(years)) }
+    fn try_from(years: u8) -> Result<Self, InvalidAuthorityValidity> {
+        if (Self::MIN_YEARS..=Self::MAX_YEARS).contains(&years) {
+            Ok(Self(years))
+        } else {
+            Err(InvalidAuthorityValidity(years))
+        }
     }
 }
 
@@ -86,8 +90,8 @@ mod tests {
 
     #[test]
     fn a_ca_is_valid_for_1_to_30_years() {
-        assert_eq!(AuthorityValidity::try_from(0), Err(AuthorityYears(0)));
-        assert_eq!(AuthorityValidity::try_from(31), Err(AuthorityYears(31)));
+        assert_eq!(AuthorityValidity::try_from(0), Err(InvalidAuthorityValidity(0)));
+        assert_eq!(AuthorityValidity::try_from(31), Err(InvalidAuthorityValidity(31)));
         assert_eq!(AuthorityValidity::try_from(30).map(AuthorityValidity::years), Ok(30));
     }
 }

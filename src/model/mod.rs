@@ -23,8 +23,6 @@ mod credentials;
 mod crl_summary;
 mod error_code;
 pub mod file_names;
-pub mod foreign_text;
-mod held_certificates;
 mod info;
 mod language;
 mod log_chunk;
@@ -32,13 +30,15 @@ pub mod opcua;
 mod problem;
 mod revision;
 mod settings;
-pub mod table;
+mod stored_server_certificates;
 pub mod text;
+pub mod text_table;
 mod trust_lists;
+pub mod untrusted_text;
 mod user;
 
 pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
-pub use authority::{AuthorityRequest, AuthorityValidity, AuthorityYears, CertificateProfile};
+pub use authority::{AuthorityRequest, AuthorityValidity, CertificateProfile, InvalidAuthorityValidity};
 pub use base64_bytes::Base64Bytes;
 pub use capabilities::{Capabilities, Feature, MissingReason};
 pub use certificate::{
@@ -56,7 +56,6 @@ pub use country::Country;
 pub use credentials::Credentials;
 pub use crl_summary::CrlSummary;
 pub use error_code::{ErrorCode, ErrorOrigin};
-pub use held_certificates::{HeldCertificate, HeldCertificates};
 pub use info::{ControllerInfo, ServerCertificate, ServerStatus};
 pub use language::Language;
 pub use log_chunk::LogChunk;
@@ -65,5 +64,6 @@ pub use revision::{RevisionToken, Revisioned};
 pub use settings::{
     PortError, SecurityPolicy, ServerPort, ServerSettings, SettingsError, SettingsWarning, StartupMode, UserTokenPolicy,
 };
-pub use trust_lists::{CutClient, ListedCertificate, ListedCrl, TrustStamp, TrustStep};
-pub use user::{Credential, CredentialError, MAX_USERS, UserName, UserPassword};
+pub use stored_server_certificates::{StoredServerCertificate, StoredServerCertificates};
+pub use trust_lists::{DisconnectedClient, ListedCertificate, ListedCrl, TrustStamp, TrustStep};
+pub use user::{MAX_USERS, UserCredential, UserCredentialError, UserName, UserPassword};

@@ -4,12 +4,12 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::ErrorCode;
-use super::foreign_text::one_line;
+use super::untrusted_text::one_line;
 
 /// One failure, as it is shown, logged and sent: a code and, where it helps, one technical detail.
 ///
 /// The detail is free text in English and never holds a secret. It is one line of at most 500 characters, without those
-/// that a terminal obeys ([`super::foreign_text`]).
+/// that a terminal obeys ([`super::untrusted_text`]).
 #[derive(Debug, Clone, PartialEq, Eq, Error, Serialize, Deserialize)]
 pub struct Problem {
     pub code: ErrorCode,

@@ -61,7 +61,7 @@ pub enum TrustStep {
 
 /// A client whose open connection the controller ended because the client is no longer accepted.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct CutClient {
+pub struct DisconnectedClient {
     /// IP address and port.
     pub address: String,
     pub issued_to: String,

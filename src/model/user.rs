@@ -13,19 +13,19 @@ const MAX_CHARS: usize = 32;
 
 /// Which rule of manual 2.6.2.2 a user name or password breaks. Never carries the password itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
-pub enum CredentialError {
+pub enum UserCredentialError {
     #[error("it has {0} characters; 8 to 32 are required")]
     Length(usize),
     #[error("only the letters A–Z, a–z and the digits 0–9 are allowed")]
     Characters,
 }
 
-fn check(text: &str) -> Result<(), CredentialError> {
+fn check(text: &str) -> Result<(), UserCredentialError> {
     if !text.bytes().all(|b| b.is_ascii_alphanumeric()) {
-        return Err(CredentialError::Characters);
+        return Err(UserCredentialError::Characters);
     }
     if !(MIN_CHARS..=MAX_CHARS).contains(&text.len()) {
-        return Err(CredentialError::Length(text.len()));
+        return Err(UserCredentialError::Length(text.len()));
     }
     Ok(())
 }
@@ -42,13 +42,13 @@ impl UserName {
 }
 
 impl FromStr for UserName {
-    type Err = CredentialError;
-    fn from_str(text: &str) -> Result<Self, CredentialError> {
+    type Err = UserCredentialError;
+    fn from_str(text: &str) -> Result<Self, UserCredentialError> {
         check(text).map(|()| Self(text.to_owned()))
     }
 }
 
-text_in_messages!(UserName, CredentialError);
+text_in_messages!(UserName, UserCredentialError);
 
 impl fmt::Display for UserName {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -61,7 +61,7 @@ impl fmt::Display for UserName {
 pub struct UserPassword(SecretString);
 
 impl UserPassword {
-    pub fn new(text: &str) -> Result<Self, CredentialError> {
+    pub fn new(text: &str) -> Result<Self, UserCredentialError> {
         check(text).map(|()| Self(SecretString::from(text)))
     }
 
@@ -76,7 +76,7 @@ impl UserPassword {
 
 /// A user to be added.
 #[derive(Debug, Clone)]
-pub struct Credential {
+pub struct UserCredential {
     pub name: UserName,
     pub password: UserPassword,
 }
@@ -88,17 +88,17 @@ mod tests {
     #[test]
     fn names_and_passwords_are_8_to_32_letters_and_digits() {
         assert!("operator1".parse::<UserName>().is_ok());
-        assert_eq!("short".parse::<UserName>(), Err(CredentialError::Length(5)));
-        assert_eq!("a".repeat(33).parse::<UserName>(), Err(CredentialError::Length(33)));
+        assert_eq!("short".parse::<UserName>(), Err(UserCredentialError::Length(5)));
+        assert_eq!("a".repeat(33).parse::<UserName>(), Err(UserCredentialError::Length(33)));
         for bad in ["operator-1", "operator 1", "操作员操作员操作员", "ｏｐｅｒａｔｏｒ"] {
-            assert_eq!(bad.parse::<UserName>(), Err(CredentialError::Characters), "{bad}");
+            assert_eq!(bad.parse::<UserName>(), Err(UserCredentialError::Characters), "{bad}");
         }
         assert!(UserPassword::new("Passw0rd").is_ok());
     }
 
     #[test]
     fn a_password_is_not_in_its_debug_output() {
-        let credential = Credential {
+        let credential = UserCredential {
             name: "operator1".parse().expect("name"),
             password: UserPassword::new("TopSecret99").expect("password"),
         };

@@ -1,6 +1,6 @@
 //! Files with certificates and revocation lists, however they were written.
 
-use super::parts::{Part, parts};
+use super::parts::{FilePart, parts};
 use super::size::check_size;
 use super::{Certificate, Crl, FileContent, MAX_CRL_BYTES, PkiError, Wanted, tlv};
 
@@ -27,7 +27,7 @@ pub struct Bundle {
 pub fn read_bundle(bytes: &[u8]) -> Result<Bundle, PkiError> {
     check_size(bytes, MAX_BUNDLE_BYTES)?;
     let parts = parts(bytes)?;
-    if parts.iter().any(Part::is_private_key) {
+    if parts.iter().any(FilePart::is_private_key) {
         return Err(PkiError::PrivateKeyInside);
     }
     let mut bundle = Bundle::default();
@@ -49,7 +49,7 @@ impl Bundle {
     }
 
     /// Adds one public object of a file.
-    pub(super) fn add(&mut self, part: Part) -> Result<(), PkiError> {
+    pub(super) fn add(&mut self, part: FilePart) -> Result<(), PkiError> {
         match part.content {
             FileContent::Certificate => self.add_certificate(Certificate::from_der(&part.der)?),
             FileContent::Crl => self.add_crl(Crl::from_der(&part.der)?),

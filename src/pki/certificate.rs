@@ -6,7 +6,7 @@ use chrono::{DateTime, Utc};
 use sha1::{Digest as _, Sha1};
 use x509_parser::prelude::{FromDer, X509Certificate};
 
-use super::facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage, Facts};
+use super::certificate_fields::{AlternativeName, BasicConstraints, CertificateFields, ExtendedKeyUsage};
 use super::key_usage::KeyUsage;
 use super::pem;
 use super::signature::{PublicKey, SignatureCheck};
@@ -25,7 +25,7 @@ pub const MAX_CERTIFICATE_BYTES: usize = 16 * 1024;
 #[derive(Clone, PartialEq, Eq)]
 pub struct Certificate {
     der: Arc<[u8]>,
-    facts: Arc<Facts>,
+    facts: Arc<CertificateFields>,
 }
 
 impl Certificate {
@@ -36,7 +36,7 @@ impl Certificate {
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
-        let facts = Arc::new(Facts::of(der, &parsed)?);
+        let facts = Arc::new(CertificateFields::of(der, &parsed)?);
         if tlv::is_signed_object(der) { Ok(Self { der: der.into(), facts }) } else { Err(PkiError::NotACertificate) }
     }
 
@@ -169,7 +169,7 @@ impl Certificate {
     }
 
     /// What was read from it.
-    pub(super) fn facts(&self) -> &Facts {
+    pub(super) fn facts(&self) -> &CertificateFields {
         &self.facts
     }
 

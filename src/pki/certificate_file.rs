@@ -1,6 +1,6 @@
 //! One certificate from a file in any encoding.
 
-use super::parts::{Part, parts};
+use super::parts::{FilePart, parts};
 use super::pem::MAX_CERTIFICATE_FILE_BYTES;
 use super::size::check_size;
 use super::{Bundle, Certificate, FileContent, PkiError, Wanted};
@@ -23,7 +23,7 @@ impl Certificate {
 }
 
 /// Every certificate; other public things are passed over, unless there is nothing else.
-fn certificates_in(parts: Vec<Part>) -> Result<Vec<Certificate>, PkiError> {
+fn certificates_in(parts: Vec<FilePart>) -> Result<Vec<Certificate>, PkiError> {
     let mut certificates = Vec::new();
     let mut other = None;
     for part in parts {

@@ -9,8 +9,8 @@ use x509_parser::prelude::{
     CertificateRevocationList, FromDer, ParsedExtension, RevokedCertificate, X509Extension, X509Name,
 };
 
-use super::distribution_point::{Reasons, Scope};
-use super::facts::{date, range_within, significant};
+use super::certificate_fields::{date, range_within, significant};
+use super::distribution_point::{CrlScope, RevocationReasons};
 use super::name::quoted;
 use super::signature::{SignatureAlgorithm, SignatureCheck};
 use super::size::check_size;
@@ -28,11 +28,11 @@ pub const MAX_CRL_BYTES: usize = 8 * 1024 * 1024;
 #[derive(Clone, PartialEq, Eq)]
 pub struct Crl {
     der: Arc<[u8]>,
-    facts: Arc<Facts>,
+    facts: Arc<CrlFields>,
 }
 
 #[derive(Debug, PartialEq, Eq)]
-struct Facts {
+struct CrlFields {
     issuer: String,
     issuer_title: String,
     issuer_folded: Vec<u8>,
@@ -44,7 +44,7 @@ struct Facts {
     /// Sorted by serial number.
     entries: Vec<RevokedEntry>,
     unusable: Option<CrlUnusable>,
-    scope: Scope,
+    scope: CrlScope,
     signature_algorithm: SignatureAlgorithm,
     signed: Range<usize>,
     signature: Vec<u8>,
@@ -61,7 +61,7 @@ struct RevokedEntry {
 
 /// What a revocation list says of one certificate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Revoked {
+pub struct RevocationEntry {
     pub date: DateTime<Utc>,
     pub reason: RevocationReason,
 }
@@ -74,7 +74,7 @@ impl Crl {
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
-        let facts = Arc::new(Facts::of(der, &parsed)?);
+        let facts = Arc::new(CrlFields::of(der, &parsed)?);
         if tlv::is_signed_object(der) {
             Ok(Self { der: der.into(), facts })
         } else {
@@ -158,7 +158,7 @@ impl Crl {
 
     /// The reasons for which it would name the certificate if it were revoked for them; or why it would not. Says
     /// nothing about dates and signatures.
-    pub(super) fn covers(&self, certificate: &Certificate) -> Result<Reasons, OutOfScope> {
+    pub(super) fn covers(&self, certificate: &Certificate) -> Result<RevocationReasons, OutOfScope> {
         let is_ca = certificate.basic_constraints().is_some_and(|constraints| constraints.ca);
         let facts = certificate.facts();
         self.facts.scope.covers(is_ca, &facts.issuer_folded, &facts.distribution_points)
@@ -224,7 +224,7 @@ impl Crl {
     /// What it says of a certificate, if it lists it. Says nothing about certificates of other authorities.
     ///
     /// An indirect list never does: its entries may be about certificates of anybody.
-    pub fn revoked(&self, certificate: &Certificate) -> Option<Revoked> {
+    pub fn revoked(&self, certificate: &Certificate) -> Option<RevocationEntry> {
         if self.facts.scope.indirect || !self.is_by_issuer_of(certificate) {
             return None;
         }
@@ -234,14 +234,14 @@ impl Crl {
         let same = entries[first..].iter().take_while(|entry| entry.serial(&self.der) == serial);
         // A list may name one certificate twice; what revokes it counts.
         let entry = same.into_iter().find(|entry| entry.reason != RevocationReason::RemoveFromCrl)?;
-        Some(Revoked { date: DateTime::from_timestamp(entry.date, 0)?, reason: entry.reason })
+        Some(RevocationEntry { date: DateTime::from_timestamp(entry.date, 0)?, reason: entry.reason })
     }
 
     /// Every entry: the serial number in upper-case hexadecimal, and what is said of it. Sorted by serial number.
-    pub fn entries(&self) -> impl Iterator<Item = (String, Revoked)> + '_ {
+    pub fn entries(&self) -> impl Iterator<Item = (String, RevocationEntry)> + '_ {
         self.facts.entries.iter().filter_map(|entry| {
             let serial = hex::encode_upper(entry.serial(&self.der));
-            Some((serial, Revoked { date: DateTime::from_timestamp(entry.date, 0)?, reason: entry.reason }))
+            Some((serial, RevocationEntry { date: DateTime::from_timestamp(entry.date, 0)?, reason: entry.reason }))
         })
     }
 
@@ -284,7 +284,7 @@ impl RevokedEntry {
     }
 }
 
-impl Facts {
+impl CrlFields {
     fn of(der: &[u8], parsed: &CertificateRevocationList<'_>) -> Result<Self, PkiError> {
         let damaged = |_: PkiError| PkiError::NotACrl("a date is out of range");
         let list = &parsed.tbs_cert_list;
@@ -311,7 +311,7 @@ impl Facts {
             next_update: parsed.next_update().map(date).transpose().map_err(damaged)?,
             entries: Vec::with_capacity(entries.len()),
             unusable: None,
-            scope: Scope::default(),
+            scope: CrlScope::default(),
             signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
             signed: range_within(der, list.as_ref()).ok_or(PkiError::NotACrl(UNREADABLE))?,
             signature: parsed.signature_value.data.to_vec(),
@@ -330,7 +330,7 @@ impl Facts {
         let damaged = PkiError::NotACrl("one of its extensions is damaged");
         match extension.parsed_extension() {
             _ if extension.oid.to_id_string() == ISSUING_DISTRIBUTION_POINT => {
-                self.scope = Scope::read(extension.value, issuer).ok_or(damaged)?;
+                self.scope = CrlScope::read(extension.value, issuer).ok_or(damaged)?;
             }
             ParsedExtension::AuthorityKeyIdentifier(authority) => {
                 self.authority_key_id = authority.key_identifier.as_ref().map(|id| id.0.to_vec());

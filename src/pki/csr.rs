@@ -6,7 +6,7 @@ use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::cri_attributes::ExtensionRequest;
 use x509_parser::prelude::{FromDer, X509Extension};
 
-use super::parts::{Part, parts};
+use super::parts::{FilePart, parts};
 use super::pem::{self, MAX_CERTIFICATE_FILE_BYTES};
 use super::self_signed::{alternative_names, distinguished_name};
 use super::signature::{PublicKey, SignatureAlgorithm, SignatureCheck};
@@ -56,8 +56,8 @@ impl Csr {
             (Some(at), 1) => Self::from_der(&parts.remove(at).der),
             (Some(_), several) => Err(PkiError::SeveralCsrs(several)),
             (None, _) => match parts.remove(0) {
-                Part { content: FileContent::Unknown, der } => Self::from_der(&der),
-                Part { content: found, .. } => Err(PkiError::OtherContent { found, wanted: Wanted::Csr }),
+                FilePart { content: FileContent::Unknown, der } => Self::from_der(&der),
+                FilePart { content: found, .. } => Err(PkiError::OtherContent { found, wanted: Wanted::Csr }),
             },
         }
     }

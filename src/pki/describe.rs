@@ -8,12 +8,12 @@ use sha1::{Digest as _, Sha1};
 use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::prelude::{FromDer as _, SubjectPublicKeyInfo};
 
+use super::certificate_fields::Extensions;
 use super::csr::requested_extensions;
-use super::facts::Extensions;
 use super::general_name::{NameConstraints, Subtree};
-use super::parts::{Part, parts};
+use super::parts::{FilePart, parts};
 use super::signature::{Curve, PublicKey, SignatureAlgorithm, SignatureCheck};
-use super::signers::{Signed, Signers};
+use super::signers::{SignedBy, Signers};
 use super::size::check_size;
 use super::{
     AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, FileContent, KeyUsage,
@@ -143,7 +143,7 @@ pub struct KeyDescription {
 /// it hashes the password, and for some signature checks, 2000 at most.
 pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>, PkiError> {
     check_size(bytes, MAX_BUNDLE_BYTES)?;
-    let mut found = Found::default();
+    let mut found = FileReading::default();
     for part in parts(bytes)? {
         found.part(part, password)?;
         if found.items.len() > MAX_ITEMS {
@@ -161,21 +161,21 @@ const MAX_ITEMS: usize = 1000;
 const MAX_HASHED: usize = 16;
 
 /// One item of the file. Certificates and lists are described last: their signers may come later in the file.
-enum Item {
+enum DescribedItem {
     Certificate(Certificate),
     Crl(Crl),
     Other(Description),
 }
 
 #[derive(Default)]
-struct Found {
-    items: Vec<Item>,
+struct FileReading {
+    items: Vec<DescribedItem>,
     /// Keys the password was hashed for.
     hashed: usize,
 }
 
-impl Found {
-    fn part(&mut self, part: Part, password: Option<&str>) -> Result<(), PkiError> {
+impl FileReading {
+    fn part(&mut self, part: FilePart, password: Option<&str>) -> Result<(), PkiError> {
         match part.content {
             FileContent::Csr => self.other(Description::Csr(Box::new(request(&part.der)?))),
             FileContent::PublicKey => {
@@ -195,7 +195,7 @@ impl Found {
                 return Err(PkiError::OtherContent { found: content, wanted: Wanted::PrivateKey });
             }
             FileContent::Pkcs12 => {
-                let pkcs12::Contents { keys, certificates } =
+                let pkcs12::Pkcs12Contents { keys, certificates } =
                     pkcs12::contents(&part.der, password.ok_or(PkiError::PasswordNeeded)?)?;
                 for key in keys {
                     self.other(Description::PrivateKey(plain_key(&key)?));
@@ -212,35 +212,35 @@ impl Found {
     }
 
     fn other(&mut self, description: Description) {
-        self.items.push(Item::Other(description));
+        self.items.push(DescribedItem::Other(description));
     }
 
     fn bundle(&mut self, bundle: Bundle) {
-        self.items.extend(bundle.certificates.into_iter().map(Item::Certificate));
-        self.items.extend(bundle.crls.into_iter().map(Item::Crl));
+        self.items.extend(bundle.certificates.into_iter().map(DescribedItem::Certificate));
+        self.items.extend(bundle.crls.into_iter().map(DescribedItem::Crl));
     }
 
     fn described(&self) -> Result<Vec<Description>, PkiError> {
         let mut signers = Signers::new(self.items.iter().filter_map(|item| match item {
-            Item::Certificate(certificate) => Some(certificate),
+            DescribedItem::Certificate(certificate) => Some(certificate),
             _ => None,
         }));
         self.items
             .iter()
             .map(|item| match item {
-                Item::Certificate(certificate) => {
+                DescribedItem::Certificate(certificate) => {
                     let signed = signers.of_certificate(certificate)?;
                     Ok(Description::Certificate(Box::new(certificate.describe(&signed))))
                 }
-                Item::Crl(crl) => Ok(Description::Crl(Box::new(crl.describe(signers.of_crl(crl)?)))),
-                Item::Other(description) => Ok(description.clone()),
+                DescribedItem::Crl(crl) => Ok(Description::Crl(Box::new(crl.describe(signers.of_crl(crl)?)))),
+                DescribedItem::Other(description) => Ok(description.clone()),
             })
             .collect()
     }
 }
 
 impl Certificate {
-    fn describe(&self, signed: &Signed<'_>) -> CertificateDescription {
+    fn describe(&self, signed: &SignedBy<'_>) -> CertificateDescription {
         let facts = self.facts();
         CertificateDescription {
             subject: facts.subject.clone(),

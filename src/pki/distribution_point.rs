@@ -11,9 +11,9 @@ use super::{CrlUnusable, OutOfScope, RevocationReason, name};
 
 /// A set of reasons for a revocation, those of ReasonFlags.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Reasons(u16);
+pub(super) struct RevocationReasons(u16);
 
-impl Reasons {
+impl RevocationReasons {
     pub const NONE: Self = Self(0);
     /// keyCompromise (1) to aACompromise (8).
     pub const ALL: Self = Self(0x1fe);
@@ -60,7 +60,7 @@ type PointName = Vec<u8>;
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct DistributionPoint {
     names: Vec<PointName>,
-    reasons: Reasons,
+    reasons: RevocationReasons,
 }
 
 impl DistributionPoint {
@@ -79,17 +79,17 @@ impl DistributionPoint {
         }
         let mut fields = Fields::of(point.content)?;
         let names = optional(fields.take(0xa0), |content| point_names(content, issuer))?;
-        let reasons = optional(fields.take(0x81), Reasons::read)?;
+        let reasons = optional(fields.take(0x81), RevocationReasons::read)?;
         let of_another = fields.take(0xa2).is_some();
         fields.end()?;
         let names = names.unwrap_or_default();
-        Some((!of_another).then_some(Self { names, reasons: reasons.unwrap_or(Reasons::ALL) }))
+        Some((!of_another).then_some(Self { names, reasons: reasons.unwrap_or(RevocationReasons::ALL) }))
     }
 }
 
 /// The issuing distribution point of a list; the default is that of a list without one: everything its issuer issued.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Scope {
+pub(super) struct CrlScope {
     /// Only certificates with one of these distribution points, or with the first of them as their issuer.
     points: Option<BTreeSet<PointName>>,
     /// The same, for people.
@@ -97,11 +97,11 @@ pub(super) struct Scope {
     only_users: bool,
     only_authorities: bool,
     only_attributes: bool,
-    reasons: Reasons,
+    reasons: RevocationReasons,
     pub indirect: bool,
 }
 
-impl Default for Scope {
+impl Default for CrlScope {
     fn default() -> Self {
         Self {
             points: None,
@@ -109,13 +109,13 @@ impl Default for Scope {
             only_users: false,
             only_authorities: false,
             only_attributes: false,
-            reasons: Reasons::ALL,
+            reasons: RevocationReasons::ALL,
             indirect: false,
         }
     }
 }
 
-impl Scope {
+impl CrlScope {
     /// `issuer`: of the list. `None` if the extension is damaged.
     pub fn read(extension: &[u8], issuer: &X509Name<'_>) -> Option<Self> {
         let mut fields = Fields::of(sequence(extension)?)?;
@@ -126,7 +126,7 @@ impl Scope {
             points: points.map(|names| names.into_iter().collect()),
             only_users: fields.take_boolean(0x81)?,
             only_authorities: fields.take_boolean(0x82)?,
-            reasons: optional(fields.take(0x83), Reasons::read)?.unwrap_or(Reasons::ALL),
+            reasons: optional(fields.take(0x83), RevocationReasons::read)?.unwrap_or(RevocationReasons::ALL),
             indirect: fields.take_boolean(0x84)?,
             only_attributes: fields.take_boolean(0x85)?,
         };
@@ -142,7 +142,7 @@ impl Scope {
             Some(CrlUnusable::OnlyAttributeCertificates)
         } else if self.only_users && self.only_authorities {
             Some(CrlUnusable::AboutNothing)
-        } else if self.reasons != Reasons::ALL {
+        } else if self.reasons != RevocationReasons::ALL {
             Some(CrlUnusable::OnlySomeReasons)
         } else {
             None
@@ -157,7 +157,7 @@ impl Scope {
         is_ca: bool,
         issuer: &[u8],
         distribution_points: &[DistributionPoint],
-    ) -> Result<Reasons, OutOfScope> {
+    ) -> Result<RevocationReasons, OutOfScope> {
         if self.only_users && is_ca {
             return Err(OutOfScope::OnlyApplications);
         }
@@ -173,9 +173,9 @@ impl Scope {
         let at_points = distribution_points
             .iter()
             .filter(|point| point.names.iter().any(|name| points.contains(name)))
-            .fold(Reasons::NONE, |reasons, point| reasons.or(point.reasons));
-        match if by_issuer { Reasons::ALL } else { at_points } {
-            Reasons::NONE => Err(OutOfScope::OtherDistributionPoint(self.points_text.clone())),
+            .fold(RevocationReasons::NONE, |reasons, point| reasons.or(point.reasons));
+        match if by_issuer { RevocationReasons::ALL } else { at_points } {
+            RevocationReasons::NONE => Err(OutOfScope::OtherDistributionPoint(self.points_text.clone())),
             reasons => Ok(reasons.and(self.reasons)),
         }
     }
@@ -306,16 +306,16 @@ const URI: u8 = 0x86;
 mod tests {
     use super::*;
 
-    fn scope(fields: &[u8]) -> Option<Scope> {
-        Scope::read(&tlv::write(SEQUENCE, &[fields]), &X509Name::new(Vec::new(), &[SEQUENCE, 0]))
+    fn scope(fields: &[u8]) -> Option<CrlScope> {
+        CrlScope::read(&tlv::write(SEQUENCE, &[fields]), &X509Name::new(Vec::new(), &[SEQUENCE, 0]))
     }
 
     #[test]
     fn a_scope_is_read_to_the_last_byte_or_not_at_all() {
-        assert_eq!(scope(&[]), Some(Scope::default()), "about everything");
+        assert_eq!(scope(&[]), Some(CrlScope::default()), "about everything");
         let users = scope(&[0x81, 1, 0xff]).unwrap();
         assert_eq!((users.unusable(), users.limits()), (None, Some(OutOfScope::OnlyApplications)));
-        assert_eq!(scope(&[0x81, 1, 0]), Some(Scope::default()), "the default, written down");
+        assert_eq!(scope(&[0x81, 1, 0]), Some(CrlScope::default()), "the default, written down");
         for (fields, what) in [
             (&[0x82, 1, 0xff, 0x81, 1, 0xff][..], "not in their order"),
             (&[0x81, 1, 0xff, 0x81, 1, 0xff], "twice"),
@@ -330,8 +330,12 @@ mod tests {
         ] {
             assert_eq!(scope(fields), None, "{what}");
         }
-        assert_eq!(Scope::read(&[0x30, 0, 0], &X509Name::new(Vec::new(), &[SEQUENCE, 0])), None, "something after it");
-        assert_eq!(Scope::read(&[0x31, 0], &X509Name::new(Vec::new(), &[SEQUENCE, 0])), None, "a set");
+        assert_eq!(
+            CrlScope::read(&[0x30, 0, 0], &X509Name::new(Vec::new(), &[SEQUENCE, 0])),
+            None,
+            "something after it"
+        );
+        assert_eq!(CrlScope::read(&[0x31, 0], &X509Name::new(Vec::new(), &[SEQUENCE, 0])), None, "a set");
     }
 
     #[test]
@@ -342,9 +346,9 @@ mod tests {
         assert!(unusable(&[0x83, 2, 5, 0x60]), "some reasons");
         assert!(!unusable(&[0x83, 3, 7, 0x7f, 0x80]), "all reasons");
         assert!(!unusable(&[0x82, 1, 0xff]));
-        let every = Reasons::read(&[7, 0xff, 0x80]).unwrap();
-        assert_eq!(every, Reasons::ALL, "the unused bit is not one of them");
-        let some = Reasons::read(&[5, 0x60]).unwrap();
+        let every = RevocationReasons::read(&[7, 0xff, 0x80]).unwrap();
+        assert_eq!(every, RevocationReasons::ALL, "the unused bit is not one of them");
+        let some = RevocationReasons::read(&[5, 0x60]).unwrap();
         assert!(some.contains(RevocationReason::KeyCompromise) && some.contains(RevocationReason::CaCompromise));
         assert!(!some.contains(RevocationReason::Superseded) && !some.contains(RevocationReason::Unspecified));
     }

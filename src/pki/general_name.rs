@@ -255,9 +255,9 @@ mod tests {
     use super::*;
 
     /// Tag and content of the base of a subtree.
-    type Base<'a> = (u8, &'a [u8]);
+    type SubtreeBase<'a> = (u8, &'a [u8]);
 
-    fn der(parts: &[(u8, &[Base<'_>])]) -> Vec<u8> {
+    fn der(parts: &[(u8, &[SubtreeBase<'_>])]) -> Vec<u8> {
         let lists: Vec<Vec<u8>> = parts
             .iter()
             .map(|(tag, bases)| {
@@ -340,7 +340,7 @@ mod tests {
 
     #[test]
     fn what_is_excluded_is_not_permitted_again() {
-        let both: &[(u8, &[Base<'_>])] =
+        let both: &[(u8, &[SubtreeBase<'_>])] =
             &[(PERMITTED, &[(0x82, b"plant.example")]), (EXCLUDED, &[(0x82, b"office.plant.example"), (0x86, b"x")])];
         let constraints = NameConstraints::parse(&der(both)).unwrap();
         let dns = |name: &str| constraints.allow(&GeneralName::Dns(name.into()));

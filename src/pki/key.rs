@@ -20,13 +20,13 @@ use crate::model::KeyLength;
 /// `Debug` shows its length only; the key material is wiped when it is dropped. As an [`rcgen::SigningKey`] it signs
 /// with PKCS#1 v1.5 and SHA-256, whatever its length.
 pub struct PrivateKey {
-    material: Material,
+    material: KeyMaterial,
     length: KeyLength,
     /// In PKCS#1.
     public_key: Vec<u8>,
 }
 
-enum Material {
+enum KeyMaterial {
     /// From 2048 bits up: AWS-LC, fast and constant-time. It wipes what it frees.
     Current(KeyPair),
     /// 1024 bits, for the deprecated policies only. AWS-LC rightly refuses to make or use them.
@@ -41,10 +41,10 @@ impl PrivateKey {
         let material = match length {
             KeyLength::Rsa1024 => {
                 let key = RsaPrivateKey::new(&mut OsRng, 1024).map_err(|_| PkiError::KeyGeneration)?;
-                Material::Legacy(Box::new(key))
+                KeyMaterial::Legacy(Box::new(key))
             }
-            KeyLength::Rsa2048 => Material::Current(generate(KeySize::Rsa2048)?),
-            KeyLength::Rsa4096 => Material::Current(generate(KeySize::Rsa4096)?),
+            KeyLength::Rsa2048 => KeyMaterial::Current(generate(KeySize::Rsa2048)?),
+            KeyLength::Rsa4096 => KeyMaterial::Current(generate(KeySize::Rsa4096)?),
         };
         Self::new(material, length)
     }
@@ -57,10 +57,10 @@ impl PrivateKey {
             // Checks the primes against the modulus, and computes anew what follows from them.
             KeyLength::Rsa1024 => {
                 let key = RsaPrivateKey::from_pkcs8_der(der).map_err(|_| PkiError::NotAPrivateKey)?;
-                Material::Legacy(Box::new(key))
+                KeyMaterial::Legacy(Box::new(key))
             }
             KeyLength::Rsa2048 | KeyLength::Rsa4096 => {
-                Material::Current(KeyPair::from_pkcs8(der).map_err(|_| PkiError::NotAPrivateKey)?)
+                KeyMaterial::Current(KeyPair::from_pkcs8(der).map_err(|_| PkiError::NotAPrivateKey)?)
             }
         };
         Self::new(material, length)
@@ -69,11 +69,11 @@ impl PrivateKey {
     /// As an unencrypted PKCS#8.
     pub fn to_pkcs8_der(&self) -> Result<Zeroizing<Vec<u8>>, PkiError> {
         match &self.material {
-            Material::Current(pair) => {
+            KeyMaterial::Current(pair) => {
                 let der = pair.as_der().map_err(|_| PkiError::KeyEncoding)?;
                 Ok(Zeroizing::new(der.as_ref().to_vec()))
             }
-            Material::Legacy(key) => Ok(key.to_pkcs8_der().map_err(|_| PkiError::KeyEncoding)?.to_bytes()),
+            KeyMaterial::Legacy(key) => Ok(key.to_pkcs8_der().map_err(|_| PkiError::KeyEncoding)?.to_bytes()),
         }
     }
 
@@ -97,10 +97,12 @@ impl PrivateKey {
         &self.public_key
     }
 
-    fn new(material: Material, length: KeyLength) -> Result<Self, PkiError> {
+    fn new(material: KeyMaterial, length: KeyLength) -> Result<Self, PkiError> {
         let public_key = match &material {
-            Material::Current(pair) => pair.public_key().as_ref().to_vec(),
-            Material::Legacy(key) => key.to_public_key().to_pkcs1_der().map_err(|_| PkiError::KeyEncoding)?.into_vec(),
+            KeyMaterial::Current(pair) => pair.public_key().as_ref().to_vec(),
+            KeyMaterial::Legacy(key) => {
+                key.to_public_key().to_pkcs1_der().map_err(|_| PkiError::KeyEncoding)?.into_vec()
+            }
         };
         Ok(Self { material, length, public_key })
     }
@@ -108,14 +110,14 @@ impl PrivateKey {
     /// PKCS#1 v1.5 with SHA-256.
     pub(super) fn sign_sha256(&self, message: &[u8]) -> Result<Vec<u8>, PkiError> {
         match &self.material {
-            Material::Current(pair) => {
+            KeyMaterial::Current(pair) => {
                 let mut signature = vec![0; pair.public_modulus_len()];
                 pair.sign(&RSA_PKCS1_SHA256, &SystemRandom::new(), message, &mut signature)
                     .map_err(|_| PkiError::Signing)?;
                 Ok(signature)
             }
             // With random numbers it blinds the operation, so that its duration tells nothing about the key.
-            Material::Legacy(key) => key
+            KeyMaterial::Legacy(key) => key
                 .sign_with_rng(&mut OsRng, Pkcs1v15Sign::new::<Sha256>(), &Sha256::digest(message))
                 .map_err(|_| PkiError::Signing),
         }

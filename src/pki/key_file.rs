@@ -5,8 +5,8 @@ use rsa::pkcs8::der::Encode as _;
 use rsa::pkcs8::{AlgorithmIdentifierRef, PrivateKeyInfo};
 use zeroize::Zeroizing;
 
-use super::parts::{Part, parts};
-use super::password_encryption::{self, DecryptError, Password};
+use super::parts::{FilePart, parts};
+use super::password_encryption::{self, DecryptError, EncodedPassword};
 use super::size::check_size;
 use super::{Certificate, FileContent, PkiError, PrivateKey, Wanted, read_bundle, tlv};
 
@@ -22,7 +22,7 @@ pub const MAX_KEY_FILE_BYTES: usize = 256 * 1024;
 pub fn read_key_file(bytes: &[u8], password: Option<&str>) -> Result<PrivateKey, PkiError> {
     check_size(bytes, MAX_KEY_FILE_BYTES)?;
     let parts = parts(bytes)?;
-    let keys: Vec<&Part> = parts.iter().filter(|part| part.is_private_key()).collect();
+    let keys: Vec<&FilePart> = parts.iter().filter(|part| part.is_private_key()).collect();
     match keys.as_slice() {
         [key] => read_key(key, password),
         [] => Err(match &parts[0].content {
@@ -35,7 +35,7 @@ pub fn read_key_file(bytes: &[u8], password: Option<&str>) -> Result<PrivateKey,
 }
 
 /// Reads one key of a file.
-pub(super) fn read_key(key: &Part, password: Option<&str>) -> Result<PrivateKey, PkiError> {
+pub(super) fn read_key(key: &FilePart, password: Option<&str>) -> Result<PrivateKey, PkiError> {
     match &key.content {
         FileContent::PrivateKey if PrivateKeyInfo::try_from(key.der.as_slice()).is_ok() => {
             PrivateKey::from_pkcs8_der(&key.der)
@@ -72,7 +72,7 @@ fn decrypt(der: &[u8], password: Option<&str>) -> Result<PrivateKey, PkiError> {
     let Some([algorithm, data]) = parts.as_deref() else { return Err(PkiError::NotAPrivateKey) };
     let data = tlv::sole(data).ok_or(PkiError::NotAPrivateKey)?.content;
     let password = password.ok_or(PkiError::PasswordNeeded)?;
-    for form in Password::forms(password) {
+    for form in EncodedPassword::forms(password) {
         match password_encryption::decrypt(algorithm, data, &form) {
             Ok(key) if PrivateKeyInfo::try_from(key.as_slice()).is_ok() => return PrivateKey::from_pkcs8_der(&key),
             Ok(_) | Err(DecryptError::Failed) => {}

@@ -50,6 +50,7 @@ mod ber;
 mod bundle;
 mod ca;
 mod certificate;
+mod certificate_fields;
 mod certificate_file;
 mod client_identity;
 mod crl;
@@ -57,7 +58,6 @@ mod csr;
 mod describe;
 mod distribution_point;
 mod error;
-mod facts;
 mod file_content;
 mod fingerprint;
 mod flaw;
@@ -93,15 +93,15 @@ pub use authority::is_authority;
 pub use bundle::{Bundle, MAX_BUNDLE_BYTES, read_bundle};
 pub use ca::{CertificateAuthority, IssueRequest, MAX_CRL_DAYS, REVOCATION_REASONS, RevokedCertificate};
 pub use certificate::{Certificate, MAX_CERTIFICATE_BYTES};
+pub use certificate_fields::{AlternativeName, BasicConstraints, ExtendedKeyUsage};
 pub use client_identity::{ClientIdentity, client_identity};
-pub use crl::{Crl, MAX_CRL_BYTES, Revoked};
+pub use crl::{Crl, MAX_CRL_BYTES, RevocationEntry};
 pub use csr::{Csr, make_csr};
 pub use describe::{
     CertificateDescription, CrlDescription, CrlEntry, CsrDescription, Description, KeyDescription,
     NameConstraintsDescription, describe,
 };
 pub use error::PkiError;
-pub use facts::{AlternativeName, BasicConstraints, ExtendedKeyUsage};
 pub use file_content::{FileContent, Wanted};
 pub use fingerprint::{Fingerprint, FingerprintError};
 pub use flaw::{CertificateFlaw, CrlFlaw, CrlUnusable, OutOfScope, RefusalCause};
@@ -119,6 +119,11 @@ pub use revocation_reason::RevocationReason;
 pub use rules::{crl_date_flaw, validity_flaw};
 pub use sealed::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealCost, SealError, Sealed, SealingKey, open, seal};
 pub use self_signed::{ServerNames, self_signed};
-pub use server_certificate::{Expected, Finding, ServerCheck, Severity, check_import, check_server, check_usable};
-pub use trust::{Presented, Rejection, Role, TrustLists, TrustPolicy, check_application_uri, never_accepted};
+pub use server_certificate::{
+    CertificateFinding, ExpectedServer, ServerCheck, Severity, check_import, check_server, check_usable,
+};
+pub use trust::{
+    CertificateRejection, PeerRole, PresentedCertificate, TrustLists, TrustPolicy, check_application_uri,
+    never_accepted,
+};
 pub use trust_health::{CrlDates, CrlHealth, CrlIssuer, TrustHealth};

@@ -2,7 +2,7 @@ use x509_parser::asn1_rs::Tag;
 use x509_parser::objects::{oid_registry, oid2abbrev};
 use x509_parser::prelude::{AttributeTypeAndValue, X509Name};
 
-use crate::model::foreign_text::one_line;
+use crate::model::untrusted_text::one_line;
 
 /// The common name, or `None` if there is none.
 pub(super) fn common_name(name: &X509Name<'_>) -> Option<String> {

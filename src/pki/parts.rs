@@ -12,13 +12,13 @@ use super::{FileContent, PkiError, ber, pem};
 use crate::model::text;
 
 /// One object of a file.
-pub(super) struct Part {
+pub(super) struct FilePart {
     pub content: FileContent,
     /// In DER, as far as it is ASN.1. May be a key, and is wiped.
     pub der: Zeroizing<Vec<u8>>,
 }
 
-impl Part {
+impl FilePart {
     pub fn is_private_key(&self) -> bool {
         self.content.is_private_key()
     }
@@ -29,7 +29,7 @@ impl Part {
 /// Takes DER, one object behind the other as OPC UA sends chains; BER; PEM with any text around it; base64 without
 /// `BEGIN` and `END`; text in UTF-16. Line ends and zero bytes after the end of DER are padding and carry nothing. Whether
 /// the objects are whole is for their readers to say.
-pub(super) fn parts(bytes: &[u8]) -> Result<Vec<Part>, PkiError> {
+pub(super) fn parts(bytes: &[u8]) -> Result<Vec<FilePart>, PkiError> {
     if bytes.is_empty() {
         return Err(PkiError::Empty);
     }
@@ -41,7 +41,7 @@ pub(super) fn parts(bytes: &[u8]) -> Result<Vec<Part>, PkiError> {
     in_bytes(&text)
 }
 
-fn in_bytes(bytes: &[u8]) -> Result<Vec<Part>, PkiError> {
+fn in_bytes(bytes: &[u8]) -> Result<Vec<FilePart>, PkiError> {
     if pem::is_pem(bytes) {
         return in_pem(bytes);
     }
@@ -57,10 +57,10 @@ fn in_bytes(bytes: &[u8]) -> Result<Vec<Part>, PkiError> {
         }
     }
     let content = FileContent::foreign(bytes).unwrap_or(FileContent::Unknown);
-    Ok(vec![Part { content, der: Zeroizing::new(bytes.to_vec()) }])
+    Ok(vec![FilePart { content, der: Zeroizing::new(bytes.to_vec()) }])
 }
 
-fn in_pem(text: &[u8]) -> Result<Vec<Part>, PkiError> {
+fn in_pem(text: &[u8]) -> Result<Vec<FilePart>, PkiError> {
     let mut parts = Vec::new();
     for block in pem::blocks(text)? {
         // OpenSSL writes the parameters of a key before it.
@@ -68,7 +68,7 @@ fn in_pem(text: &[u8]) -> Result<Vec<Part>, PkiError> {
             continue;
         }
         if block.encrypted {
-            parts.push(Part { content: FileContent::TraditionalKey, der: block.der });
+            parts.push(FilePart { content: FileContent::TraditionalKey, der: block.der });
             continue;
         }
         // OpenSSL's trusted certificates have their settings behind them.
@@ -77,17 +77,17 @@ fn in_pem(text: &[u8]) -> Result<Vec<Part>, PkiError> {
                 parts.extend(of_block)
             }
             Some(Ok(of_block)) if block.label == "TRUSTED CERTIFICATE" => parts.extend(of_block.into_iter().take(1)),
-            _ => parts.push(Part { content: FileContent::labelled(&block.label), der: block.der }),
+            _ => parts.push(FilePart { content: FileContent::labelled(&block.label), der: block.der }),
         }
     }
     if parts.is_empty() {
-        parts.push(Part { content: FileContent::Unknown, der: Zeroizing::new(text.to_vec()) });
+        parts.push(FilePart { content: FileContent::Unknown, der: Zeroizing::new(text.to_vec()) });
     }
     Ok(parts)
 }
 
 /// `None` if the bytes do not begin with something in DER or BER that is known.
-fn in_der(bytes: &[u8]) -> Option<Result<Vec<Part>, PkiError>> {
+fn in_der(bytes: &[u8]) -> Option<Result<Vec<FilePart>, PkiError>> {
     let mut parts = Vec::new();
     let mut rest = bytes;
     while !is_padding(rest) {
@@ -109,7 +109,7 @@ fn in_der(bytes: &[u8]) -> Option<Result<Vec<Part>, PkiError>> {
 }
 
 /// The first object, which is a SEQUENCE.
-fn first(bytes: &[u8]) -> Option<(Part, &[u8])> {
+fn first(bytes: &[u8]) -> Option<(FilePart, &[u8])> {
     if bytes.first() != Some(&SEQUENCE) {
         return None;
     }
@@ -118,15 +118,15 @@ fn first(bytes: &[u8]) -> Option<(Part, &[u8])> {
     if let (Some(content), Some((_, der, rest))) = (&content, as_it_stands)
         && !(content.may_be_ber() && ber::is_needed(der))
     {
-        return Some((Part { content: content.clone(), der: Zeroizing::new(der.to_vec()) }, rest));
+        return Some((FilePart { content: content.clone(), der: Zeroizing::new(der.to_vec()) }, rest));
     }
     if let Some((der, rest)) = ber::first_as_der(bytes)
         && let Some(content) = tlv::sole(&der).and_then(|whole| of_der(whole.content))
     {
-        return Some((Part { content, der }, rest));
+        return Some((FilePart { content, der }, rest));
     }
     let (_, der, rest) = as_it_stands?;
-    Some((Part { content: content.unwrap_or(FileContent::Unknown), der: Zeroizing::new(der.to_vec()) }, rest))
+    Some((FilePart { content: content.unwrap_or(FileContent::Unknown), der: Zeroizing::new(der.to_vec()) }, rest))
 }
 
 /// Base64 without `BEGIN` and `END`, as mail programs and Windows leave it.

@@ -26,13 +26,13 @@ pub(super) enum DecryptError {
 }
 
 /// A password in the forms that the algorithms take.
-pub(super) struct Password<'a> {
+pub(super) struct EncodedPassword<'a> {
     text: &'a str,
     /// In big-endian UTF-16 with two zero bytes at the end (RFC 7292 B.1). No password at all is the empty string.
     utf16: Zeroizing<Vec<u8>>,
 }
 
-impl<'a> Password<'a> {
+impl<'a> EncodedPassword<'a> {
     /// One, or two for an empty password: RFC 7292 B.1 leaves open whether that is two zero bytes or nothing, and both are
     /// written.
     pub fn forms(text: &'a str) -> Vec<Self> {
@@ -92,7 +92,7 @@ impl<'a> Password<'a> {
 pub(super) fn decrypt(
     algorithm: &[u8],
     data: &[u8],
-    password: &Password<'_>,
+    password: &EncodedPassword<'_>,
 ) -> Result<Zeroizing<Vec<u8>>, DecryptError> {
     let parts = tlv::sole(algorithm).and_then(|whole| tlv::all(whole.content)).ok_or(DecryptError::Failed)?;
     let (identifier, parameters) = match parts.as_slice() {
@@ -107,7 +107,7 @@ pub(super) fn decrypt(
     }
 }
 
-fn pbes2(parameters: &[u8], data: &[u8], password: &Password<'_>) -> Result<Zeroizing<Vec<u8>>, DecryptError> {
+fn pbes2(parameters: &[u8], data: &[u8], password: &EncodedPassword<'_>) -> Result<Zeroizing<Vec<u8>>, DecryptError> {
     let whole = tlv::write(tlv::SEQUENCE, &[parameters]);
     let Ok(parameters) = pbes2::Parameters::from_der(&whole) else {
         return Err(unknown_in_pbes2(parameters).map_or(DecryptError::Failed, DecryptError::Unsupported));
@@ -151,7 +151,7 @@ fn pkcs12_pbe(
     number: u8,
     parameters: &[u8],
     data: &[u8],
-    password: &Password<'_>,
+    password: &EncodedPassword<'_>,
 ) -> Result<Zeroizing<Vec<u8>>, DecryptError> {
     let parts = tlv::all(parameters).ok_or(DecryptError::Failed)?;
     let [salt, iterations] = parts.as_slice() else { return Err(DecryptError::Failed) };
@@ -240,13 +240,13 @@ mod tests {
     #[test]
     fn keys_are_derived_as_other_implementations_do() {
         let salt = hex::decode("0a58cf64530d823f").unwrap();
-        let smeg = &Password::forms("smeg")[0];
+        let smeg = &EncodedPassword::forms("smeg")[0];
         let key = smeg.derive(&digest::SHA1_FOR_LEGACY_USE_ONLY, KEY, &salt, 1, 24);
         assert_eq!(hex::encode(&*key), "8aaae6297b6cb04642ab5b077851284eb7128f1a2a7fbca3");
         let vector = smeg.derive(&digest::SHA1_FOR_LEGACY_USE_ONLY, INITIAL_VECTOR, &salt, 1, 8);
         assert_eq!(hex::encode(&*vector), "79993dfe048d3b76");
         let salt = hex::decode("05dec959acff72f7").unwrap();
-        let queeg = &Password::forms("queeg")[0];
+        let queeg = &EncodedPassword::forms("queeg")[0];
         let key = queeg.derive(&digest::SHA1_FOR_LEGACY_USE_ONLY, KEY, &salt, 1000, 24);
         assert_eq!(hex::encode(&*key), "ed2034e36328830ff09df1e1a07dd357185dac0d4f9eb3d4");
         let mac =
@@ -256,8 +256,8 @@ mod tests {
 
     #[test]
     fn a_password_is_written_as_utf_16_whatever_its_characters() {
-        assert_eq!(*Password::forms("é🤖")[0].utf16, [0, 0xe9, 0xd8, 0x3e, 0xdd, 0x16, 0, 0]);
-        let empty = Password::forms("");
+        assert_eq!(*EncodedPassword::forms("é🤖")[0].utf16, [0, 0xe9, 0xd8, 0x3e, 0xdd, 0x16, 0, 0]);
+        let empty = EncodedPassword::forms("");
         assert_eq!((empty.len(), empty[0].utf16.as_slice(), empty[1].utf16.as_slice()), (2, &[0, 0][..], &[][..]));
     }
 

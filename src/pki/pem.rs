@@ -32,7 +32,7 @@ pub(super) fn is_pem(bytes: &[u8]) -> bool {
 }
 
 /// One block of a PEM text.
-pub(super) struct Block {
+pub(super) struct PemBlock {
     /// What stands after `BEGIN`.
     pub label: String,
     /// In the traditional way, outside of the DER (RFC 1421 §4.6.1.1).
@@ -44,7 +44,7 @@ pub(super) struct Block {
 ///
 /// Takes lines of any length and indentation, ended by LF, CRLF or CR, and a block on one line. A block that has no end,
 /// or no base64 in it, is [`PkiError::BadPem`].
-pub(super) fn blocks(text: &[u8]) -> Result<Vec<Block>, PkiError> {
+pub(super) fn blocks(text: &[u8]) -> Result<Vec<PemBlock>, PkiError> {
     match strict_blocks(text) {
         Some(blocks) => Ok(blocks),
         None => lenient_blocks(text),
@@ -53,7 +53,7 @@ pub(super) fn blocks(text: &[u8]) -> Result<Vec<Block>, PkiError> {
 
 /// The blocks of a text that holds nothing but certificates, requests and revocation lists, in the strict form of
 /// RFC 7468. `None` for every other text.
-fn strict_blocks(text: &[u8]) -> Option<Vec<Block>> {
+fn strict_blocks(text: &[u8]) -> Option<Vec<PemBlock>> {
     if !labels(text).all(|label| STRICT_LABELS.contains(&label.as_str())) {
         return None;
     }
@@ -66,14 +66,14 @@ fn strict_blocks(text: &[u8]) -> Option<Vec<Block>> {
             Item::Crl(der) => (STRICT_LABELS[2], der.to_vec()),
             _ => return None,
         };
-        blocks.push(Block { label: label.to_owned(), encrypted: false, der: Zeroizing::new(der) });
+        blocks.push(PemBlock { label: label.to_owned(), encrypted: false, der: Zeroizing::new(der) });
         rest = after;
     }
     // The strict reader passes over what it does not take for a block.
     (blocks.len() == labels(text).count()).then_some(blocks)
 }
 
-fn lenient_blocks(text: &[u8]) -> Result<Vec<Block>, PkiError> {
+fn lenient_blocks(text: &[u8]) -> Result<Vec<PemBlock>, PkiError> {
     let mut blocks = Vec::new();
     let mut rest = text;
     while let Some((label, body)) = next_begin(rest) {
@@ -108,7 +108,7 @@ fn next_begin(mut text: &[u8]) -> Option<(String, &[u8])> {
     }
 }
 
-fn block(label: String, body: &[u8]) -> Result<Block, PkiError> {
+fn block(label: String, body: &[u8]) -> Result<PemBlock, PkiError> {
     let mut encrypted = false;
     let mut digits = Zeroizing::new(Vec::with_capacity(body.len()));
     for line in body.split(|byte| matches!(byte, b'\n' | b'\r')) {
@@ -120,7 +120,7 @@ fn block(label: String, body: &[u8]) -> Result<Block, PkiError> {
         }
     }
     let der = Zeroizing::new(BASE64.decode(&*digits).map_err(|_| PkiError::BadPem)?);
-    Ok(Block { label, encrypted, der })
+    Ok(PemBlock { label, encrypted, der })
 }
 
 /// What stands after each `BEGIN`, in order, whether the blocks are whole or not.

@@ -19,12 +19,15 @@ use std::collections::BTreeSet;
 
 use chrono::{DateTime, Duration, Utc};
 
-use super::{Certificate, CertificateFlaw, PkiError, Presented, Rejection, Role, TrustLists, TrustPolicy, rules};
+use super::{
+    Certificate, CertificateFlaw, CertificateRejection, PeerRole, PkiError, PresentedCertificate, TrustLists,
+    TrustPolicy, rules,
+};
 use crate::model::{CertificateStatus, SecurityPolicy};
 
 /// What the certificate of a server is compared with.
 #[derive(Debug, Clone, Copy)]
-pub struct Expected<'a> {
+pub struct ExpectedServer<'a> {
     /// The ApplicationUri the server announces.
     pub application_uri: &'a str,
     /// The addresses and host names the server is reached by; one of them is enough.
@@ -46,14 +49,14 @@ pub enum Severity {
 
 /// One thing about a certificate that is not as OPC UA wants it (OPC 10000-4 §6.1.3, OPC 10000-6 §6.2.2).
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Finding {
+pub struct CertificateFinding {
     /// What is wrong.
     pub flaw: CertificateFlaw,
     /// How severe that is in this place.
     pub severity: Severity,
 }
 
-impl Finding {
+impl CertificateFinding {
     /// The OPC UA status a client would give.
     pub const fn status(&self) -> CertificateStatus {
         self.flaw.status(false)
@@ -64,9 +67,9 @@ impl Finding {
 #[derive(Debug, Clone, PartialEq)]
 pub struct ServerCheck {
     /// Why the client refuses it (OPC 10000-4 §6.1.3); `None`: it accepts it.
-    pub refused: Option<Rejection>,
+    pub refused: Option<CertificateRejection>,
     /// Everything that clients may say about it, errors first.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<CertificateFinding>,
 }
 
 /// Whether a controller takes the certificate: not expired, and with a key length that its ticked policies offer.
@@ -89,8 +92,8 @@ pub fn check_usable(
 
 /// Everything that clients would say about a certificate that is to be installed in a server, errors first. The authority
 /// that issued it is not asked about. Blocks for one signature check.
-pub fn check_import(certificate: &Certificate, expected: &Expected<'_>) -> Vec<Finding> {
-    findings(certificate, expected, Place::Import)
+pub fn check_import(certificate: &Certificate, expected: &ExpectedServer<'_>) -> Vec<CertificateFinding> {
+    findings(certificate, expected, JudgedFor::Import)
 }
 
 /// Judges the certificate that a server shows as a client does that trusts `selected` and nothing else: neither issuers
@@ -100,20 +103,20 @@ pub fn check_import(certificate: &Certificate, expected: &Expected<'_>) -> Vec<F
 pub fn check_server(
     shown: &Certificate,
     selected: Option<&Certificate>,
-    expected: &Expected<'_>,
+    expected: &ExpectedServer<'_>,
     controllers_clock: DateTime<Utc>,
 ) -> ServerCheck {
-    let findings = findings(shown, &Expected { now: controllers_clock, ..*expected }, Place::Server);
+    let findings = findings(shown, &ExpectedServer { now: controllers_clock, ..*expected }, JudgedFor::Server);
     let refused = if selected == Some(shown) {
         refusal(shown, expected)
     } else {
-        Some(Rejection::of(CertificateFlaw::Untrusted, shown))
+        Some(CertificateRejection::of(CertificateFlaw::Untrusted, shown))
     };
     ServerCheck { refused, findings }
 }
 
 /// Why a client that trusts this very certificate refuses it; under the first security policy that it is refused under.
-fn refusal(certificate: &Certificate, expected: &Expected<'_>) -> Option<Rejection> {
+fn refusal(certificate: &Certificate, expected: &ExpectedServer<'_>) -> Option<CertificateRejection> {
     let lists = TrustLists::new(vec![certificate.clone()], Vec::new(), Vec::new());
     let policies = secured(expected.policies);
     let policy = TrustPolicy {
@@ -126,10 +129,10 @@ fn refusal(certificate: &Certificate, expected: &Expected<'_>) -> Option<Rejecti
     let named = expected.hosts.iter().find(|host| certificate.names_host(host));
     let host = named.or(expected.hosts.first()).map(String::as_str);
     policies.into_iter().find_map(|security_policy| {
-        let presented = Presented {
+        let presented = PresentedCertificate {
             certificate,
             chain: &[],
-            role: Role::Server,
+            role: PeerRole::Server,
             now: expected.now,
             application_uri: Some(expected.application_uri),
             host,
@@ -152,22 +155,22 @@ fn secured(policies: &BTreeSet<SecurityPolicy>) -> Vec<Option<SecurityPolicy>> {
 
 /// Where a certificate is judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Place {
+enum JudgedFor {
     /// It is to be installed in a controller.
     Import,
     /// A server shows it to a client.
     Server,
 }
 
-fn findings(certificate: &Certificate, expected: &Expected<'_>, place: Place) -> Vec<Finding> {
+fn findings(certificate: &Certificate, expected: &ExpectedServer<'_>, place: JudgedFor) -> Vec<CertificateFinding> {
     let refused = refusing_flaws(certificate, expected).into_iter().map(|flaw| {
         let severity = severity(&flaw, place, expected.now);
-        Finding { flaw, severity }
+        CertificateFinding { flaw, severity }
     });
-    let mut findings: Vec<Finding> = refused.collect();
+    let mut findings: Vec<CertificateFinding> = refused.collect();
     for flaw in other_flaws(certificate, expected) {
         if !findings.iter().any(|finding| covers(&finding.flaw, &flaw)) {
-            findings.push(Finding { flaw, severity: Severity::Warning });
+            findings.push(CertificateFinding { flaw, severity: Severity::Warning });
         }
     }
     findings.sort_by_key(|finding| finding.severity);
@@ -175,8 +178,8 @@ fn findings(certificate: &Certificate, expected: &Expected<'_>, place: Place) ->
 }
 
 /// What a strict client or the controller refuses the certificate for, without its chain.
-fn refusing_flaws(certificate: &Certificate, expected: &Expected<'_>) -> Vec<CertificateFlaw> {
-    let Expected { application_uri, hosts, policies, now } = *expected;
+fn refusing_flaws(certificate: &Certificate, expected: &ExpectedServer<'_>) -> Vec<CertificateFlaw> {
+    let ExpectedServer { application_uri, hosts, policies, now } = *expected;
     let secured = secured(policies);
     let allow_sha1 = secured == [None];
     let signature = rules::self_signature_flaw(certificate, false);
@@ -192,7 +195,7 @@ fn refusing_flaws(certificate: &Certificate, expected: &Expected<'_>) -> Vec<Cer
         rules::host_flaw(certificate, hosts),
         rules::application_uri_flaw(certificate, Some(application_uri)),
         usage.or_else(|| rules::key_usage_flaw(certificate)),
-        rules::role_flaw(certificate, Role::Server),
+        rules::role_flaw(certificate, PeerRole::Server),
     ]
     .into_iter()
     .flatten()
@@ -200,7 +203,7 @@ fn refusing_flaws(certificate: &Certificate, expected: &Expected<'_>) -> Vec<Cer
 }
 
 /// What OPC 10000-4 §6.1.3 does not refuse, but some clients mind.
-fn other_flaws(certificate: &Certificate, expected: &Expected<'_>) -> Vec<CertificateFlaw> {
+fn other_flaws(certificate: &Certificate, expected: &ExpectedServer<'_>) -> Vec<CertificateFlaw> {
     let mut flaws: Vec<CertificateFlaw> = rules::rare_critical_extensions(certificate).collect();
     flaws.extend(rules::name_not_ascii(certificate));
     flaws.extend(rules::hash_flaw(certificate, None, false));
@@ -222,14 +225,14 @@ fn covers(told: &CertificateFlaw, other: &CertificateFlaw) -> bool {
 }
 
 /// How severe a flaw is for which a strict client refuses the certificate.
-fn severity(flaw: &CertificateFlaw, place: Place, now: DateTime<Utc>) -> Severity {
+fn severity(flaw: &CertificateFlaw, place: JudgedFor, now: DateTime<Utc>) -> Severity {
     let warns = match flaw {
         CertificateFlaw::KeyUsageMissing | CertificateFlaw::KeyUsageLacks { .. } => {
             TrustPolicy { allow_partial_key_usage: true, ..TrustPolicy::default() }.excuses_key_usage(flaw)
         }
-        CertificateFlaw::HostName { .. } => place == Place::Import,
-        CertificateFlaw::NotYetValid { from, .. } => place == Place::Import && *from - now <= CLOCK_TOLERANCE,
-        CertificateFlaw::KeyLengthNotTicked { .. } => place == Place::Server,
+        CertificateFlaw::HostName { .. } => place == JudgedFor::Import,
+        CertificateFlaw::NotYetValid { from, .. } => place == JudgedFor::Import && *from - now <= CLOCK_TOLERANCE,
+        CertificateFlaw::KeyLengthNotTicked { .. } => place == JudgedFor::Server,
         _ => false,
     };
     if warns { Severity::Warning } else { Severity::Error }

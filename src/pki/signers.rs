@@ -12,7 +12,7 @@ pub(super) struct Signers<'a> {
 
 /// How a certificate was signed.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub(super) struct Signed<'a> {
+pub(super) struct SignedBy<'a> {
     /// Its own key signed it.
     pub by_itself: bool,
     /// Another certificate with the key that signed it.
@@ -29,7 +29,7 @@ impl<'a> Signers<'a> {
     }
 
     /// [`PkiError::TooManySigners`] once too many had to be tried.
-    pub fn of_certificate(&mut self, certificate: &Certificate) -> Result<Signed<'a>, PkiError> {
+    pub fn of_certificate(&mut self, certificate: &Certificate) -> Result<SignedBy<'a>, PkiError> {
         let facts = certificate.facts();
         let by_itself =
             facts.subject_folded == facts.issuer_folded && self.check(|| certificate.verify_signed_by(certificate))?;
@@ -38,10 +38,10 @@ impl<'a> Signers<'a> {
         if by_itself {
             // The signature fits no other key: hundreds of applications that all have the same name cost nothing.
             let by = others.into_iter().find(|other| other.facts().public_key == facts.public_key);
-            return Ok(Signed { by_itself, by });
+            return Ok(SignedBy { by_itself, by });
         }
         let key_id = certificate.authority_key_id();
-        Ok(Signed { by_itself, by: self.first(others, key_id, |other| certificate.verify_signed_by(other))? })
+        Ok(SignedBy { by_itself, by: self.first(others, key_id, |other| certificate.verify_signed_by(other))? })
     }
 
     /// [`PkiError::TooManySigners`] once too many had to be tried.
@@ -108,8 +108,8 @@ mod tests {
         let renewed = certificate(&renewed.self_signed(&one).unwrap());
         let other = certificate(&params().self_signed(&two).unwrap());
         let mut signers = Signers::new([&other, &old, &renewed]);
-        assert_eq!(signers.of_certificate(&old), Ok(Signed { by_itself: true, by: Some(&renewed) }));
-        assert_eq!(signers.of_certificate(&other), Ok(Signed { by_itself: true, by: None }));
+        assert_eq!(signers.of_certificate(&old), Ok(SignedBy { by_itself: true, by: Some(&renewed) }));
+        assert_eq!(signers.of_certificate(&other), Ok(SignedBy { by_itself: true, by: None }));
     }
 
     #[test]

@@ -6,26 +6,27 @@ use super::request::requests;
 use super::response::check_count;
 use super::{Response, WireSecret};
 use crate::model::{
-    Base64Bytes, CertificateType, Changed, CsrRequest, HeldCertificates, RevisionToken, Revisioned, SelfSignedRequest,
+    Base64Bytes, CertificateType, Changed, CsrRequest, RevisionToken, Revisioned, SelfSignedRequest,
+    StoredServerCertificates,
 };
 
 requests! {
     /// Server certificates.
     CERTIFICATE_REQUESTS
-    GET "/v1/certificates" GetCertificates { none } session -> Revisioned<HeldCertificates>, "";
+    GET "/v1/certificates" GetCertificates { none } session -> Revisioned<StoredServerCertificates>, "";
     POST "/v1/certificates/select" SelectCertificate { json } revision -> Changed, "";
-    POST "/v1/certificates/self-signed" MakeSelfSigned { json } revision -> Installed, "current firmware";
-    POST "/v1/certificates/import" ImportCertificate { json } revision -> Installed, "legacy firmware";
+    POST "/v1/certificates/self-signed" MakeSelfSigned { json } revision -> CertificateInstalled, "current firmware";
+    POST "/v1/certificates/import" ImportCertificate { json } revision -> CertificateInstalled, "legacy firmware";
     POST "/v1/certificates/csr" MakeCsr { json } revision -> CsrMade, "current firmware";
     POST "/v1/certificates/csr/import" ImportCsr { json } revision -> CsrMade, "legacy firmware";
-    POST "/v1/certificates/ca-signed" ImportCaSigned { json } revision -> Installed, "";
+    POST "/v1/certificates/ca-signed" ImportCaSigned { json } revision -> CertificateInstalled, "";
 }
 
 /// Reads the server certificates.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 pub struct GetCertificates;
 
-impl Response for HeldCertificates {
+impl Response for StoredServerCertificates {
     fn check(&mut self) -> Result<(), &'static str> {
         check_count(&self.held)
     }
@@ -62,13 +63,13 @@ pub struct ImportCertificate {
 
 /// A server certificate was installed and selected.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Installed {
+pub struct CertificateInstalled {
     pub changed: Changed,
     /// DER.
     pub certificate: Base64Bytes,
 }
 
-impl Response for Installed {}
+impl Response for CertificateInstalled {}
 
 /// Current firmware: the controller makes a new key and its CSR. The CA-signed certificate in use stays in use, with
 /// its own key, until one for the new key is imported.

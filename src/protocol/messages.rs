@@ -46,7 +46,7 @@ impl Response for Changed {}
 
 /// The body of every failed request.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Failure {
+pub struct FailureBody {
     pub code: ErrorCode,
     /// English, for logs; a client shows its own text for the code.
     pub message: String,
@@ -54,7 +54,7 @@ pub struct Failure {
     pub detail: Option<String>,
 }
 
-impl From<Problem> for Failure {
+impl From<Problem> for FailureBody {
     fn from(problem: Problem) -> Self {
         let message = problem.code.explain(crate::model::Language::En).message.to_owned();
         Self { code: problem.code, message, detail: problem.detail }
@@ -62,8 +62,8 @@ impl From<Problem> for Failure {
 }
 
 /// A code that only the PC can give, such as that of a cancelled job, becomes [`ErrorCode::Refused`].
-impl From<Failure> for Problem {
-    fn from(failure: Failure) -> Self {
+impl From<FailureBody> for Problem {
+    fn from(failure: FailureBody) -> Self {
         if !failure.code.is_a_controllers() {
             return Self::with_detail(ErrorCode::Refused, format!("{}: {}", failure.code.as_str(), failure.message));
         }
@@ -89,7 +89,7 @@ mod tests {
     #[test]
     fn a_failure_names_its_code_and_keeps_its_detail() {
         let problem = Problem::with_detail(ErrorCode::PortConflict, "4840");
-        let failure = Failure::from(problem.clone());
+        let failure = FailureBody::from(problem.clone());
         let json = serde_json::to_value(&failure).expect("json");
         assert_eq!(json["code"], "7933");
         assert_eq!(json["detail"], "4840");
@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn a_controller_cannot_report_what_only_the_pc_can_know() {
         for code in [ErrorCode::Cancelled, ErrorCode::Timeout, ErrorCode::FingerprintChanged] {
-            let failure = Failure { code, message: "so there".into(), detail: None };
+            let failure = FailureBody { code, message: "so there".into(), detail: None };
             let problem = Problem::from(failure);
             assert_eq!(problem.code, ErrorCode::Refused);
             assert_eq!(problem.detail, Some(format!("{}: so there", code.as_str())));

@@ -55,7 +55,7 @@
 //! a request that names it is refused with [`ErrorCode::FirmwareTooOld`].
 //!
 //! # Failures
-//! Every failure has a status of 400 or above and a [`Failure`] as its body. [`status_of`] says which status goes
+//! Every failure has a status of 400 or above and a [`FailureBody`] as its body. [`status_of`] says which status goes
 //! with which code; a client decides by the code alone. A body that is not the message expected is refused with the
 //! code for wrong values of its kind ([`ErrorCode::BadSettings`], [`ErrorCode::BadCredential`], …), or with
 //! [`ErrorCode::Refused`] where no other code fits.
@@ -85,8 +85,8 @@ mod trust;
 mod users;
 
 pub use certificates::*;
-pub use messages::{Failure, WireSecret};
-pub use request::{Method, Needs, Request, RequestRow};
+pub use messages::{FailureBody, WireSecret};
+pub use request::{Method, Request, RequestNeeds, RequestRow};
 pub use response::{MAX_LISTED, Response};
 pub use server::*;
 pub use session::*;
@@ -148,7 +148,7 @@ mod tests {
             assert!(seen.insert((row.method, row.path)), "{row:?} is there twice");
             assert!(row.path.starts_with(&format!("/v{VERSION}/")), "{row:?}");
             assert!(row.method != Method::Get || !row.has_body, "{row:?} is a GET with a body");
-            assert!(row.needs != Needs::Revision || row.has_body, "{row:?} has no place for its revision");
+            assert!(row.needs != RequestNeeds::Revision || row.has_body, "{row:?} has no place for its revision");
         }
     }
 

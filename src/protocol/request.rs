@@ -14,7 +14,7 @@ pub trait Request: Serialize + DeserializeOwned + fmt::Debug + Send + Sync {
     const METHOD: Method;
     /// Begins with `/v1/`. At most one part stands for a value: `{id}`.
     const PATH: &'static str;
-    const NEEDS: Needs;
+    const NEEDS: RequestNeeds;
     /// The request is the JSON body. Otherwise the request has no body, and its fields are in the path or the query.
     const HAS_BODY: bool;
     type Response: Response;
@@ -22,7 +22,7 @@ pub trait Request: Serialize + DeserializeOwned + fmt::Debug + Send + Sync {
     /// Path and query of this request: [`Request::PATH`] with the value filled in.
     fn target(&self) -> String;
 
-    /// The revision that the change is based on. `None` unless [`Request::NEEDS`] is [`Needs::Revision`].
+    /// The revision that the change is based on. `None` unless [`Request::NEEDS`] is [`RequestNeeds::Revision`].
     fn revision(&self) -> Option<RevisionToken>;
 }
 
@@ -48,7 +48,7 @@ impl Method {
 
 /// What a request must carry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Needs {
+pub enum RequestNeeds {
     /// Nothing: it is answered without a session.
     Nothing,
     /// The token of a session.
@@ -64,7 +64,7 @@ pub struct RequestRow {
     pub request: &'static str,
     pub method: Method,
     pub path: &'static str,
-    pub needs: Needs,
+    pub needs: RequestNeeds,
     pub has_body: bool,
 }
 
@@ -104,7 +104,7 @@ macro_rules! requests {
             impl $crate::protocol::Request for $request {
                 const METHOD: $crate::protocol::Method = requests!(@method $method);
                 const PATH: &'static str = $path;
-                const NEEDS: $crate::protocol::Needs = requests!(@needs $needs);
+                const NEEDS: $crate::protocol::RequestNeeds = requests!(@needs $needs);
                 const HAS_BODY: bool = requests!(@body $body);
                 type Response = $response;
 
@@ -121,9 +121,9 @@ macro_rules! requests {
     (@method GET) => { $crate::protocol::Method::Get };
     (@method PUT) => { $crate::protocol::Method::Put };
     (@method POST) => { $crate::protocol::Method::Post };
-    (@needs nothing) => { $crate::protocol::Needs::Nothing };
-    (@needs session) => { $crate::protocol::Needs::Session };
-    (@needs revision) => { $crate::protocol::Needs::Revision };
+    (@needs nothing) => { $crate::protocol::RequestNeeds::Nothing };
+    (@needs session) => { $crate::protocol::RequestNeeds::Session };
+    (@needs revision) => { $crate::protocol::RequestNeeds::Revision };
     (@body json) => { true };
     (@body none) => { false };
     (@target $request:ident) => { Self::PATH.to_owned() };

@@ -2,14 +2,14 @@
 //!
 //! A peer with the right fingerprint can still be broken or hostile. Every response passes [`Response::check`] before the
 //! client returns it: lists and texts are bounded, texts hold no character that a terminal or a text layout obeys
-//! ([`foreign_text`]), and times are ones that RFC 3339 can write. The text of a failure passes
+//! ([`untrusted_text`]), and times are ones that RFC 3339 can write. The text of a failure passes
 //! [`Problem::with_detail`](crate::model::Problem::with_detail), which does the same.
 
 use chrono::{DateTime, Datelike as _, Utc};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
-use crate::model::{Base64Bytes, CertificateSummary, foreign_text};
+use crate::model::{Base64Bytes, CertificateSummary, untrusted_text};
 
 /// A message that a controller sends.
 pub trait Response: Serialize + DeserializeOwned + Send {
@@ -52,7 +52,7 @@ impl Response for CertificateSummary {
 
 /// A text for people: cut to a length that fits on a screen.
 pub(super) fn shorten(text: &mut String) {
-    *text = foreign_text::one_line(text, SHOWN_CHARS);
+    *text = untrusted_text::one_line(text, SHOWN_CHARS);
 }
 
 /// A text that is compared with others, such as a name or a thumbprint: taken whole or not at all.
@@ -60,7 +60,7 @@ pub(super) fn check_key(text: &mut String) -> Result<(), &'static str> {
     if text.len() > MAX_TEXT {
         return Err("a text in its answer is too long");
     }
-    *text = foreign_text::one_line(text, usize::MAX);
+    *text = untrusted_text::one_line(text, usize::MAX);
     Ok(())
 }
 

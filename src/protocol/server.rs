@@ -67,7 +67,7 @@ impl Response for ControllerInfo {
 
 impl Response for LogChunk {
     /// The text stays as it is: it has lines, and `--json` writes it with escapes. What shows it as text uses
-    /// [`foreign_text::lines`](crate::model::foreign_text::lines).
+    /// [`untrusted_text::lines`](crate::model::untrusted_text::lines).
     fn check(&mut self) -> Result<(), &'static str> {
         // Bytes that are not UTF-8 arrive as characters of three bytes.
         if self.text.len() > 3 * Self::MAX_BYTES {

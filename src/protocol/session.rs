@@ -10,7 +10,7 @@ requests! {
     /// Sessions.
     SESSION_REQUESTS
     GET "/v1/hello" GetHello { none } nothing -> Hello, "";
-    POST "/v1/login" Login { json } nothing -> Session, "";
+    POST "/v1/login" Login { json } nothing -> SessionStarted, "";
     POST "/v1/logout" Logout { none } session -> (), "";
 }
 
@@ -44,14 +44,14 @@ pub struct Login {
 
 /// A session has begun.
 #[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Session {
+pub struct SessionStarted {
     /// To be sent as `Authorization: Bearer`. Printable ASCII, at most 4096 bytes.
     pub token: WireSecret,
     /// The session ends after this time without a request, in seconds.
     pub idle_secs: u64,
 }
 
-impl Response for Session {
+impl Response for SessionStarted {
     fn check(&mut self) -> Result<(), &'static str> {
         let token = self.token.expose();
         if token.len() > MAX_TEXT || !token.bytes().all(|byte| byte.is_ascii_graphic()) {

@@ -135,7 +135,7 @@ impl SettingsExport {
     pub fn from_json(bytes: &[u8]) -> Result<Self, ExportError> {
         /// What every format has.
         #[derive(Deserialize)]
-        struct Head {
+        struct ExportHeader {
             format: String,
             version: u32,
         }
@@ -146,7 +146,7 @@ impl SettingsExport {
             return Err(ExportError::TooLarge);
         }
         let text = text::decode(bytes).map_err(|e| ExportError::NotAnExport(e.to_string()))?;
-        let head: Head = serde_json::from_str(&text).map_err(place)?;
+        let head: ExportHeader = serde_json::from_str(&text).map_err(place)?;
         if head.format != EXPORT_FORMAT {
             return Err(ExportError::NotAnExport("another format".to_owned()));
         }

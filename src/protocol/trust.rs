@@ -6,8 +6,8 @@ use super::request::requests;
 use super::response::{check_count, check_key, check_time, shorten};
 use super::{Request, Response};
 use crate::model::{
-    Base64Bytes, Changed, CrlSummary, CutClient, ListedCertificate, ListedCrl, RevisionToken, Revisioned, TrustStamp,
-    TrustStep,
+    Base64Bytes, Changed, CrlSummary, DisconnectedClient, ListedCertificate, ListedCrl, RevisionToken, Revisioned,
+    TrustStamp, TrustStep,
 };
 use crate::pki::RejectedClient;
 
@@ -77,7 +77,7 @@ pub struct EditTrust {
 pub struct TrustChanged {
     pub changed: Changed,
     /// The clients whose open connections the controller ended because of the change.
-    pub cut: Vec<CutClient>,
+    pub cut: Vec<DisconnectedClient>,
 }
 
 impl Response for TrustChanged {

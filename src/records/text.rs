@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::model::foreign_text;
+use crate::model::untrusted_text;
 
 use super::layout::Wire;
 
@@ -55,7 +55,7 @@ impl<const N: usize> Default for Label<N> {
 
 impl<const N: usize> fmt::Display for Label<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&foreign_text::one_line(&decoded(self.as_bytes()), N))
+        f.pad(&untrusted_text::one_line(&decoded(self.as_bytes()), N))
     }
 }
 

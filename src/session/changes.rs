@@ -2,7 +2,7 @@ use std::fmt;
 
 use secrecy::SecretString;
 
-use crate::model::{Changed, CutClient, ServerSettings};
+use crate::model::{Changed, DisconnectedClient, ServerSettings};
 
 /// New basic settings (manual 2.6.1).
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -62,5 +62,5 @@ pub struct StoredCsr {
 pub struct TrustEdited {
     pub changed: Changed,
     /// The clients whose open connections the controller ended because of the change.
-    pub cut: Vec<CutClient>,
+    pub cut: Vec<DisconnectedClient>,
 }

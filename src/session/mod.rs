@@ -21,16 +21,16 @@ use secrecy::SecretString;
 
 pub use changes::{CsrImport, InstalledCertificate, SealedKey, SettingsUpdate, StoredCsr, TrustEdited};
 pub use drivers::{Connectors, capabilities};
-pub use management::{ManagementConnector, Timeouts};
+pub use management::{ManagementConnector, ManagementTimeouts};
 
 // Limits and the file format that every driver shares today.
 pub use crate::protocol::{MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES, SettingsExport};
 
 use crate::model::activation::ActivationKeys;
 use crate::model::{
-    Address, Base64Bytes, Capabilities, CertificateType, Changed, ClientList, ControllerInfo, Credential, Credentials,
-    CsrRequest, HeldCertificates, ListedCertificate, ListedCrl, LogChunk, MissingReason, Problem, RevisionToken,
-    Revisioned, SelfSignedRequest, ServerSettings, TrustStamp, TrustStep, UserName,
+    Address, Base64Bytes, Capabilities, CertificateType, Changed, ClientList, ControllerInfo, Credentials, CsrRequest,
+    ListedCertificate, ListedCrl, LogChunk, MissingReason, Problem, RevisionToken, Revisioned, SelfSignedRequest,
+    ServerSettings, StoredServerCertificates, TrustStamp, TrustStep, UserCredential, UserName,
 };
 use crate::pki::{Fingerprint, RejectedClient};
 
@@ -90,7 +90,7 @@ pub trait ControllerSession: Send + Sync {
         not_offered()
     }
 
-    async fn add_user(&mut self, _based_on: RevisionToken, _user: Credential) -> Result<Changed, Problem> {
+    async fn add_user(&mut self, _based_on: RevisionToken, _user: UserCredential) -> Result<Changed, Problem> {
         not_offered()
     }
 
@@ -119,7 +119,7 @@ pub trait ControllerSession: Send + Sync {
         not_offered()
     }
 
-    async fn certificates(&mut self) -> Result<Revisioned<HeldCertificates>, Problem> {
+    async fn certificates(&mut self) -> Result<Revisioned<StoredServerCertificates>, Problem> {
         not_offered()
     }
 

@@ -4,8 +4,10 @@ use std::fmt;
 
 use chrono::{DateTime, SecondsFormat, Utc};
 
-use crate::model::{CertificateStatus, Language, foreign_text};
-use crate::pki::{CertificateFlaw, CrlFlaw, CrlUnusable, Finding, KeyUsage, OutOfScope, RefusalCause, RejectedClient};
+use crate::model::{CertificateStatus, Language, untrusted_text};
+use crate::pki::{
+    CertificateFinding, CertificateFlaw, CrlFlaw, CrlUnusable, KeyUsage, OutOfScope, RefusalCause, RejectedClient,
+};
 
 impl CertificateFlaw {
     /// What is wrong, as the end of a sentence about the certificate: "its key is not an RSA key".
@@ -70,7 +72,7 @@ impl CrlUnusable {
     }
 }
 
-impl Finding {
+impl CertificateFinding {
     /// What is wrong and what to do.
     pub fn explain(&self, language: Language) -> String {
         self.flaw.explain(language)
@@ -104,7 +106,7 @@ fn sentence(language: Language, reason: &str, remedy: &str) -> String {
 /// of names that are quoted in a flaw, so that only what nothing here made is cut.
 fn printable(text: String) -> String {
     const MOST: usize = 2500;
-    foreign_text::one_line(&text, usize::MAX).chars().take(MOST).collect()
+    untrusted_text::one_line(&text, usize::MAX).chars().take(MOST).collect()
 }
 
 /// As ISO 8601 in UTC, to the second.

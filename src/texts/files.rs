@@ -5,7 +5,7 @@ use std::path::Path;
 use super::TextKey as T;
 use crate::model::activation::{KeyError, LineMistake};
 use crate::pki::PkiKind;
-use crate::workspace::{Recognised, Skipped};
+use crate::workspace::{Recognised, SkippedLine};
 
 /// What a file is, by its content.
 pub const fn recognised(kind: Recognised) -> T {
@@ -38,7 +38,7 @@ in_every_language! {
     fn to_import(ticked: usize, all: usize) -> String;
     fn imported(count: usize) -> String;
     /// Why a line of a connection list is left out.
-    fn skipped(why: &Skipped) -> String;
+    fn skipped(why: &SkippedLine) -> String;
     /// Over files that are held over the window.
     fn drop_title(count: usize) -> String;
     fn drop_opens(dialog: &str) -> String;

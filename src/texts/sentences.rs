@@ -1,7 +1,7 @@
 //! Sentences with values filled in, and the texts of values that belong to no other topic.
 
 use super::{TextKey as T, Zone};
-use crate::jobs::{Confirmation, ServerEffect, Step, Summary};
+use crate::jobs::{Confirmation, JobStep, JobSummary, ServerEffect};
 use crate::model::{CertificateSummary, CertificateType, ErrorCode, FirmwareVersion, Language, ServerStatus};
 use crate::workspace::ThemeChoice;
 
@@ -76,15 +76,15 @@ pub const fn certificate_type(kind: CertificateType) -> T {
     }
 }
 
-pub const fn step(step: Step) -> T {
+pub const fn step(step: JobStep) -> T {
     match step {
-        Step::Connect => T::StepConnect,
-        Step::Read => T::StepRead,
-        Step::Verify => T::StepVerify,
-        Step::MakeKey => T::StepMakeKey,
-        Step::Sign => T::StepSign,
-        Step::Apply => T::StepApply,
-        Step::SaveBackup => T::StepSaveBackup,
+        JobStep::Connect => T::StepConnect,
+        JobStep::Read => T::StepRead,
+        JobStep::Verify => T::StepVerify,
+        JobStep::MakeKey => T::StepMakeKey,
+        JobStep::Sign => T::StepSign,
+        JobStep::Apply => T::StepApply,
+        JobStep::SaveBackup => T::StepSaveBackup,
     }
 }
 
@@ -110,7 +110,7 @@ in_every_language! {
     fn days_left(days: i64) -> String;
     fn tick_row(name: &str) -> String;
     fn sort_by(column: T) -> String;
-    fn summary(summary: Summary) -> String;
+    fn summary(summary: JobSummary) -> String;
     /// How far a running job is.
     fn job_running(title: T, done: usize, all: usize) -> String;
     /// What the status bar says after a job that needs no dialog.

@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use chrono::Duration;
 
 use super::TextKey as T;
-use crate::jobs::{Note, SkipReason};
+use crate::jobs::{SkipReason, TrustNote};
 use crate::model::{CertificateStatus, ClientList, ErrorCode, Language};
 use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
 
@@ -78,7 +78,7 @@ in_every_language! {
     fn covers(health: T, authority: &str) -> String;
 }
 
-impl Note {
+impl TrustNote {
     /// What a person reads: the end of a sentence.
     pub fn text(&self, language: Language) -> Cow<'static, str> {
         in_language!(language, trust::note(self))

@@ -1,14 +1,14 @@
 //! What is said of reports about connecting as a client.
 
 use super::explain_refusal;
-use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, TokenOutcome, VerifyFinding};
+use crate::jobs::{ConnectRefusal, NotTried, RefusalDetails, TokenOutcome, VerifyCounts, VerifyFinding};
 use crate::model::Language;
 use crate::session::opcua_client::TokenKind;
 
 in_every_language! {
     verify:
     /// What came of everything that is offered.
-    fn verify_counts(counts: Counts) -> String;
+    fn verify_counts(counts: VerifyCounts) -> String;
     /// Where a sentence holds, when there are many places.
     fn endpoints_named(names: &[String]) -> String;
 }
@@ -30,7 +30,7 @@ impl RefusalDetails {
     }
 }
 
-impl Refusal {
+impl ConnectRefusal {
     pub fn explain(&self, language: Language) -> String {
         in_language!(language, verify::refusal(self))
     }
@@ -68,25 +68,25 @@ mod tests {
     #[test]
     fn everything_is_said_in_every_language() {
         let refusals = [
-            Refusal::NotReachable("why".into()),
-            Refusal::TimedOut,
-            Refusal::NotOpcUa("why".into()),
-            Refusal::Closed,
-            Refusal::OwnCertificate(None),
-            Refusal::OwnCertificate(Some(told(CertificateStatus::Untrusted))),
-            Refusal::OwnCertificate(Some(told(CertificateStatus::Revoked))),
-            Refusal::OtherCertificate,
-            Refusal::Password,
-            Refusal::Anonymous,
-            Refusal::Busy("why".into()),
-            Refusal::State(3),
-            Refusal::Status { name: "Bad".into(), reason: String::new() },
-            Refusal::Status { name: "Bad".into(), reason: "why".into() },
+            ConnectRefusal::NotReachable("why".into()),
+            ConnectRefusal::TimedOut,
+            ConnectRefusal::NotOpcUa("why".into()),
+            ConnectRefusal::Closed,
+            ConnectRefusal::OwnCertificate(None),
+            ConnectRefusal::OwnCertificate(Some(told(CertificateStatus::Untrusted))),
+            ConnectRefusal::OwnCertificate(Some(told(CertificateStatus::Revoked))),
+            ConnectRefusal::OtherCertificate,
+            ConnectRefusal::Password,
+            ConnectRefusal::Anonymous,
+            ConnectRefusal::Busy("why".into()),
+            ConnectRefusal::State(3),
+            ConnectRefusal::Status { name: "Bad".into(), reason: String::new() },
+            ConnectRefusal::Status { name: "Bad".into(), reason: "why".into() },
         ];
         let findings = [
             VerifyFinding::NotRunning { status: ServerStatus::Error, error: Some(ErrorCode::PortConflict) },
             VerifyFinding::NotRunning { status: ServerStatus::Stop, error: None },
-            VerifyFinding::NoAnswer(Refusal::TimedOut),
+            VerifyFinding::NoAnswer(ConnectRefusal::TimedOut),
             VerifyFinding::NoEndpoints,
             VerifyFinding::PolicyMissing(SecurityPolicy::Basic256),
             VerifyFinding::PolicyNotTicked(SecurityPolicy::Basic256),

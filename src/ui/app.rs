@@ -5,7 +5,7 @@ use chrono::{DateTime, Utc};
 use egui::ThemePreference;
 
 use super::backend::Backend;
-use super::model::{CloseChoice, Command, Message, Model};
+use super::model::{BackendCommand, CloseChoice, Message, Model};
 use super::shell::dialogs;
 use super::{closing, drops, fonts, keys, reduce, theme, views};
 use crate::model::{Language, clock};
@@ -123,8 +123,8 @@ impl<B: Backend> App<B> {
         for message in messages.drain(..) {
             for command in reduce(&mut self.model, message) {
                 match command {
-                    Command::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
-                    Command::ShowWindow => {
+                    BackendCommand::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+                    BackendCommand::ShowWindow => {
                         ctx.send_viewport_cmd(egui::ViewportCommand::Minimized(false));
                         self.focus_at = Some(ctx.cumulative_frame_nr() + 1);
                         ctx.request_repaint();

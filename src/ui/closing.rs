@@ -5,12 +5,12 @@ use egui::{Align, Layout, ProgressBar, RichText, Ui};
 
 use super::theme::{self, palette};
 use super::widgets::{Buttons, dialog, note, primary};
-use crate::jobs::Summary;
+use crate::jobs::JobSummary;
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Answer, CancelState, CloseChoice, Closing, Command, Message, Model};
+use crate::ui::model::{BackendCommand, CancelState, CloseChoice, Closing, DialogAnswer, Message, Model};
 
 impl Model {
-    pub(in crate::ui) fn choose_about_closing(&mut self, choice: CloseChoice) -> Vec<Command> {
+    pub(in crate::ui) fn choose_about_closing(&mut self, choice: CloseChoice) -> Vec<BackendCommand> {
         match (choice, self.closing) {
             (CloseChoice::Ask, None) => {
                 self.closing = Some(Closing::Asking);
@@ -18,7 +18,7 @@ impl Model {
                 self.command_palette = None;
                 self.row_menu = None;
                 // It may be minimised.
-                return vec![Command::ShowWindow];
+                return vec![BackendCommand::ShowWindow];
             }
             (CloseChoice::Ask, Some(_)) => {}
             (CloseChoice::Finish, _) => self.closing = Some(Closing::Finishing),
@@ -27,7 +27,7 @@ impl Model {
                 self.closing = Some(Closing::Stopping);
                 if let Some(job) = self.job.as_mut().filter(|job| job.summary.is_none()) {
                     job.cancel = CancelState::Sent;
-                    return vec![Command::Cancel(job.id)];
+                    return vec![BackendCommand::Cancel(job.id)];
                 }
             }
         }
@@ -35,14 +35,14 @@ impl Model {
     }
 
     /// The system ends the program, and there may be nobody to ask.
-    pub(in crate::ui) fn stop_requested(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn stop_requested(&mut self) -> Vec<BackendCommand> {
         let mut commands = self.choose_about_closing(CloseChoice::Stop);
-        commands.push(Command::Quit);
+        commands.push(BackendCommand::Quit);
         commands
     }
 
     /// A failure has to be seen before the window closes, if somebody chose to finish first.
-    pub(in crate::ui) fn keep_open_after(&mut self, summary: Summary) {
+    pub(in crate::ui) fn keep_open_after(&mut self, summary: JobSummary) {
         if summary.failed > 0 && self.closing == Some(Closing::Finishing) {
             self.closing = None;
         }
@@ -81,7 +81,7 @@ pub fn show(ui: &Ui, enter: bool, model: &Model, messages: &mut Vec<Message>) {
             }
         });
     });
-    if answer == Answer::Close {
+    if answer == DialogAnswer::Close {
         choice = Some(CloseChoice::Stay);
     }
     messages.extend(choice.map(Message::Closing));

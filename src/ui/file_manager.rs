@@ -16,7 +16,7 @@ const OPENERS: &[&[&str]] = &[&["/usr/bin/open"]];
 const OPENERS: &[&[&str]] = &[&["xdg-open"], &["gio", "open"]];
 
 /// One that is still running then has a folder to show.
-const PATIENCE: Duration = Duration::from_secs(3);
+const WAIT_LIMIT: Duration = Duration::from_secs(3);
 const POLL: Duration = Duration::from_millis(50);
 
 pub fn open(folder: &Path) -> Result<(), Problem> {
@@ -53,7 +53,7 @@ fn start(opener: &[&str], folder: &PathBuf) -> io::Result<()> {
 
 /// Until it ends, which says whether it found a file manager, or has run for a while.
 fn wait(mut child: Child, program: &str) -> io::Result<()> {
-    let until = Instant::now() + PATIENCE;
+    let until = Instant::now() + WAIT_LIMIT;
     while Instant::now() < until {
         match child.try_wait()? {
             // Explorer says 1 whatever it did.

@@ -1,7 +1,7 @@
 //! The window.
 //!
 //! A frame takes in the backend's events, draws from `&Model`, and turns what the engineer did into
-//! [`Message`](model::Message)s. [`reduce`] alone changes the model, and gives back [`Command`](model::Command)s; the
+//! [`Message`](model::Message)s. [`reduce`] alone changes the model, and gives back [`BackendCommand`](model::BackendCommand)s; the
 //! [`Backend`](backend::Backend) does them elsewhere. A frame never waits, and without an event there is no frame.
 //!
 //! The modules. Each may use only those above it:

@@ -72,11 +72,11 @@ pub struct SystemPicker;
 const TOO_SOON: Duration = Duration::from_millis(300);
 
 /// Reports a result even if the thread cannot be started or panics.
-struct Tell<T>(Option<Done<T>>);
+struct ResultGuard<T>(Option<OnChosen<T>>);
 
-type Done<T> = Box<dyn FnOnce(Result<T, Problem>) + Send>;
+type OnChosen<T> = Box<dyn FnOnce(Result<T, Problem>) + Send>;
 
-impl<T> Tell<T> {
+impl<T> ResultGuard<T> {
     fn tell(mut self, result: Result<T, Problem>) {
         if let Some(done) = self.0.take() {
             done(result);
@@ -84,7 +84,7 @@ impl<T> Tell<T> {
     }
 }
 
-impl<T> Drop for Tell<T> {
+impl<T> Drop for ResultGuard<T> {
     fn drop(&mut self) {
         if let Some(done) = self.0.take() {
             done(Err(ErrorCode::NoFilePicker.into()));
@@ -123,11 +123,11 @@ impl FilePicker for SystemPicker {
 fn ask<C: 'static, T: Send + 'static>(
     kind: FileKind,
     title: String,
-    done: Done<T>,
+    done: OnChosen<T>,
     open: impl FnOnce(rfd::FileDialog) -> Option<C> + Send + 'static,
     chosen: fn(Option<C>) -> T,
 ) {
-    let tell = Tell(Some(done));
+    let tell = ResultGuard(Some(done));
     let ask = move || {
         let started = Instant::now();
         let dialog = rfd::FileDialog::new().set_title(title);

@@ -1,15 +1,17 @@
 //! The one place where the model changes.
 
 use super::features::COMMANDS;
-use super::model::{Column, Command, Event, JobId, Message, Model, PaletteAction, RowId, Targets, Task, UiCommand};
+use super::model::{
+    BackendCommand, BackendEvent, Column, JobId, Message, Model, PaletteAction, RowId, Targets, Task, UiCommand,
+};
 use super::shell::error::ErrorDialog;
 use super::shell::processing::ProcessingDialog;
-use crate::jobs::Summary;
+use crate::jobs::JobSummary;
 use crate::model::ErrorCode;
 use crate::texts;
 
 /// Takes one message in; what comes out is for the backend.
-pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
+pub fn reduce(model: &mut Model, message: Message) -> Vec<BackendCommand> {
     let mut commands = Vec::new();
     match message {
         Message::Invoke(command) if command.why_disabled(model).is_some() => {}
@@ -67,7 +69,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::Act(action) => commands = (action.0)(model),
         Message::ChooseFile => commands = model.choose_file(),
         Message::Browse(field) => commands = model.browse(field),
-        Message::OpenFolder(folder) => commands.push(Command::OpenFolder(folder)),
+        Message::OpenFolder(folder) => commands.push(BackendCommand::OpenFolder(folder)),
         Message::Hovered(paths) => commands = model.hovered(paths),
         Message::Dropped(paths) => commands = model.drop_files(paths),
         Message::ReadFile => commands = model.read_typed(),
@@ -95,7 +97,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
         Message::StartVirtual => {
             if model.virtual_available && !model.virtual_starting {
                 model.virtual_starting = true;
-                commands.push(Command::StartVirtualControllers);
+                commands.push(BackendCommand::StartVirtualControllers);
             }
         }
         Message::Closing(choice) => commands = model.choose_about_closing(choice),
@@ -107,7 +109,7 @@ pub fn reduce(model: &mut Model, message: Message) -> Vec<Command> {
 
 impl Model {
     /// Does a command for the row's menu. The ticks are as before afterwards.
-    fn invoke_for(&mut self, command: UiCommand, row: RowId) -> Vec<Command> {
+    fn invoke_for(&mut self, command: UiCommand, row: RowId) -> Vec<BackendCommand> {
         match self.targets_of(row) {
             Targets::Ticked => reduce(self, Message::Invoke(command)),
             Targets::Row(row) => {
@@ -125,48 +127,48 @@ impl Model {
         self.unsaved = true;
     }
 
-    fn event(&mut self, event: Event) -> Vec<Command> {
+    fn event(&mut self, event: BackendEvent) -> Vec<BackendCommand> {
         match event {
-            Event::Job { job, event } => self.job_event(job, event),
-            Event::JobEnded { job, summary } => self.job_ended(job, summary),
-            Event::Probed { job, result } => {
+            BackendEvent::Job { job, event } => self.job_event(job, event),
+            BackendEvent::JobEnded { job, summary } => self.job_ended(job, summary),
+            BackendEvent::Probed { job, result } => {
                 self.probed(job, result);
                 vec![]
             }
-            Event::Enrolled { job, result } => self.enrolled(job, result),
-            Event::FilePicked { job, result } => self.file_picked(job, result),
-            Event::FileRead { job, result } => {
+            BackendEvent::Enrolled { job, result } => self.enrolled(job, result),
+            BackendEvent::FilePicked { job, result } => self.file_picked(job, result),
+            BackendEvent::FileRead { job, result } => {
                 self.file_read(job, result);
                 vec![]
             }
-            Event::FilesPicked { job, result } => self.trust_files_picked(job, result),
-            Event::TrustFilesRead { job, files } => {
+            BackendEvent::FilesPicked { job, result } => self.trust_files_picked(job, result),
+            BackendEvent::TrustFilesRead { job, files } => {
                 self.trust_files_read(job, files);
                 vec![]
             }
-            Event::TrustSeen { job, event } => {
+            BackendEvent::TrustSeen { job, event } => {
                 self.trust_seen(job, event);
                 vec![]
             }
-            Event::Recognised { job, files } => self.recognised(job, files),
-            Event::ExportSeen { job, result } => {
+            BackendEvent::Recognised { job, files } => self.recognised(job, files),
+            BackendEvent::ExportSeen { job, result } => {
                 self.export_seen(job, result);
                 vec![]
             }
-            Event::AuthorityDone { job, result } => self.authority_done(job, result),
-            Event::VirtualStarted(result) => self.virtual_started(result),
-            Event::StopRequested => self.stop_requested(),
-            Event::StartedAgain => vec![Command::ShowWindow],
-            Event::VaultDone(result) => self.vault_done(result),
-            Event::PasswordStore(store) => {
+            BackendEvent::AuthorityDone { job, result } => self.authority_done(job, result),
+            BackendEvent::VirtualStarted(result) => self.virtual_started(result),
+            BackendEvent::StopRequested => self.stop_requested(),
+            BackendEvent::StartedAgain => vec![BackendCommand::ShowWindow],
+            BackendEvent::VaultDone(result) => self.vault_done(result),
+            BackendEvent::PasswordStore(store) => {
                 self.store_changed(store);
                 vec![]
             }
-            Event::PasswordNotKept(problem) => {
+            BackendEvent::PasswordNotKept(problem) => {
                 self.password_not_kept(problem);
                 vec![]
             }
-            Event::SaveFailed(problem) | Event::FolderNotOpened(problem) => {
+            BackendEvent::SaveFailed(problem) | BackendEvent::FolderNotOpened(problem) => {
                 // Once is enough for the same trouble.
                 let shown = self.dialog::<ErrorDialog>().is_some_and(|shown| shown.0.code == problem.code);
                 if !shown {
@@ -177,7 +179,7 @@ impl Model {
         }
     }
 
-    fn job_ended(&mut self, id: JobId, summary: Summary) -> Vec<Command> {
+    fn job_ended(&mut self, id: JobId, summary: JobSummary) -> Vec<BackendCommand> {
         let Some(job) = self.job.as_mut().filter(|job| job.id == id) else { return vec![] };
         job.summary = Some(summary);
         let (task, failure) = (job.task.clone(), job.first_failed());
@@ -198,7 +200,7 @@ impl Model {
         commands
     }
 
-    fn processing_ended(&mut self, task: &Task, summary: Summary, failure: Option<usize>) -> Vec<Command> {
+    fn processing_ended(&mut self, task: &Task, summary: JobSummary, failure: Option<usize>) -> Vec<BackendCommand> {
         let all_done = summary.failed == 0 && summary.not_started == 0;
         let alone = self.is_only::<ProcessingDialog>();
         if all_done && alone && self.options.verify_after_changes && !self.changed_servers().is_empty() {

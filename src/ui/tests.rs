@@ -1,8 +1,8 @@
 //! The rules of the window, without a window.
 
+mod client_certificates;
 mod server_log;
 mod transfer;
-mod trust;
 mod vault;
 mod verify;
 
@@ -10,15 +10,17 @@ use chrono::{DateTime, Duration, Utc};
 
 use super::features::COMMANDS;
 use super::features::activation::{ActivationForm, KeysForm};
-use super::features::add_controller::{AddController, AddStage};
-use super::features::settings::SettingsForm;
-use super::model::{CancelState, Column, Command, Event, FileContents, JobId, Message, Model, TaskEvent, UiCommand};
+use super::features::add_controller::{AddControllerForm, AddStage};
+use super::features::basic_settings::BasicSettingsForm;
+use super::model::{
+    BackendCommand, BackendEvent, CancelState, Column, FileContents, JobId, Message, Model, TaskEvent, UiCommand,
+};
 use super::reduce;
 use super::shell::confirm::ConfirmDialog;
 use super::shell::error::ErrorDialog;
 use super::shell::password::PasswordDialog;
 use super::shell::processing::ProcessingDialog;
-use crate::jobs::{Done, OperationOutput, Report, SetSettings, Step, Summary};
+use crate::jobs::{ControllerReport, JobStep, JobSummary, NoOutput, OperationOutput, SetBasicSettings};
 use crate::model::{ControllerInfo, ErrorCode, Language, Problem, RevisionToken, Revisioned, ServerSettings};
 use crate::pki::Fingerprint;
 use crate::texts::TextKey;
@@ -61,14 +63,14 @@ fn info() -> ControllerInfo {
 }
 
 /// The operation of the job succeeds for one of its controllers.
-fn done<O: OperationOutput>(model: &mut Model, job: JobId, index: usize, output: O) -> Vec<Command> {
+fn done<O: OperationOutput>(model: &mut Model, job: JobId, index: usize, output: O) -> Vec<BackendCommand> {
     let task = model.job.as_ref().expect("a job").task.clone();
-    let report = Report { result: Ok(output), info: Some(info()) };
+    let report = ControllerReport { result: Ok(output), info: Some(info()) };
     event(model, job, task.finished(index, report).expect("a result of this operation"))
 }
 
 /// It fails for one of them.
-fn fail(model: &mut Model, job: JobId, index: usize, problem: impl Into<Problem>) -> Vec<Command> {
+fn fail(model: &mut Model, job: JobId, index: usize, problem: impl Into<Problem>) -> Vec<BackendCommand> {
     let task = model.job.as_ref().expect("a job").task.clone();
     event(model, job, task.failed(index, problem.into()))
 }
@@ -85,8 +87,8 @@ fn unconfirmed() -> Model {
     model
 }
 
-fn probe(commands: &[Command]) -> (JobId, String) {
-    let Some(Command::Probe { job, connection: _, address }) = commands.last() else { panic!("{commands:?}") };
+fn probe(commands: &[BackendCommand]) -> (JobId, String) {
+    let Some(BackendCommand::Probe { job, connection: _, address }) = commands.last() else { panic!("{commands:?}") };
     (*job, address.to_string())
 }
 
@@ -96,26 +98,26 @@ fn whose_identity_is_not_confirmed_is_asked_about_one_after_the_other() {
     let (first, address) = probe(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
     assert_eq!(address, "10.0.0.9");
     let skipped = reduce(&mut model, Message::act(Model::skip_identity));
-    assert!(matches!(skipped[0], Command::Cancel(job) if job == first));
+    assert!(matches!(skipped[0], BackendCommand::Cancel(job) if job == first));
     let (second, address) = probe(&skipped);
     assert_eq!(address, "10.0.0.10");
 
     // An answer about the one that was skipped is nobody's.
     let fingerprint = Fingerprint::of(b"second");
-    reduce(&mut model, Message::Event(Event::Probed { job: first, result: Ok(Fingerprint::of(b"first")) }));
-    reduce(&mut model, Message::Event(Event::Probed { job: second, result: Ok(fingerprint) }));
+    reduce(&mut model, Message::Event(BackendEvent::Probed { job: first, result: Ok(Fingerprint::of(b"first")) }));
+    reduce(&mut model, Message::Event(BackendEvent::Probed { job: second, result: Ok(fingerprint) }));
     let asked = reduce(&mut model, Message::Submit);
-    let [Command::Enroll { job, fingerprint: agreed, .. }] = &asked[..] else { panic!("{asked:?}") };
+    let [BackendCommand::Enroll { job, fingerprint: agreed, .. }] = &asked[..] else { panic!("{asked:?}") };
     assert_eq!(*agreed, fingerprint);
     let enrolled = crate::jobs::Enrolled { fingerprint, info: info(), password_not_kept: None };
-    let next = reduce(&mut model, Message::Event(Event::Enrolled { job: *job, result: Ok(Box::new(enrolled)) }));
-    assert!(matches!(next[0], Command::Save(_)));
+    let next = reduce(&mut model, Message::Event(BackendEvent::Enrolled { job: *job, result: Ok(Box::new(enrolled)) }));
+    assert!(matches!(next[0], BackendCommand::Save(_)));
     assert_eq!(probe(&next).1, "10.0.0.1");
     let confirmed: Vec<bool> = model.rows.all().iter().map(|row| row.entry.fingerprint.is_some()).collect();
     assert_eq!(confirmed, [false, true, false]);
 
     // Cancel ends it all.
-    assert!(matches!(reduce(&mut model, Message::Close)[..], [Command::Cancel(_)]));
+    assert!(matches!(reduce(&mut model, Message::Close)[..], [BackendCommand::Cancel(_)]));
     assert!(model.dialogs.is_empty());
     assert_eq!(UiCommand::CONFIRM_IDENTITY.why_disabled(&model), None);
 }
@@ -126,16 +128,19 @@ fn a_file_that_comes_after_its_dialog_was_closed_is_dropped() {
     tick(&mut model, &["Weld 2", "Paint"]);
     reduce(&mut model, Message::Invoke(UiCommand::ACTIVATION));
     let picking = reduce(&mut model, Message::ChooseFile);
-    let [Command::PickFile { job: picking, .. }] = picking[..] else { panic!("{picking:?}") };
+    let [BackendCommand::PickFile { job: picking, .. }] = picking[..] else { panic!("{picking:?}") };
     assert!(reduce(&mut model, Message::ChooseFile).is_empty(), "one dialog of the desktop is enough");
-    let picked = || Event::FilePicked { job: picking, result: Ok(Some("/keys.csv".into())) };
+    let picked = || BackendEvent::FilePicked { job: picking, result: Ok(Some("/keys.csv".into())) };
     let reading = reduce(&mut model, Message::Event(picked()));
-    let [Command::ReadFile { job: reading, .. }] = reading[..] else { panic!("{reading:?}") };
+    let [BackendCommand::ReadFile { job: reading, .. }] = reading[..] else { panic!("{reading:?}") };
     reduce(&mut model, Message::Close);
     reduce(&mut model, Message::Invoke(UiCommand::ACTIVATION));
     assert!(reduce(&mut model, Message::Event(picked())).is_empty());
     let contents = FileContents(b"OPCUA.Activation.Ver.1.0\n".to_vec());
-    reduce(&mut model, Message::Event(Event::FileRead { job: reading, result: Ok(("/keys.csv".into(), contents)) }));
+    reduce(
+        &mut model,
+        Message::Event(BackendEvent::FileRead { job: reading, result: Ok(("/keys.csv".into(), contents)) }),
+    );
     let Some(form) = model.top::<ActivationForm>() else { panic!("{:?}", model.dialogs) };
     assert!(form.operation().is_none());
     let KeysForm::File { file, preview } = &form.keys else { panic!("{form:?}") };
@@ -155,17 +160,17 @@ fn tick(model: &mut Model, names: &[&str]) {
     }
 }
 
-fn job(commands: &[Command]) -> JobId {
-    let [Command::Run { job, .. }] = commands else { panic!("{commands:?}") };
+fn job(commands: &[BackendCommand]) -> JobId {
+    let [BackendCommand::Run { job, .. }] = commands else { panic!("{commands:?}") };
     *job
 }
 
-fn event(model: &mut Model, job: JobId, event: TaskEvent) -> Vec<Command> {
-    reduce(model, Message::Event(Event::Job { job, event }))
+fn event(model: &mut Model, job: JobId, event: TaskEvent) -> Vec<BackendCommand> {
+    reduce(model, Message::Event(BackendEvent::Job { job, event }))
 }
 
-fn ended(model: &mut Model, job: JobId, done: usize, failed: usize) -> Vec<Command> {
-    reduce(model, Message::Event(Event::JobEnded { job, summary: Summary { done, failed, not_started: 0 } }))
+fn ended(model: &mut Model, job: JobId, done: usize, failed: usize) -> Vec<BackendCommand> {
+    reduce(model, Message::Event(BackendEvent::JobEnded { job, summary: JobSummary { done, failed, not_started: 0 } }))
 }
 
 #[test]
@@ -225,12 +230,12 @@ fn reading_closes_by_itself_when_all_went_well() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
-    event(&mut model, id, TaskEvent::Step { index: 0, step: Step::Connect });
-    done(&mut model, id, 0, Done);
-    done(&mut model, id, 1, Done);
+    event(&mut model, id, TaskEvent::Step { index: 0, step: JobStep::Connect });
+    done(&mut model, id, 0, NoOutput);
+    done(&mut model, id, 1, NoOutput);
     assert!(model.is_only::<ProcessingDialog>());
     let saved = ended(&mut model, id, 2, 0);
-    assert!(matches!(saved[..], [Command::Save(_)]));
+    assert!(matches!(saved[..], [BackendCommand::Save(_)]));
     assert!(model.dialogs.is_empty());
     assert_eq!(model.status.as_deref(), Some("Get new information: 2 controllers done"));
     assert!(model.rows.all().iter().all(|row| row.live.is_none()));
@@ -242,7 +247,7 @@ fn a_failure_stays_until_it_was_read() {
     let mut model = model();
     tick(&mut model, &["Weld 2", "Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
-    done(&mut model, id, 0, Done);
+    done(&mut model, id, 0, NoOutput);
     fail(&mut model, id, 1, ErrorCode::Unreachable);
     ended(&mut model, id, 1, 1);
     assert_eq!(model.top::<ProcessingDialog>().unwrap().selected, Some(1));
@@ -256,14 +261,14 @@ fn late_events_of_an_old_job_are_ignored() {
     tick(&mut model, &["Paint"]);
     let old = job(&reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS)));
     let cancelled = reduce(&mut model, Message::Close);
-    assert!(matches!(cancelled[..], [Command::Cancel(id)] if id == old));
+    assert!(matches!(cancelled[..], [BackendCommand::Cancel(id)] if id == old));
     let new = job(&reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS)));
     let settings = Revisioned { revision: RevisionToken::new(9), value: ServerSettings::default() };
     assert!(done(&mut model, old, 0, settings.clone()).is_empty());
     ended(&mut model, old, 1, 0);
-    assert!(model.top::<SettingsForm>().unwrap().reading);
+    assert!(model.top::<BasicSettingsForm>().unwrap().reading);
     done(&mut model, new, 0, settings);
-    assert_eq!(model.top::<SettingsForm>().unwrap().revision, Some(RevisionToken::new(9)));
+    assert_eq!(model.top::<BasicSettingsForm>().unwrap().revision, Some(RevisionToken::new(9)));
 }
 
 #[test]
@@ -276,7 +281,7 @@ fn cancelling_asks_once_more() {
     reduce(&mut model, Message::KeepGoing);
     assert_eq!(model.job.as_ref().unwrap().cancel, CancelState::No);
     reduce(&mut model, Message::Close);
-    assert!(matches!(reduce(&mut model, Message::Close)[..], [Command::Cancel(job)] if job == id));
+    assert!(matches!(reduce(&mut model, Message::Close)[..], [BackendCommand::Cancel(job)] if job == id));
     assert!(reduce(&mut model, Message::Close).is_empty(), "it is stopping already");
     assert!(model.is_only::<ProcessingDialog>());
 }
@@ -289,11 +294,11 @@ fn a_change_is_confirmed_and_cancel_leads_back_to_the_form() {
     assert!(reduce(&mut model, Message::Submit).is_empty());
     assert_eq!(open(&model), ["SettingsForm", "ConfirmDialog"]);
     reduce(&mut model, Message::Close);
-    assert!(model.is_only::<SettingsForm>());
+    assert!(model.is_only::<BasicSettingsForm>());
     reduce(&mut model, Message::Submit);
     let commands = reduce(&mut model, Message::Submit);
-    assert!(matches!(&commands[..], [Command::Run { task, controllers, .. }]
-            if task.operation::<SetSettings>().is_some() && controllers.len() == 2));
+    assert!(matches!(&commands[..], [BackendCommand::Run { task, controllers, .. }]
+            if task.operation::<SetBasicSettings>().is_some() && controllers.len() == 2));
     assert!(model.is_only::<ProcessingDialog>());
 }
 
@@ -302,8 +307,8 @@ fn settings_with_a_mistake_are_not_applied() {
     let mut model = model();
     tick(&mut model, &["Paint", "Weld 2"]);
     reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS));
-    let edit = |model: &mut Model, change: &dyn Fn(&mut SettingsForm)| {
-        let Some(form) = model.top_mut::<SettingsForm>() else { panic!("no form") };
+    let edit = |model: &mut Model, change: &dyn Fn(&mut BasicSettingsForm)| {
+        let Some(form) = model.top_mut::<BasicSettingsForm>() else { panic!("no form") };
         change(form);
         form.operation().is_some()
     };
@@ -311,7 +316,7 @@ fn settings_with_a_mistake_are_not_applied() {
     assert!(!edit(&mut model, &|form| (form.port, form.server_log) = ("4840".into(), true)));
     assert!(!edit(&mut model, &|form| form.log_password = "123456".into()));
     reduce(&mut model, Message::Submit);
-    assert!(model.is_only::<SettingsForm>());
+    assert!(model.is_only::<BasicSettingsForm>());
     assert!(edit(&mut model, &|form| form.log_password = ServerSettings::LOG_PASSWORD.into()));
     assert!(!edit(&mut model, &|form| form.policies.clear()));
 }
@@ -322,13 +327,13 @@ fn a_missing_password_is_asked_for_and_those_controllers_are_tried_again() {
     tick(&mut model, &["Weld 2", "Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
     fail(&mut model, id, 0, ErrorCode::PasswordMissing);
-    done(&mut model, id, 1, Done);
+    done(&mut model, id, 1, NoOutput);
     ended(&mut model, id, 1, 1);
     let Some(form) = model.top_mut::<PasswordDialog>() else { panic!("not asked") };
     assert_eq!(form.names, ["Weld 2"]);
     form.password.0 = "secret".into();
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { controllers, password: Some(_), .. }] = &commands[..] else { panic!("{commands:?}") };
+    let [BackendCommand::Run { controllers, password: Some(_), .. }] = &commands[..] else { panic!("{commands:?}") };
     assert_eq!(controllers.len(), 1);
     assert!(!format!("{commands:?}").contains("secret"));
     assert!(model.is_only::<ProcessingDialog>());
@@ -339,20 +344,20 @@ fn a_controller_is_added_only_after_its_fingerprint_was_agreed_to() {
     let mut model = model();
     reduce(&mut model, Message::Invoke(UiCommand::ADD_CONTROLLER));
     let form = |model: &mut Model| -> AddStage {
-        let Some(form) = model.top_mut::<AddController>() else { panic!("no form") };
+        let Some(form) = model.top_mut::<AddControllerForm>() else { panic!("no form") };
         (form.name, form.address) = ("Paint".into(), "10.0.0.77".into());
         form.stage
     };
     form(&mut model);
     assert!(reduce(&mut model, Message::Submit).is_empty(), "the name is taken");
-    let Some(open) = model.top_mut::<AddController>() else { panic!("no form") };
+    let Some(open) = model.top_mut::<AddControllerForm>() else { panic!("no form") };
     (open.name, open.address) = ("New".into(), "10.0.0.77".into());
-    let [Command::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
+    let [BackendCommand::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
     let fingerprint = Fingerprint::of(b"new");
-    reduce(&mut model, Message::Event(Event::Probed { job, result: Ok(fingerprint) }));
-    let [Command::Enroll { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no enrolment") };
+    reduce(&mut model, Message::Event(BackendEvent::Probed { job, result: Ok(fingerprint) }));
+    let [BackendCommand::Enroll { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no enrolment") };
     let enrolled = crate::jobs::Enrolled { fingerprint, info: info(), password_not_kept: None };
-    reduce(&mut model, Message::Event(Event::Enrolled { job, result: Ok(Box::new(enrolled)) }));
+    reduce(&mut model, Message::Event(BackendEvent::Enrolled { job, result: Ok(Box::new(enrolled)) }));
     assert!(model.dialogs.is_empty());
     let row = model.rows.all().last().unwrap();
     assert_eq!((row.entry.name.as_str(), row.entry.fingerprint), ("New", Some(fingerprint)));
@@ -362,12 +367,12 @@ fn a_controller_is_added_only_after_its_fingerprint_was_agreed_to() {
 fn an_attempt_that_was_given_up_adds_nothing() {
     let mut model = model();
     reduce(&mut model, Message::Invoke(UiCommand::ADD_CONTROLLER));
-    let Some(open) = model.top_mut::<AddController>() else { panic!("no form") };
+    let Some(open) = model.top_mut::<AddControllerForm>() else { panic!("no form") };
     (open.name, open.address) = ("New".into(), "10.0.0.77".into());
-    let [Command::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
-    assert!(matches!(reduce(&mut model, Message::Close)[..], [Command::Cancel(id)] if id == job));
-    reduce(&mut model, Message::Event(Event::Probed { job, result: Ok(Fingerprint::of(b"new")) }));
-    assert_eq!(model.top::<AddController>().unwrap().stage, AddStage::Form);
+    let [BackendCommand::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
+    assert!(matches!(reduce(&mut model, Message::Close)[..], [BackendCommand::Cancel(id)] if id == job));
+    reduce(&mut model, Message::Event(BackendEvent::Probed { job, result: Ok(Fingerprint::of(b"new")) }));
+    assert_eq!(model.top::<AddControllerForm>().unwrap().stage, AddStage::Form);
 }
 
 #[test]
@@ -376,7 +381,7 @@ fn deleting_forgets_the_passwords() {
     tick(&mut model, &["Paint"]);
     reduce(&mut model, Message::Invoke(UiCommand::DELETE_CONTROLLERS));
     let commands = reduce(&mut model, Message::Submit);
-    assert!(matches!(&commands[..], [Command::Save(_), Command::Forget(gone)] if gone.len() == 1));
+    assert!(matches!(&commands[..], [BackendCommand::Save(_), BackendCommand::Forget(gone)] if gone.len() == 1));
     assert_eq!(model.rows.all().len(), 2);
     assert_eq!(model.rows.ticked_count(), 0);
 }
@@ -406,7 +411,7 @@ fn expiry_is_counted_as_time_goes_by() {
 
 #[test]
 fn a_dialogs_debug_output_holds_no_secret() {
-    let mut form = AddController::new();
+    let mut form = AddControllerForm::new();
     form.password.0 = "hunter22".into();
     assert!(!format!("{form:?}").contains("hunter22"));
 }
@@ -416,11 +421,11 @@ fn a_form_is_filled_also_under_a_notice() {
     let mut model = model();
     tick(&mut model, &["Paint"]);
     let id = job(&reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS)));
-    reduce(&mut model, Message::Event(Event::SaveFailed(ErrorCode::WorkspaceFull.into())));
+    reduce(&mut model, Message::Event(BackendEvent::SaveFailed(ErrorCode::WorkspaceFull.into())));
     let settings = Revisioned { revision: RevisionToken::new(9), value: ServerSettings::default() };
     done(&mut model, id, 0, settings);
     assert_eq!(open(&model), ["SettingsForm", "ErrorDialog"]);
-    assert!(!model.dialog::<SettingsForm>().unwrap().reading);
+    assert!(!model.dialog::<BasicSettingsForm>().unwrap().reading);
 }
 
 #[test]

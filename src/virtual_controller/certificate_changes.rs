@@ -3,13 +3,17 @@
 
 use super::changes::install;
 use super::secret_bytes::SecretBytes;
-use super::state::{KeyPair, OperatingContext, PendingCsr, State};
+use super::state::{ControllerState, KeyPair, OperatingContext, PendingCsr};
 use crate::model::{Base64Bytes, CertificateType, CsrRequest, ErrorCode, FirmwareGeneration, Problem};
 use crate::pki::{Certificate, Csr, PkiError, PrivateKey, check_usable, make_csr as csr_for, pkcs12_read_key};
 
 /// Manual 2.7.1.5 on current firmware: the key is made here and stays here, beside the one of the certificate in use.
 /// Gives the CSR's DER.
-pub fn make_csr(state: &mut State, context: &OperatingContext, request: &CsrRequest) -> Result<Vec<u8>, Problem> {
+pub fn make_csr(
+    state: &mut ControllerState,
+    context: &OperatingContext,
+    request: &CsrRequest,
+) -> Result<Vec<u8>, Problem> {
     if state.generation() == FirmwareGeneration::Legacy {
         return Err(ErrorCode::FirmwareTooOld.into());
     }
@@ -24,7 +28,7 @@ pub fn make_csr(state: &mut State, context: &OperatingContext, request: &CsrRequ
 /// Manual 2.7.1.5 on legacy firmware: key and CSR come from the PC, and the CA-signed certificate held so far is gone
 /// unless it is for the same key. A certificate that comes with them is installed and selected. Gives the CSR's DER.
 pub fn import_csr(
-    state: &mut State,
+    state: &mut ControllerState,
     context: &OperatingContext,
     csr: &[u8],
     pkcs12: &[u8],
@@ -54,7 +58,11 @@ pub fn import_csr(
 }
 
 /// Manual 2.7.1.5: installs and selects what the CA issued for the CSR held here. Gives the certificate's DER.
-pub fn import_ca_signed(state: &mut State, context: &OperatingContext, certificate: &[u8]) -> Result<Vec<u8>, Problem> {
+pub fn import_ca_signed(
+    state: &mut ControllerState,
+    context: &OperatingContext,
+    certificate: &[u8],
+) -> Result<Vec<u8>, Problem> {
     let pending = state.csr.as_ref().ok_or(ErrorCode::NoCsr)?;
     let certificate = Certificate::from_der(certificate)?;
     if !Csr::from_der(&pending.csr.0)?.matches(&certificate) {
@@ -66,7 +74,7 @@ pub fn import_ca_signed(state: &mut State, context: &OperatingContext, certifica
 }
 
 /// Manual 2.7.2: only a type that is held can be selected.
-pub fn select_certificate(state: &mut State, kind: CertificateType) -> Result<(), Problem> {
+pub fn select_certificate(state: &mut ControllerState, kind: CertificateType) -> Result<(), Problem> {
     if kind == CertificateType::UserSpecified && state.generation() == FirmwareGeneration::Current {
         return Err(ErrorCode::FirmwareTooNew.into());
     }
@@ -77,7 +85,7 @@ pub fn select_certificate(state: &mut State, kind: CertificateType) -> Result<()
     Ok(())
 }
 
-fn keep(state: &mut State, csr: &Csr, key: &PrivateKey) -> Result<Vec<u8>, Problem> {
+fn keep(state: &mut ControllerState, csr: &Csr, key: &PrivateKey) -> Result<Vec<u8>, Problem> {
     let der = csr.der().to_vec();
     state.csr = Some(PendingCsr { csr: Base64Bytes(der.clone()), private_key: SecretBytes(key.to_pkcs8_der()?) });
     Ok(der)

@@ -8,7 +8,7 @@ use chrono::{DateTime, Utc};
 use super::activation_keys::demo_keys;
 use super::opcua::hash_password;
 use super::secret_bytes::SecretBytes;
-use super::state::{KeyPair, OperatingContext, State, User};
+use super::state::{ControllerState, KeyPair, OperatingContext, User};
 use crate::model::activation::ActivationKeys;
 use crate::model::{
     Base64Bytes, CertificateType, ErrorCode, FirmwareGeneration, MAX_USERS, Problem, SelfSignedRequest, ServerSettings,
@@ -18,7 +18,7 @@ use crate::pki::{Certificate, PkiError, PrivateKey, check_usable, pkcs12_read, s
 
 /// Manual 2.6.1. `log_password` is looked at only when the server log goes from off to on.
 pub fn set_settings(
-    state: &mut State,
+    state: &mut ControllerState,
     context: &OperatingContext,
     settings: ServerSettings,
     log_password: Option<&str>,
@@ -34,7 +34,7 @@ pub fn set_settings(
 }
 
 /// Manual 2.6.2.2.
-pub fn add_user(state: &mut State, name: UserName, password: &str) -> Result<(), Problem> {
+pub fn add_user(state: &mut ControllerState, name: UserName, password: &str) -> Result<(), Problem> {
     let password =
         UserPassword::new(password).map_err(|error| Problem::with_detail(ErrorCode::BadCredential, error))?;
     if state.users.iter().any(|user| user.name == name) {
@@ -50,7 +50,7 @@ pub fn add_user(state: &mut State, name: UserName, password: &str) -> Result<(),
 }
 
 /// Manual 2.6.2.3: all of them, or none if one does not exist.
-pub fn remove_users(state: &mut State, names: &[UserName]) -> Result<(), Problem> {
+pub fn remove_users(state: &mut ControllerState, names: &[UserName]) -> Result<(), Problem> {
     for name in names {
         if !state.users.iter().any(|user| user.name == *name) {
             return Err(Problem::with_detail(ErrorCode::UserNotFound, name));
@@ -63,7 +63,7 @@ pub fn remove_users(state: &mut State, names: &[UserName]) -> Result<(), Problem
 /// Manual 2.7.1.2 on current firmware: key and certificate are made here, and the key stays here.
 /// Gives the certificate's DER.
 pub fn make_self_signed(
-    state: &mut State,
+    state: &mut ControllerState,
     context: &OperatingContext,
     request: &SelfSignedRequest,
 ) -> Result<Vec<u8>, Problem> {
@@ -75,7 +75,7 @@ pub fn make_self_signed(
 
 /// Makes a self-signed certificate dated `made`, installs and selects it, whatever the firmware.
 pub fn install_self_signed(
-    state: &mut State,
+    state: &mut ControllerState,
     context: &OperatingContext,
     request: &SelfSignedRequest,
     made: DateTime<Utc>,
@@ -90,7 +90,7 @@ pub fn install_self_signed(
 
 /// Manual 2.7.1 on legacy firmware: key and certificate come from the PC. Gives the certificate's DER.
 pub fn import_certificate(
-    state: &mut State,
+    state: &mut ControllerState,
     context: &OperatingContext,
     kind: CertificateType,
     pkcs12: &[u8],
@@ -112,7 +112,7 @@ pub fn import_certificate(
 }
 
 /// Manual 2.6.3.
-pub fn activate(state: &mut State, keys: ActivationKeys) -> Result<(), Problem> {
+pub fn activate(state: &mut ControllerState, keys: ActivationKeys) -> Result<(), Problem> {
     if state.generation() == FirmwareGeneration::Current {
         return Err(ErrorCode::FirmwareTooNew.into());
     }
@@ -125,7 +125,7 @@ pub fn activate(state: &mut State, keys: ActivationKeys) -> Result<(), Problem> 
 }
 
 pub(super) fn install(
-    state: &mut State,
+    state: &mut ControllerState,
     kind: CertificateType,
     certificate: &Certificate,
     key: &PrivateKey,

@@ -16,7 +16,7 @@ use super::new_controller::{NewCertificate, NewController};
 use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
-use super::state::Identity;
+use super::state::ControllerIdentity;
 use super::switch_on::VirtualController;
 use crate::model::{
     Address, ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, KeyLength, Problem, SecurityPolicy,
@@ -74,7 +74,7 @@ pub async fn demo_fleet(data: &Path, bind: IpAddr, count: usize, seed: u64) -> R
     let hash = hash.await.map_err(|_| FleetError::Worker)??;
     let cast = (0..count).map(|index| role(seed, index)).collect::<Result<Vec<_>, _>>()?;
     let mut specs = Vec::new();
-    for role in cast.iter().filter(|role| role.part != Part::Unreachable) {
+    for role in cast.iter().filter(|role| role.part != DemoPart::Unreachable) {
         specs.push(role.spec(data, bind, &hash)?);
     }
     let controllers = start_all(specs).await?;
@@ -83,13 +83,13 @@ pub async fn demo_fleet(data: &Path, bind: IpAddr, count: usize, seed: u64) -> R
     let mut started = controllers.iter();
     let mut entries = Vec::with_capacity(cast.len());
     for role in cast {
-        let controller = if role.part == Part::Unreachable { None } else { started.next() };
+        let controller = if role.part == DemoPart::Unreachable { None } else { started.next() };
         let (at, fingerprint) = match controller {
             Some(controller) => (controller.reachable_address(), Some(controller.fingerprint())),
             None => (SocketAddr::new(host, free_port(bind).map_err(FleetError::NoFreePort)?), None),
         };
         if let Some(controller) = controller
-            && role.part == Part::Slow
+            && role.part == DemoPart::Slow
         {
             controller.faults().update(|switches| switches.latency = SLOWNESS);
         }
@@ -107,7 +107,7 @@ pub async fn demo_fleet(data: &Path, bind: IpAddr, count: usize, seed: u64) -> R
 
 /// What a controller of the demo shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Part {
+enum DemoPart {
     Running,
     Stopped,
     ExpiredCertificate,
@@ -119,36 +119,36 @@ enum Part {
     Plain,
 }
 
-struct Role {
-    part: Part,
-    identity: Identity,
+struct DemoRole {
+    part: DemoPart,
+    identity: ControllerIdentity,
     cell: CellOptions,
 }
 
 /// How slow the slow one is, for each request.
 const SLOWNESS: Duration = Duration::from_millis(1500);
 
-fn role(seed: u64, index: usize) -> Result<Role, FleetError> {
+fn role(seed: u64, index: usize) -> Result<DemoRole, FleetError> {
     use ControllerSeries::{Rc90, Rc700, Rc800, TVt};
     let version = FirmwareVersion::new;
     let (part, series, firmware, name) = match index {
-        0 => (Part::Running, Rc700, version(7, 5, 58), "焊接单元 3 号 – 主控制器"),
-        1 => (Part::Running, Rc800, version(8, 1, 0), "Assembly line 2"),
-        2 => (Part::ExpiresSoon, Rc800, version(8, 0, 0), "Packaging line 4, east hall, top"),
-        3 => (Part::ExpiredCertificate, Rc90, version(7, 5, 4), "装配线 A-12"),
-        4 => (Part::NotActivated, TVt, version(7, 5, 54), "Inspection VT6"),
-        5 => (Part::PortConflict, Rc700, version(7, 5, 4), "码垛机器人 7"),
-        6 => (Part::Slow, Rc90, version(7, 5, 6), "Old press, building B"),
-        7 => (Part::Unreachable, Rc800, version(8, 1, 2), "涂装车间 1 号"),
+        0 => (DemoPart::Running, Rc700, version(7, 5, 58), "焊接单元 3 号 – 主控制器"),
+        1 => (DemoPart::Running, Rc800, version(8, 1, 0), "Assembly line 2"),
+        2 => (DemoPart::ExpiresSoon, Rc800, version(8, 0, 0), "Packaging line 4, east hall, top"),
+        3 => (DemoPart::ExpiredCertificate, Rc90, version(7, 5, 4), "装配线 A-12"),
+        4 => (DemoPart::NotActivated, TVt, version(7, 5, 54), "Inspection VT6"),
+        5 => (DemoPart::PortConflict, Rc700, version(7, 5, 4), "码垛机器人 7"),
+        6 => (DemoPart::Slow, Rc90, version(7, 5, 6), "Old press, building B"),
+        7 => (DemoPart::Unreachable, Rc800, version(8, 1, 2), "涂装车间 1 号"),
         _ => {
             let identity = plausible_identity(seed, index, FleetFirmware::Mixed)?;
-            let part = if index.is_multiple_of(3) { Part::Plain } else { Part::Stopped };
-            return Ok(Role { part, identity, cell: cell(seed, index) });
+            let part = if index.is_multiple_of(3) { DemoPart::Plain } else { DemoPart::Stopped };
+            return Ok(DemoRole { part, identity, cell: cell(seed, index) });
         }
     };
     let serial = serial_number(series, seed, index)?;
-    let identity = Identity { serial, series, firmware, name: name.parse()? };
-    Ok(Role { part, identity, cell: cell(seed, index) })
+    let identity = ControllerIdentity { serial, series, firmware, name: name.parse()? };
+    Ok(DemoRole { part, identity, cell: cell(seed, index) })
 }
 
 /// A six-axis robot, a SCARA, or both on one controller.
@@ -161,7 +161,7 @@ fn cell(seed: u64, index: usize) -> CellOptions {
     CellOptions { robots, seed: seed.wrapping_add(index as u64), ..CellOptions::default() }
 }
 
-impl Role {
+impl DemoRole {
     fn spec(&self, data: &Path, bind: IpAddr, hash: &str) -> Result<ControllerSpec, FleetError> {
         let folder = data.join(self.identity.serial.folder_name());
         let mut initial = NewController::new(self.identity.clone(), hash.to_owned());
@@ -171,23 +171,23 @@ impl Role {
         initial.used_ports.retain(|used| *used != port);
         initial.settings.user_tokens.insert(UserTokenPolicy::Anonymous);
         initial.certificate = match self.part {
-            Part::ExpiredCertificate => certificate(1, TimeDelta::days(-40)),
-            Part::ExpiresSoon => certificate(2, TimeDelta::days(12)),
-            Part::NotActivated | Part::Plain => None,
+            DemoPart::ExpiredCertificate => certificate(1, TimeDelta::days(-40)),
+            DemoPart::ExpiresSoon => certificate(2, TimeDelta::days(12)),
+            DemoPart::NotActivated | DemoPart::Plain => None,
             _ => certificate(5, TimeDelta::days(1400)),
         };
         match self.part {
-            Part::Running | Part::ExpiresSoon | Part::ExpiredCertificate | Part::Slow => {
+            DemoPart::Running | DemoPart::ExpiresSoon | DemoPart::ExpiredCertificate | DemoPart::Slow => {
                 initial.settings.startup = StartupMode::Auto;
             }
-            Part::NotActivated => initial.activated = false,
-            Part::PortConflict => {
+            DemoPart::NotActivated => initial.activated = false,
+            DemoPart::PortConflict => {
                 initial.settings.startup = StartupMode::Auto;
                 initial.used_ports.push(port);
             }
-            Part::Stopped | Part::Unreachable | Part::Plain => {}
+            DemoPart::Stopped | DemoPart::Unreachable | DemoPart::Plain => {}
         }
-        if self.part == Part::Slow {
+        if self.part == DemoPart::Slow {
             // What old installations look like.
             initial.settings.security_policies.insert(SecurityPolicy::None);
             initial.settings.security_policies.insert(SecurityPolicy::Basic256);

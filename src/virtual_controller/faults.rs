@@ -8,11 +8,11 @@ use crate::model::{ErrorCode, Problem, clock};
 
 /// The switches of one controller, to be thrown at run time by a test or a demonstration. Clones share them.
 #[derive(Debug, Clone, Default)]
-pub struct Faults(Arc<Mutex<Switches>>);
+pub struct Faults(Arc<Mutex<FaultSwitches>>);
 
 /// What is wrong with a controller. By default nothing is.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Switches {
+pub struct FaultSwitches {
     /// The controller runs a program: it answers questions but refuses changes, start and stop.
     pub task_running: bool,
     /// A teach pendant has control: as with a running task.
@@ -43,11 +43,11 @@ pub enum DropPoint {
 }
 
 impl Faults {
-    pub fn get(&self) -> Switches {
+    pub fn get(&self) -> FaultSwitches {
         self.0.lock().clone()
     }
 
-    pub fn update(&self, throw: impl FnOnce(&mut Switches)) {
+    pub fn update(&self, throw: impl FnOnce(&mut FaultSwitches)) {
         throw(&mut self.0.lock());
     }
 

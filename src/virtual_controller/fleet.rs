@@ -16,7 +16,7 @@ use super::new_controller::NewController;
 use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
-use super::state::Identity;
+use super::state::ControllerIdentity;
 use super::switch_on::VirtualController;
 use super::switchboard;
 use crate::model::{
@@ -275,7 +275,11 @@ const PLACES: [&str; 12] = [
 ];
 
 /// Series, firmware, serial number and name of the `index`th controller of a fleet.
-pub(super) fn plausible_identity(seed: u64, index: usize, firmware: FleetFirmware) -> Result<Identity, NameError> {
+pub(super) fn plausible_identity(
+    seed: u64,
+    index: usize,
+    firmware: FleetFirmware,
+) -> Result<ControllerIdentity, NameError> {
     let draw = scatter(seed, index);
     let current = match firmware {
         FleetFirmware::Legacy => false,
@@ -299,7 +303,7 @@ pub(super) fn plausible_identity(seed: u64, index: usize, firmware: FleetFirmwar
     };
     let place = PLACES[(draw >> 8) as usize % PLACES.len()];
     let name: ControllerName = format!("{place} {:03}", index + 1).parse()?;
-    Ok(Identity { serial: serial_number(series, seed, index)?, series, firmware, name })
+    Ok(ControllerIdentity { serial: serial_number(series, seed, index)?, series, firmware, name })
 }
 
 /// `R7A0000001`: three characters of the series, three digits of the seed, four of the index.

@@ -16,9 +16,9 @@ use tokio_rustls::TlsAcceptor;
 use tokio_util::sync::CancellationToken;
 use tower_service::Service as _;
 
-use super::api::{self, Api, ClientConnection, ROUTER};
+use super::api::{self, ClientConnection, ManagementApi, ROUTER};
 use super::connection_limits::{ConnectionLimits, ConnectionSlots, ConnectionStage};
-use super::peer::Peer;
+use super::peer::PeerConnection;
 use super::request_heads::CheckedHeads;
 
 /// An engineer's program keeps one connection for each session. No change takes as long as `silence`.
@@ -37,7 +37,7 @@ const GRACE: Duration = Duration::from_secs(2);
 const ACCEPT_PAUSE: Duration = Duration::from_millis(100);
 
 /// Accepts connections of the management protocol until `off`, then lets the requests in hand finish.
-pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<Api>, off: CancellationToken) {
+pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<ManagementApi>, off: CancellationToken) {
     let acceptor = TlsAcceptor::from(tls);
     let slots = Arc::new(ConnectionSlots::new(CONNECTION_LIMITS));
     let mut connections = JoinSet::new();
@@ -49,7 +49,7 @@ pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<Api>,
         };
         match accepted {
             Ok((stream, address)) => {
-                let Some(slot) = slots.enter(Peer::new(address)) else {
+                let Some(slot) = slots.enter(PeerConnection::new(address)) else {
                     tracing::debug!(%address, "too many management connections, one more refused");
                     continue;
                 };
@@ -73,9 +73,9 @@ pub async fn serve(listener: TcpListener, tls: Arc<ServerConfig>, api: Arc<Api>,
 /// Serves one connection from its handshake to its end.
 async fn serve_peer(
     stream: TcpStream,
-    peer: &Arc<Peer>,
+    peer: &Arc<PeerConnection>,
     acceptor: &TlsAcceptor,
-    api: Arc<Api>,
+    api: Arc<ManagementApi>,
     off: &CancellationToken,
 ) {
     let accepted = Instant::now();

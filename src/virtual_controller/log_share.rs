@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 /// was free when this process opened the log. Of what comes after that, the number and the last line are written, first
 /// after a minute, then after two, and so on up to once a day.
 #[derive(Debug)]
-pub struct StrangersShare {
+pub struct UnauthenticatedShare {
     /// Bytes the log had when it was opened.
     begin: u64,
     used: u64,
@@ -16,7 +16,7 @@ pub struct StrangersShare {
     interval: Duration,
 }
 
-impl StrangersShare {
+impl UnauthenticatedShare {
     pub fn new(begin: u64, now: Instant) -> Self {
         Self {
             begin,
@@ -63,7 +63,7 @@ mod tests {
     #[test]
     fn strangers_get_a_quarter_of_what_is_free_and_a_few_lines_a_day() {
         let start = Instant::now();
-        let mut share = StrangersShare::new(2000, start);
+        let mut share = UnauthenticatedShare::new(2000, start);
         assert!((0..10).all(|_| share.admit("a", 100, 6000)));
         assert!(!share.admit("b", 100, 6000));
         assert_eq!(share.summary(start), None, "not yet");

@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq as _;
 use zeroize::Zeroizing;
 
-use super::connection_limits::Source;
+use super::connection_limits::SourceNetwork;
 use crate::model::{ErrorCode, Problem};
 use crate::protocol::{LOCK_OUT_SECS, LOGIN_ATTEMPTS, SESSION_IDLE_SECS};
 
@@ -17,20 +17,20 @@ use crate::protocol::{LOCK_OUT_SECS, LOGIN_ATTEMPTS, SESSION_IDLE_SECS};
 ///
 /// The count begins anew after a right password, and after [`LOCK_OUT_SECS`] without a wrong one.
 #[derive(Debug, Default)]
-pub struct Throttle(HashMap<Source, Failures>);
+pub struct LoginThrottle(HashMap<SourceNetwork, FailedLogins>);
 
 #[derive(Debug)]
-struct Failures {
+struct FailedLogins {
     count: u32,
     last: Instant,
 }
 
 /// The sessions of one controller. When one too many begins, the one idle for longest ends.
 #[derive(Debug, Default)]
-pub struct Sessions(Vec<Session>);
+pub struct ManagementSessions(Vec<ManagementSession>);
 
 #[derive(Debug)]
-struct Session {
+struct ManagementSession {
     /// SHA-256 of the token, which itself is kept nowhere.
     digest: [u8; 32],
     used: Instant,
@@ -41,9 +41,9 @@ const MAX_SESSIONS: usize = 64;
 const LOCK_OUT: Duration = Duration::from_secs(LOCK_OUT_SECS);
 const IDLE: Duration = Duration::from_secs(SESSION_IDLE_SECS);
 
-impl Throttle {
+impl LoginThrottle {
     pub fn admit(&self, from: IpAddr, now: Instant) -> Result<(), Problem> {
-        match self.0.get(&Source::new(from)) {
+        match self.0.get(&SourceNetwork::new(from)) {
             Some(failures) if failures.count >= LOGIN_ATTEMPTS && !failures.forgotten(now) => {
                 Err(ErrorCode::LockedOut.into())
             }
@@ -52,29 +52,29 @@ impl Throttle {
     }
 
     pub fn wrong(&mut self, from: IpAddr, now: Instant) {
-        let from = Source::new(from);
+        let from = SourceNetwork::new(from);
         self.0.retain(|_, failures| !failures.forgotten(now));
         if self.0.len() >= MAX_ADDRESSES && !self.0.contains_key(&from) {
             let oldest = self.0.iter().min_by_key(|(_, failures)| failures.last).map(|(address, _)| *address);
             oldest.and_then(|address| self.0.remove(&address));
         }
-        let failures = self.0.entry(from).or_insert(Failures { count: 0, last: now });
+        let failures = self.0.entry(from).or_insert(FailedLogins { count: 0, last: now });
         failures.count += 1;
         failures.last = now;
     }
 
     pub fn right(&mut self, from: IpAddr) {
-        self.0.remove(&Source::new(from));
+        self.0.remove(&SourceNetwork::new(from));
     }
 }
 
-impl Failures {
+impl FailedLogins {
     fn forgotten(&self, now: Instant) -> bool {
         now.saturating_duration_since(self.last) >= LOCK_OUT
     }
 }
 
-impl Sessions {
+impl ManagementSessions {
     /// A new session's token: 32 random bytes, base64url.
     pub fn open(&mut self, now: Instant) -> Result<SecretString, Problem> {
         let mut random = Zeroizing::new([0; 32]);
@@ -86,7 +86,7 @@ impl Sessions {
         {
             self.0.swap_remove(idlest);
         }
-        self.0.push(Session { digest: digest(&token), used: now });
+        self.0.push(ManagementSession { digest: digest(&token), used: now });
         Ok(token.into())
     }
 
@@ -134,7 +134,7 @@ mod tests {
 
     #[test]
     fn five_wrong_passwords_lock_an_address_out_for_a_minute() {
-        let (mut throttle, start) = (Throttle::default(), Instant::now());
+        let (mut throttle, start) = (LoginThrottle::default(), Instant::now());
         for _ in 0..LOGIN_ATTEMPTS {
             assert_eq!(throttle.admit(HERE, start), Ok(()));
             throttle.wrong(HERE, start);
@@ -150,7 +150,7 @@ mod tests {
 
     #[test]
     fn a_right_password_clears_the_count() {
-        let (mut throttle, now) = (Throttle::default(), Instant::now());
+        let (mut throttle, now) = (LoginThrottle::default(), Instant::now());
         for _ in 0..LOGIN_ATTEMPTS - 1 {
             throttle.wrong(HERE, now);
         }
@@ -161,7 +161,7 @@ mod tests {
 
     #[test]
     fn addresses_without_end_take_no_memory_without_end() {
-        let (mut throttle, now) = (Throttle::default(), Instant::now());
+        let (mut throttle, now) = (LoginThrottle::default(), Instant::now());
         for i in 0..5000_u32 {
             throttle.wrong(IpAddr::V4(i.into()), now);
         }
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn a_session_lives_while_it_is_used() {
-        let (mut sessions, start) = (Sessions::default(), Instant::now());
+        let (mut sessions, start) = (ManagementSessions::default(), Instant::now());
         let token = sessions.open(start).unwrap();
         let token = token.expose_secret();
         assert_eq!(token.len(), 43);
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn a_closed_session_is_over_and_the_idlest_gives_way() {
-        let (mut sessions, start) = (Sessions::default(), Instant::now());
+        let (mut sessions, start) = (ManagementSessions::default(), Instant::now());
         let token = sessions.open(start).unwrap();
         sessions.close(token.expose_secret());
         assert!(!sessions.touch(token.expose_secret(), start));

@@ -5,7 +5,7 @@
 //!
 //! | file | its one idea |
 //! |---|---|
-//! | `state` | [`State`]: everything a controller remembers, and what follows from it |
+//! | `state` | [`ControllerState`]: everything a controller remembers, and what follows from it |
 //! | `cell` | [`cell::CellHandle`]: the simulated robots, I/O and data behind the OPC UA server |
 //! | `changes` | every change a controller accepts, as a function on a copy of its state |
 //! | `certificate_changes` | those about server certificates |
@@ -103,14 +103,17 @@ mod trust_changes;
 pub use activation_keys::demo_keys;
 pub use controller::{ControllerSpec, SwitchOnError};
 pub use demo::{DEMO_COUNT, DEMO_PASSWORD, DemoEntry, DemoFleet, demo_fleet};
-pub use faults::{DropPoint, Faults, Switches};
+pub use faults::{DropPoint, FaultSwitches, Faults};
 pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyLine};
 pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
 pub use opcua::AdmissionOptions;
 pub use password::hash_connection_password;
 pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;
-pub use state::{HeldCrl, Identity, KeyPair, OperatingContext, PendingCsr, State, StoredCertificate, User};
-pub use store::{Staged, Store, StoreError};
+pub use state::{
+    ControllerIdentity, ControllerState, KeyPair, OperatingContext, PendingCsr, TrustListCertificate, TrustListCrl,
+    User,
+};
+pub use store::{StagedState, Store, StoreError};
 pub use switch_on::VirtualController;
 pub use switchboard::{OutsideSwitches, Switchboard};

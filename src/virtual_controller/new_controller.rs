@@ -3,7 +3,7 @@ use chrono::{DateTime, Utc};
 use super::activation_keys::demo_keys;
 use super::changes::install_self_signed;
 use super::secret_bytes::SecretBytes;
-use super::state::{Identity, KeyPair, OperatingContext, State};
+use super::state::{ControllerIdentity, ControllerState, KeyPair, OperatingContext};
 use crate::model::{
     Base64Bytes, CertificateType, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, ServerSettings, Subject,
     Validity,
@@ -13,7 +13,7 @@ use crate::pki::tls_identity;
 /// What a controller is when it is first switched on.
 #[derive(Debug, Clone)]
 pub struct NewController {
-    pub identity: Identity,
+    pub identity: ControllerIdentity,
     /// As [`super::hash_connection_password`] makes it.
     pub connection_password_hash: String,
     pub settings: ServerSettings,
@@ -38,7 +38,7 @@ pub const USUAL_PORTS: [u16; 4] = [2001, 5000, 5001, 9600];
 
 impl NewController {
     /// An activated controller as it comes from the factory: default settings, no users, no certificate.
-    pub fn new(identity: Identity, connection_password_hash: String) -> Self {
+    pub fn new(identity: ControllerIdentity, connection_password_hash: String) -> Self {
         Self {
             identity,
             connection_password_hash,
@@ -50,14 +50,14 @@ impl NewController {
     }
 
     /// Makes its keys. Slow when a server certificate is wanted.
-    pub(super) fn make(self, context: &OperatingContext) -> Result<State, Problem> {
+    pub(super) fn make(self, context: &OperatingContext) -> Result<ControllerState, Problem> {
         let tls = tls_identity(self.identity.serial.as_str(), context.now)?;
         let management =
             KeyPair { certificate: Base64Bytes(tls.certificate_der), private_key: SecretBytes(tls.private_key_pkcs8) };
         let current = self.identity.firmware.generation() == FirmwareGeneration::Current;
         let activated = self.activated || current;
         let activation_keys = (activated && !current).then(|| demo_keys(&self.identity.serial));
-        let mut state = State {
+        let mut state = ControllerState {
             identity: self.identity,
             management,
             connection_password_hash: self.connection_password_hash,

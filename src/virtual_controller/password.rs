@@ -30,7 +30,7 @@ pub async fn is_password(hash: &str, password: &SecretString) -> bool {
 /// Compares passwords with their Argon2id hashes, and remembers each right one for the life of the process as a tag
 /// under a key of that process, so that a configurator that logs in every minute costs Argon2id once. Shared by all
 /// controllers of the process: a fleet has one password.
-struct Checker {
+struct PasswordChecker {
     key: hmac::Key,
     /// PHC string → tag of the right password.
     known: Mutex<HashMap<String, hmac::Tag>>,
@@ -38,12 +38,12 @@ struct Checker {
     slots: Semaphore,
 }
 
-static CHECKER: LazyLock<Checker> = LazyLock::new(Checker::new);
+static CHECKER: LazyLock<PasswordChecker> = LazyLock::new(PasswordChecker::new);
 
 const MAX_KNOWN: usize = 4096;
 const ARGON2_AT_ONCE: usize = 4;
 
-impl Checker {
+impl PasswordChecker {
     fn new() -> Self {
         let mut key = [0; 32];
         getrandom::fill(&mut key).expect("the operating system gives random bytes");

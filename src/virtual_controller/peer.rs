@@ -2,17 +2,17 @@ use std::net::{IpAddr, SocketAddr};
 
 use tokio_util::sync::CancellationToken;
 
-use super::connection_limits::{Activity, ConnectionStage, LimitedConnection, Source};
+use super::connection_limits::{Activity, ConnectionStage, LimitedConnection, SourceNetwork};
 
 /// One connection of a peer of the management protocol.
 #[derive(Debug)]
-pub struct Peer {
+pub struct PeerConnection {
     address: IpAddr,
     pub(super) activity: Activity,
     pub(super) evicted: CancellationToken,
 }
 
-impl Peer {
+impl PeerConnection {
     pub fn new(address: SocketAddr) -> Self {
         Self { address: address.ip().to_canonical(), activity: Activity::new(), evicted: CancellationToken::new() }
     }
@@ -28,9 +28,9 @@ impl Peer {
     }
 }
 
-impl LimitedConnection for Peer {
-    fn source(&self) -> Source {
-        Source::new(self.address)
+impl LimitedConnection for PeerConnection {
+    fn source(&self) -> SourceNetwork {
+        SourceNetwork::new(self.address)
     }
 
     fn activity(&self) -> &Activity {

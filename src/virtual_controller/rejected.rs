@@ -11,13 +11,13 @@ use serde::{Deserialize, Serialize};
 use tokio::sync::Notify;
 use tokio_util::sync::CancellationToken;
 
-use super::connection_limits::Source;
+use super::connection_limits::SourceNetwork;
 use super::faults::Faults;
-use super::opcua::Refusals;
-use super::state::{State, StoredCertificate};
+use super::opcua::RejectionRecorder;
+use super::state::{ControllerState, TrustListCertificate};
 use super::store::{StoreError, replace_private_file};
 use crate::model::{Base64Bytes, CertificateStatus};
-use crate::pki::{Certificate, RefusalCause, RejectedClient, Rejection};
+use crate::pki::{Certificate, CertificateRejection, RefusalCause, RejectedClient};
 
 /// The client certificates that were refused, for a person to decide about (manual 2.7.3).
 ///
@@ -31,14 +31,14 @@ use crate::pki::{Certificate, RefusalCause, RejectedClient, Rejection};
 pub struct RejectedClients {
     path: PathBuf,
     faults: Faults,
-    list: Mutex<List>,
+    list: Mutex<RejectedList>,
     changed: Notify,
     /// Held while the file is written, so that an older list never overwrites a newer one.
     writing: Mutex<()>,
 }
 
 #[derive(Debug, Default)]
-struct List {
+struct RejectedList {
     entries: Vec<RejectedEntry>,
     stamp: u64,
     /// Whether the file holds something else.
@@ -77,7 +77,7 @@ impl RejectedClients {
     /// Reads what was kept. What cannot be read is put aside: a list of strangers is no reason not to switch on.
     ///
     /// Entries of certificates that `state` lists since are left out: the process was killed between the two files.
-    pub fn open(folder: &Path, faults: Faults, state: &State) -> Self {
+    pub fn open(folder: &Path, faults: Faults, state: &ControllerState) -> Self {
         let path = folder.join(FILE);
         let mut entries = read(&path).unwrap_or_else(|error| {
             tracing::warn!(path = %path.display(), %error, "the rejected clients are forgotten");
@@ -88,12 +88,12 @@ impl RejectedClients {
             .trusted
             .iter()
             .chain(&state.issuers)
-            .map(|StoredCertificate { certificate, added, .. }| (certificate.0.as_slice(), *added))
+            .map(|TrustListCertificate { certificate, added, .. }| (certificate.0.as_slice(), *added))
             .collect();
         entries.retain(|entry| {
             listed.get(entry.certificate.0.as_slice()).is_none_or(|added| entry.count > 0 && entry.last_seen > *added)
         });
-        let mut list = List { entries, stamp: stamp(faults.now()), dirty: false };
+        let mut list = RejectedList { entries, stamp: stamp(faults.now()), dirty: false };
         list.make_room(None);
         Self { path, faults, list: Mutex::new(list), changed: Notify::new(), writing: Mutex::new(()) }
     }
@@ -210,16 +210,16 @@ impl RejectedClients {
         })
     }
 
-    fn touch(&self, list: &mut List) {
+    fn touch(&self, list: &mut RejectedList) {
         list.stamp += 1;
         list.dirty = true;
         self.changed.notify_one();
     }
 }
 
-impl Refusals for RejectedClients {
+impl RejectionRecorder for RejectedClients {
     /// Quick, and waits for no disk.
-    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection) {
+    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &CertificateRejection) {
         let Some((certificate, chain)) = sent.split_first() else { return };
         let now = self.faults.now();
         let at_fault = if rejection.depth > 0 { format!(" ({})", rejection.subject) } else { String::new() };
@@ -262,7 +262,7 @@ impl Refusals for RejectedClients {
     }
 }
 
-impl List {
+impl RejectedList {
     /// Takes in what had gone, where there is no newer entry.
     fn put_back(&mut self, entries: Vec<RejectedEntry>) {
         for entry in entries {
@@ -279,16 +279,18 @@ impl List {
         let keep = fresh.and_then(|index| self.entries.get(index)).map(|entry| entry.thumbprint.clone());
         let mut bytes: usize = self.entries.iter().map(RejectedEntry::bytes).sum();
         while self.entries.len() > MAX_ENTRIES || bytes > MAX_BYTES {
-            let mut owned: HashMap<Option<Source>, usize> = HashMap::new();
+            let mut owned: HashMap<Option<SourceNetwork>, usize> = HashMap::new();
             for entry in &self.entries {
-                *owned.entry(entry.address.map(Source::new)).or_default() += 1;
+                *owned.entry(entry.address.map(SourceNetwork::new)).or_default() += 1;
             }
             let victim = self
                 .entries
                 .iter()
                 .enumerate()
                 .filter(|(_, entry)| keep.as_ref() != Some(&entry.thumbprint))
-                .max_by_key(|(_, entry)| (owned[&entry.address.map(Source::new)], std::cmp::Reverse(entry.last_seen)))
+                .max_by_key(|(_, entry)| {
+                    (owned[&entry.address.map(SourceNetwork::new)], std::cmp::Reverse(entry.last_seen))
+                })
                 .map(|(index, _)| index);
             let Some(victim) = victim else { break };
             let victim = self.entries.swap_remove(victim);
@@ -359,13 +361,13 @@ mod tests {
     use std::time::Instant;
 
     use crate::pki::CertificateFlaw;
-    use crate::virtual_controller::{Identity, NewController, OperatingContext};
+    use crate::virtual_controller::{ControllerIdentity, NewController, OperatingContext};
 
     const HOME: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 1));
     const STRANGER: IpAddr = IpAddr::V4(Ipv4Addr::new(10, 0, 0, 66));
 
-    fn state() -> State {
-        let identity = Identity {
+    fn state() -> ControllerState {
+        let identity = ControllerIdentity {
             serial: "R7A0000001".parse().unwrap(),
             series: crate::model::ControllerSeries::Rc800,
             firmware: crate::model::FirmwareVersion::new(8, 1, 0),
@@ -391,8 +393,8 @@ mod tests {
         Certificate::from_der(&der).unwrap()
     }
 
-    fn untrusted() -> Rejection {
-        Rejection { flaw: CertificateFlaw::Untrusted, subject: "CN=client".to_owned(), depth: 0 }
+    fn untrusted() -> CertificateRejection {
+        CertificateRejection { flaw: CertificateFlaw::Untrusted, subject: "CN=client".to_owned(), depth: 0 }
     }
 
     #[test]
@@ -403,7 +405,7 @@ mod tests {
         let chain = [certificate(1), certificate(2), certificate(3)];
         rejected.record(&chain, HOME, &untrusted());
         let flaw = CertificateFlaw::IssuerMissing { issuer: "CN=Root\u{1b}[2J".to_owned() };
-        let issuer = Rejection { flaw: flaw.clone(), depth: 1, ..untrusted() };
+        let issuer = CertificateRejection { flaw: flaw.clone(), depth: 1, ..untrusted() };
         rejected.record(&chain[..1], STRANGER, &issuer);
         rejected.record(&[], HOME, &untrusted());
         assert_eq!(rejected.stamp(), stamp + 2);
@@ -550,7 +552,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let rejected = open(folder.path());
         let moved = certificate(1);
-        let listed = |certificate: &Certificate, added| StoredCertificate {
+        let listed = |certificate: &Certificate, added| TrustListCertificate {
             file_name: "client.der".to_owned(),
             certificate: Base64Bytes(certificate.der().to_vec()),
             added,
@@ -565,7 +567,7 @@ mod tests {
         let (past, future) = (Utc::now() - chrono::TimeDelta::hours(1), Utc::now() + chrono::TimeDelta::hours(1));
         // Moved here from the trusted list, but still there; trusted since; and refused again although it is trusted.
         let trusted = vec![listed(&moved, past), listed(&certificate(2), future), listed(&certificate(3), past)];
-        let state = State { trusted, ..state() };
+        let state = ControllerState { trusted, ..state() };
         let left = RejectedClients::open(folder.path(), Faults::default(), &state).list();
         let mut left: Vec<&[u8]> = left.iter().map(|entry| entry.certificate.0.as_slice()).collect();
         left.sort_unstable();

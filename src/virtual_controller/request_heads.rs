@@ -1,6 +1,6 @@
 //! The heads of requests, checked before the HTTP library reads them.
 //!
-//! The library answers a malformed head itself, without the [`Failure`](crate::protocol::Failure) that the protocol
+//! The library answers a malformed head itself, without the [`FailureBody`](crate::protocol::FailureBody) that the protocol
 //! promises, and of a request with both Content-Length and Transfer-Encoding it drops one without a word. What is
 //! refused here reaches the service as a request of its own, so that the answer keeps its place behind those before it.
 

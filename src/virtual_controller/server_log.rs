@@ -8,8 +8,8 @@ use parking_lot::Mutex;
 use tokio::sync::Notify;
 
 use super::faults::Faults;
-use super::log_share::StrangersShare;
-use super::opcua::Event;
+use super::log_share::UnauthenticatedShare;
+use super::opcua::ServerEvent;
 use crate::model::LogChunk;
 
 /// The log of a controller's OPC UA server (manual 2.6.1, 6.3): one file in its folder, one event a line, times in UTC
@@ -17,19 +17,19 @@ use crate::model::LogChunk;
 ///
 /// It never grows beyond its limit, [`LOG_LIMIT`] unless a fault switch says otherwise: the last line says that it is
 /// full, and [`ServerLog::filled`] ends, so that the server can be stopped. Peers that have proved nothing get a part of
-/// it only ([`StrangersShare`]).
+/// it only ([`UnauthenticatedShare`]).
 #[derive(Debug)]
 pub struct ServerLog {
     path: PathBuf,
     faults: Faults,
-    writing: Mutex<Option<Writing>>,
+    writing: Mutex<Option<OpenLog>>,
     full: Notify,
 }
 
 #[derive(Debug)]
-struct Writing {
+struct OpenLog {
     file: File,
-    strangers: StrangersShare,
+    strangers: UnauthenticatedShare,
 }
 
 /// Bytes after which the server stops. The manual names no number; this is about ten thousand events.
@@ -50,7 +50,7 @@ impl ServerLog {
     }
 
     /// Writes one line, unless the log is full. A log that cannot be written is no reason to fail.
-    pub fn write(&self, event: Event<'_>) {
+    pub fn write(&self, event: ServerEvent<'_>) {
         if let Err(error) = self.append(event) {
             tracing::warn!(path = %self.path.display(), %error, "the server log was not written");
         }
@@ -134,14 +134,14 @@ impl ServerLog {
         self.faults.get().log_limit.unwrap_or(LOG_LIMIT).saturating_sub(ROOM)
     }
 
-    fn append(&self, event: Event<'_>) -> io::Result<()> {
+    fn append(&self, event: ServerEvent<'_>) -> io::Result<()> {
         let mut slot = self.writing.lock();
-        let Writing { file, strangers } = match &mut *slot {
+        let OpenLog { file, strangers } = match &mut *slot {
             Some(writing) => writing,
             none => {
                 let file = open(&self.path)?;
-                let strangers = StrangersShare::new(file.metadata()?.len(), Instant::now());
-                none.insert(Writing { file, strangers })
+                let strangers = UnauthenticatedShare::new(file.metadata()?.len(), Instant::now());
+                none.insert(OpenLog { file, strangers })
             }
         };
         let threshold = self.threshold();
@@ -202,11 +202,11 @@ mod tests {
     }
 
     fn logged_in(log: &ServerLog) {
-        log.write(Event::LoggedIn { user: Some("operator1"), policy: "Basic256Sha256", mode: "Sign" });
+        log.write(ServerEvent::LoggedIn { user: Some("operator1"), policy: "Basic256Sha256", mode: "Sign" });
     }
 
     fn connected(log: &ServerLog, address: [u8; 4]) {
-        log.write(Event::Connected { client: (address, 50_000).into() });
+        log.write(ServerEvent::Connected { client: (address, 50_000).into() });
     }
 
     #[tokio::test]
@@ -217,9 +217,9 @@ mod tests {
         for number in 0..20_000_u32 {
             let address = (0x0a00_0000 + number).to_be_bytes();
             connected(&log, address);
-            log.write(Event::Refused { client: (address, 50_000).into(), reason: "not an OPC UA message" });
-            log.write(Event::LoginRefused { client: None, user: None, reason: "no such user" });
-            log.write(Event::LoggedIn { user: None, policy: "None", mode: "None" });
+            log.write(ServerEvent::Refused { client: (address, 50_000).into(), reason: "not an OPC UA message" });
+            log.write(ServerEvent::LoginRefused { client: None, user: None, reason: "no such user" });
+            log.write(ServerEvent::LoggedIn { user: None, policy: "None", mode: "None" });
         }
         let size = log.read(None).unwrap().size;
         assert!((4096..9 * 1024).contains(&size) && !log.is_full(), "{size}");

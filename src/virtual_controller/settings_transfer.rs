@@ -5,12 +5,16 @@ use argon2::password_hash::PasswordHash;
 use secrecy::{ExposeSecret as _, SecretString};
 
 use super::changes;
-use super::state::{OperatingContext, State, User};
+use super::state::{ControllerState, OperatingContext, User};
 use crate::model::{ErrorCode, FirmwareGeneration, MAX_USERS, Problem};
 use crate::protocol::{ExportContent, ExportedUser, SettingsExport};
 
 /// Seals what manual 2.6.1 to 2.6.3 sets.
-pub fn export(state: &State, context: &OperatingContext, passphrase: &SecretString) -> Result<SettingsExport, Problem> {
+pub fn export(
+    state: &ControllerState,
+    context: &OperatingContext,
+    passphrase: &SecretString,
+) -> Result<SettingsExport, Problem> {
     legacy(state)?;
     if passphrase.expose_secret().is_empty() {
         return Err(ErrorCode::BadPassphrase.into());
@@ -28,7 +32,7 @@ pub fn export(state: &State, context: &OperatingContext, passphrase: &SecretStri
 /// Puts back what this controller sealed, after every check a single change would have met. Only the password of the
 /// server log is not asked for again: that it was on then was somebody's will.
 pub fn import(
-    state: &mut State,
+    state: &mut ControllerState,
     context: &OperatingContext,
     export: &SettingsExport,
     passphrase: &SecretString,
@@ -56,7 +60,7 @@ pub fn import(
     }
 }
 
-fn legacy(state: &State) -> Result<(), Problem> {
+fn legacy(state: &ControllerState) -> Result<(), Problem> {
     match state.generation() {
         FirmwareGeneration::Legacy => Ok(()),
         FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),

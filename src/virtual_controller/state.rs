@@ -15,7 +15,7 @@ use crate::pki::{Certificate, PkiError, ServerNames};
 
 /// Who a controller is. Never changes during its life.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Identity {
+pub struct ControllerIdentity {
     pub serial: SerialNumber,
     pub series: ControllerSeries,
     pub firmware: FirmwareVersion,
@@ -57,7 +57,7 @@ pub struct User {
 
 /// A certificate in the trusted or issuers list.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct StoredCertificate {
+pub struct TrustListCertificate {
     pub file_name: String,
     /// DER.
     pub certificate: Base64Bytes,
@@ -66,7 +66,7 @@ pub struct StoredCertificate {
 
 /// A CRL.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct HeldCrl {
+pub struct TrustListCrl {
     pub file_name: String,
     /// DER.
     pub crl: Base64Bytes,
@@ -77,8 +77,8 @@ pub struct HeldCrl {
 
 /// Everything a controller remembers when it is switched off.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct State {
-    pub identity: Identity,
+pub struct ControllerState {
+    pub identity: ControllerIdentity,
     /// The TLS identity of the management protocol; its certificate's SHA-256 is the controller's fingerprint.
     pub management: KeyPair,
     /// Argon2id of the connection password, as a PHC string.
@@ -97,10 +97,10 @@ pub struct State {
     pub csr: Option<PendingCsr>,
     /// The type the server uses, whether one is held or not.
     pub selected: CertificateType,
-    pub trusted: Vec<StoredCertificate>,
-    pub issuers: Vec<StoredCertificate>,
+    pub trusted: Vec<TrustListCertificate>,
+    pub issuers: Vec<TrustListCertificate>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub crls: Vec<HeldCrl>,
+    pub crls: Vec<TrustListCrl>,
     /// TCP ports taken by other functions of the controller.
     pub used_ports: Vec<u16>,
     /// Counts every change of the configuration.
@@ -131,7 +131,7 @@ impl OperatingContext {
     }
 }
 
-impl State {
+impl ControllerState {
     pub fn generation(&self) -> FirmwareGeneration {
         self.identity.firmware.generation()
     }
@@ -140,7 +140,7 @@ impl State {
         ListLimits::of(self.generation())
     }
 
-    pub fn list(&self, list: ClientList) -> &[StoredCertificate] {
+    pub fn list(&self, list: ClientList) -> &[TrustListCertificate] {
         match list {
             ClientList::Trusted => &self.trusted,
             ClientList::Issuers => &self.issuers,
@@ -217,7 +217,7 @@ impl State {
     /// As [`crate::model::ListedCrl`], each with its DER as long as the answer stays small.
     pub fn listed_crls(&self) -> Vec<ListedCrl> {
         let mut room = MAX_LISTED_CRL_BYTES;
-        let listed = |held: &HeldCrl| {
+        let listed = |held: &TrustListCrl| {
             let fits = held.crl.0.len() <= room;
             room -= if fits { held.crl.0.len() } else { 0 };
             ListedCrl {
@@ -259,7 +259,7 @@ impl State {
     }
 }
 
-impl StoredCertificate {
+impl TrustListCertificate {
     /// `None` for what is no certificate, which the lists never hold.
     pub fn to_message(&self) -> Option<ListedCertificate> {
         let summary = Certificate::from_der(&self.certificate.0).ok()?.summary();

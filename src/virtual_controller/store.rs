@@ -7,11 +7,11 @@ use thiserror::Error;
 use zeroize::Zeroizing;
 
 use super::faults::Faults;
-use super::state::State;
+use super::state::ControllerState;
 use crate::model::{ErrorCode, Problem, clock};
 use crate::platform::{private, replace};
 
-/// Where a controller keeps its [`State`]: one file in a folder of its own.
+/// Where a controller keeps its [`ControllerState`]: one file in a folder of its own.
 ///
 /// The file is one line `opcua-virtual-controller 1 <SHA-256 of the rest>`, then JSON. It is replaced whole, so it
 /// holds the former state or the new one at every moment, whenever the process is killed. Folder and file belong to
@@ -23,10 +23,10 @@ pub struct Store {
 }
 
 /// A state that lies on disk beside the one in force, complete and flushed, and takes its place by one rename.
-/// Dropped without [`Staged::commit`], it leaves nothing behind.
+/// Dropped without [`StagedState::commit`], it leaves nothing behind.
 #[derive(Debug)]
 #[must_use]
-pub struct Staged {
+pub struct StagedState {
     temporary: PathBuf,
     target: PathBuf,
     committed: bool,
@@ -62,7 +62,7 @@ impl Store {
 
     /// `None` when the folder holds no state yet. A damaged file is kept under another name and refused; the next
     /// call finds none.
-    pub fn load(&self) -> Result<Option<State>, StoreError> {
+    pub fn load(&self) -> Result<Option<ControllerState>, StoreError> {
         let path = self.folder.join(FILE);
         let io_error = |source| StoreError::Io { path: path.clone(), source };
         let mut bytes = Zeroizing::new(Vec::new());
@@ -84,17 +84,17 @@ impl Store {
     }
 
     /// Writes and flushes, without touching the state in force.
-    pub fn stage(&self, state: &State) -> Result<Staged, StoreError> {
+    pub fn stage(&self, state: &ControllerState) -> Result<StagedState, StoreError> {
         let temporary = self.folder.join(TEMPORARY);
-        let staged = Staged { temporary: temporary.clone(), target: self.folder.join(FILE), committed: false };
+        let staged = StagedState { temporary: temporary.clone(), target: self.folder.join(FILE), committed: false };
         encode(state)
             .and_then(|bytes| write_private_file(&temporary, &bytes, &self.faults))
             .map_err(|source| StoreError::Io { path: temporary, source })?;
         Ok(staged)
     }
 
-    /// [`Store::stage`] and [`Staged::commit`] at once.
-    pub fn save(&self, state: &State) -> Result<(), StoreError> {
+    /// [`Store::stage`] and [`StagedState::commit`] at once.
+    pub fn save(&self, state: &ControllerState) -> Result<(), StoreError> {
         self.stage(state)?.commit()
     }
 }
@@ -123,7 +123,7 @@ fn write_private_file(path: &Path, bytes: &[u8], faults: &Faults) -> io::Result<
     file.sync_all()
 }
 
-impl Staged {
+impl StagedState {
     pub fn commit(mut self) -> Result<(), StoreError> {
         replace::rename(&self.temporary, &self.target)
             .map_err(|source| StoreError::Io { path: self.target.clone(), source })?;
@@ -138,7 +138,7 @@ impl Staged {
     }
 }
 
-impl Drop for Staged {
+impl Drop for StagedState {
     fn drop(&mut self) {
         if !self.committed
             && let Err(error) = replace::remove_if_there(&self.temporary)
@@ -166,7 +166,7 @@ enum Unreadable {
     TooNew,
 }
 
-fn encode(state: &State) -> io::Result<Zeroizing<Vec<u8>>> {
+fn encode(state: &ControllerState) -> io::Result<Zeroizing<Vec<u8>>> {
     let json = Zeroizing::new(serde_json::to_vec(state)?);
     let header = format!("{MAGIC} {FORMAT} {}\n", hex::encode(Sha256::digest(&*json)));
     let mut bytes = Zeroizing::new(Vec::with_capacity(header.len() + json.len()));
@@ -175,7 +175,7 @@ fn encode(state: &State) -> io::Result<Zeroizing<Vec<u8>>> {
     Ok(bytes)
 }
 
-fn decode(bytes: &[u8]) -> Result<State, Unreadable> {
+fn decode(bytes: &[u8]) -> Result<ControllerState, Unreadable> {
     let damaged = |reason: &str| Unreadable::Damaged(reason.to_owned());
     let end = bytes.iter().position(|b| *b == b'\n').ok_or_else(|| damaged("it has no first line"))?;
     let (header, json) = (&bytes[..end], &bytes[end + 1..]);
@@ -192,7 +192,7 @@ fn decode(bytes: &[u8]) -> Result<State, Unreadable> {
     if words.next() != Some(hex::encode(Sha256::digest(json)).as_str()) {
         return Err(damaged("its checksum differs"));
     }
-    let state: State = serde_json::from_slice(json)
+    let state: ControllerState = serde_json::from_slice(json)
         .map_err(|error| Unreadable::Damaged(format!("line {}, column {}", error.line(), error.column())))?;
     state.check().map_err(|problem| Unreadable::Damaged(problem.to_string()))?;
     Ok(state)
@@ -214,10 +214,10 @@ mod tests {
     use std::fs;
 
     use super::*;
-    use crate::virtual_controller::{Identity, NewController, OperatingContext};
+    use crate::virtual_controller::{ControllerIdentity, NewController, OperatingContext};
 
-    fn state() -> State {
-        let identity = Identity {
+    fn state() -> ControllerState {
+        let identity = ControllerIdentity {
             serial: "R7A0000001".parse().unwrap(),
             series: crate::model::ControllerSeries::Rc700,
             firmware: crate::model::FirmwareVersion::new(7, 5, 4),
@@ -242,7 +242,7 @@ mod tests {
         assert!(store.load().unwrap().is_none());
         let old = state();
         store.save(&old).unwrap();
-        let new = State { revision: 2, ..old.clone() };
+        let new = ControllerState { revision: 2, ..old.clone() };
 
         let staged = store.stage(&new).unwrap();
         assert_eq!(store.load().unwrap(), Some(old.clone()));
@@ -269,7 +269,7 @@ mod tests {
         let old = state();
         store.save(&old).unwrap();
         faults.update(|switches| switches.disk_full = true);
-        let error = store.save(&State { revision: 2, ..old.clone() }).unwrap_err();
+        let error = store.save(&ControllerState { revision: 2, ..old.clone() }).unwrap_err();
         assert_eq!(Problem::from(error), ErrorCode::DiskFull.into());
         assert_eq!(names(folder.path()), [FILE]);
         assert_eq!(store.load().unwrap(), Some(old));

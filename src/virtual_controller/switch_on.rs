@@ -6,10 +6,10 @@ use tokio::net::TcpListener;
 use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
-use super::api::Api;
+use super::api::ManagementApi;
 use super::controller::{Controller, ControllerSpec, SwitchOnError};
 use super::faults::Faults;
-use super::state::State;
+use super::state::ControllerState;
 use super::{listener, tls};
 use crate::model::{ControllerInfo, ControllerName, ControllerSeries, FirmwareVersion, SerialNumber, StartupMode};
 use crate::pki::Fingerprint;
@@ -47,8 +47,12 @@ impl VirtualController {
         let off = CancellationToken::new();
         tokio::spawn(stop_when_log_is_full(Arc::clone(&controller), off.clone()));
         tokio::spawn(Arc::clone(controller.rejected()).keep(off.clone()));
-        let api =
-            tokio::spawn(listener::serve(listener, config, Arc::new(Api::new(Arc::clone(&controller))), off.clone()));
+        let api = tokio::spawn(listener::serve(
+            listener,
+            config,
+            Arc::new(ManagementApi::new(Arc::clone(&controller))),
+            off.clone(),
+        ));
         Ok(Self { controller, address, fingerprint, off, api: Mutex::new(Some(api)) })
     }
 
@@ -99,7 +103,7 @@ impl VirtualController {
     }
 
     /// Everything the controller remembers, as it is now.
-    pub fn state(&self) -> Arc<State> {
+    pub fn state(&self) -> Arc<ControllerState> {
         self.controller.state()
     }
 

@@ -18,7 +18,7 @@ use crate::model::SerialNumber;
 #[serde(transparent)]
 pub struct Switchboard(pub BTreeMap<SerialNumber, OutsideSwitches>);
 
-/// The switches of one controller; as those of the same name in [`super::Switches`].
+/// The switches of one controller; as those of the same name in [`super::FaultSwitches`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OutsideSwitches {

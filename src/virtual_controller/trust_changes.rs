@@ -6,7 +6,7 @@ use chrono::{DateTime, Utc};
 use sha1::{Digest as _, Sha1};
 
 use super::rejected::RejectedEntry;
-use super::state::{HeldCrl, MAX_CRLS_BYTES, OperatingContext, State, StoredCertificate};
+use super::state::{ControllerState, MAX_CRLS_BYTES, OperatingContext, TrustListCertificate, TrustListCrl};
 use crate::model::{Base64Bytes, ClientList, ErrorCode, FirmwareGeneration, Problem, TrustStep};
 use crate::pki::{Certificate, Crl};
 use crate::protocol::{MAX_SENT_CRL_BYTES, MAX_TRUST_STEPS};
@@ -16,7 +16,7 @@ const MAX_FILE_NAME_BYTES: usize = 255;
 
 /// What a change means for the rejected list, which is no part of the state.
 #[derive(Debug, Default, PartialEq, Eq)]
-pub struct Rejected {
+pub struct RejectedListChanges {
     /// To be there before the change is in force, so that no certificate is in no list at all.
     pub arrived: Vec<RejectedEntry>,
     /// By thumbprint; to be gone after it.
@@ -25,15 +25,15 @@ pub struct Rejected {
 
 /// Makes all steps, one after the other. `rejected`: what the rejected list holds, in DER, by thumbprint.
 pub fn edit_trust(
-    state: &mut State,
+    state: &mut ControllerState,
     context: &OperatingContext,
     steps: Vec<TrustStep>,
     rejected: HashMap<String, Base64Bytes>,
-) -> Result<Rejected, Problem> {
+) -> Result<RejectedListChanges, Problem> {
     if !(1..=MAX_TRUST_STEPS).contains(&steps.len()) {
         return Err(Problem::with_detail(ErrorCode::Refused, format!("1 to {MAX_TRUST_STEPS} steps make a change")));
     }
-    let mut editor = Editor { state, now: context.now, rejected, outcome: Rejected::default() };
+    let mut editor = TrustListEditor { state, now: context.now, rejected, outcome: RejectedListChanges::default() };
     for step in steps {
         match step {
             TrustStep::Add { list, certificates } => editor.add(list, certificates)?,
@@ -46,14 +46,14 @@ pub fn edit_trust(
     Ok(editor.outcome)
 }
 
-struct Editor<'a> {
-    state: &'a mut State,
+struct TrustListEditor<'a> {
+    state: &'a mut ControllerState,
     now: DateTime<Utc>,
     rejected: HashMap<String, Base64Bytes>,
-    outcome: Rejected,
+    outcome: RejectedListChanges,
 }
 
-impl Editor<'_> {
+impl TrustListEditor<'_> {
     fn add(&mut self, list: ClientList, certificates: Vec<(String, Base64Bytes)>) -> Result<(), Problem> {
         if certificates.is_empty() {
             return Err(Problem::with_detail(ErrorCode::BadCertificate, "no certificate was sent"));
@@ -66,7 +66,7 @@ impl Editor<'_> {
                 Certificate::from_der(&certificate.0).map_err(|error| {
                     Problem::with_detail(ErrorCode::BadCertificate, format!("{file_name}: {error}"))
                 })?;
-                Ok(StoredCertificate { file_name, certificate, added })
+                Ok(TrustListCertificate { file_name, certificate, added })
             })
             .collect::<Result<_, Problem>>()?;
         self.put(list, listed)
@@ -90,7 +90,7 @@ impl Editor<'_> {
     }
 
     /// Puts certificates into the trusted or the issuers list; they leave the rejected one.
-    fn put(&mut self, list: ClientList, new: Vec<StoredCertificate>) -> Result<(), Problem> {
+    fn put(&mut self, list: ClientList, new: Vec<TrustListCertificate>) -> Result<(), Problem> {
         let limit = match list {
             ClientList::Trusted => self.state.limits().trusted,
             ClientList::Issuers => self.state.limits().issuers,
@@ -116,7 +116,7 @@ impl Editor<'_> {
     }
 
     /// Takes certificates out of a list: all of them, or none.
-    fn take(&mut self, list: ClientList, thumbprints: &[String]) -> Result<Vec<StoredCertificate>, Problem> {
+    fn take(&mut self, list: ClientList, thumbprints: &[String]) -> Result<Vec<TrustListCertificate>, Problem> {
         if thumbprints.is_empty() {
             return Err(Problem::with_detail(ErrorCode::NotInList, "no certificate was named"));
         }
@@ -127,13 +127,13 @@ impl Editor<'_> {
                 let certificate = self.rejected.remove(thumbprint).ok_or_else(|| missing(thumbprint))?;
                 let file_name = file_name_of(&certificate);
                 self.forget(thumbprint.clone());
-                taken.push(StoredCertificate { file_name, certificate, added: self.now });
+                taken.push(TrustListCertificate { file_name, certificate, added: self.now });
             }
             return Ok(taken);
         }
         let held = self.list(list)?;
         let prints: Vec<String> = held.iter().map(|listed| thumbprint(&listed.certificate)).collect();
-        let mut held: Vec<Option<StoredCertificate>> = std::mem::take(held).into_iter().map(Some).collect();
+        let mut held: Vec<Option<TrustListCertificate>> = std::mem::take(held).into_iter().map(Some).collect();
         for thumbprint in thumbprints {
             let index = prints.iter().position(|print| print == thumbprint);
             let listed = index.and_then(|index| held[index].take()).ok_or_else(|| missing(thumbprint))?;
@@ -151,7 +151,7 @@ impl Editor<'_> {
         }
     }
 
-    fn list(&mut self, list: ClientList) -> Result<&mut Vec<StoredCertificate>, Problem> {
+    fn list(&mut self, list: ClientList) -> Result<&mut Vec<TrustListCertificate>, Problem> {
         match list {
             ClientList::Issuers if self.state.generation() == FirmwareGeneration::Legacy => {
                 Err(ErrorCode::FirmwareTooOld.into())
@@ -209,7 +209,7 @@ impl Editor<'_> {
             return Err(Problem::with_detail(ErrorCode::TooManyCrls, detail));
         }
         self.check_signature(&crl).map_err(|reason| bad(&reason))?;
-        kept.push(HeldCrl { file_name, summary: crl.summary(), crl: der, added: self.now });
+        kept.push(TrustListCrl { file_name, summary: crl.summary(), crl: der, added: self.now });
         self.state.crls = kept;
         Ok(())
     }

@@ -33,7 +33,7 @@ pub(super) fn create_folder(path: &Path) -> Result<(), WorkspaceError> {
 /// The file is readable by its owner only (0600); missing folders are made. A file that another program has open is
 /// [`WorkspaceError::Held`] after up to 2 s.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), WorkspaceError> {
-    Staged::new(path, bytes)?.persist()
+    StagedFile::new(path, bytes)?.persist()
 }
 
 /// Opens a lock file, readable by its owner only; makes it, and its folder, if they are missing.
@@ -54,13 +54,13 @@ pub(super) fn sync_folder(folder: &Path) -> std::io::Result<()> {
 }
 
 /// A file that is whole on the disk and has only to take its name; removed if it does not.
-pub(super) struct Staged<'a> {
+pub(super) struct StagedFile<'a> {
     path: &'a Path,
     folder: &'a Path,
     file: tempfile::NamedTempFile<File>,
 }
 
-impl<'a> Staged<'a> {
+impl<'a> StagedFile<'a> {
     pub(super) fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, WorkspaceError> {
         check_names(path)?;
         // A bare name is in the current folder.

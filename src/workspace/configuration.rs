@@ -38,7 +38,7 @@ pub struct ControllerEntry {
     pub fingerprint: Option<Fingerprint>,
     /// What was read last, so that the table is not empty after a restart.
     #[serde(default)]
-    pub last: Option<Retrieved>,
+    pub last: Option<RetrievedInfo>,
 }
 
 impl ControllerEntry {
@@ -51,7 +51,7 @@ impl ControllerEntry {
 
 /// Information with the time of this PC at which it was read.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Retrieved {
+pub struct RetrievedInfo {
     pub at: DateTime<Utc>,
     pub info: ControllerInfo,
 }
@@ -160,7 +160,7 @@ impl Default for Configuration {
 
 /// Why a controller cannot be registered beside the others.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum NotUnique {
+pub enum DuplicateController {
     /// Another controller has the name.
     #[error("another controller is called {0}")]
     Name(ControllerName),
@@ -191,12 +191,12 @@ impl Configuration {
     }
 
     /// Names, and addresses with their ports, are unique (manual 2.5.1).
-    pub fn check_new(&self, name: &ControllerName, address: &Address) -> Result<(), NotUnique> {
+    pub fn check_new(&self, name: &ControllerName, address: &Address) -> Result<(), DuplicateController> {
         if self.controllers.iter().any(|c| c.name == *name) {
-            return Err(NotUnique::Name(name.clone()));
+            return Err(DuplicateController::Name(name.clone()));
         }
         match self.controllers.iter().find(|c| c.address == *address) {
-            Some(taken) => Err(NotUnique::Address(taken.name.clone())),
+            Some(taken) => Err(DuplicateController::Address(taken.name.clone())),
             None => Ok(()),
         }
     }

@@ -3,8 +3,8 @@
 use thiserror::Error;
 
 use super::{Configuration, ControllerEntry};
-use crate::model::table::{Table, TableRow};
 use crate::model::text::{self, TextError};
+use crate::model::text_table::{TextTable, TextTableRow};
 use crate::model::{Address, AddressError, ControllerName, ControllerSeries, NameError};
 
 /// The columns, as the first line names them.
@@ -19,7 +19,7 @@ pub const MAX_CONNECTIONS: usize = 10_000;
 /// A connection list, line by line, nothing decided yet.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConnectionList {
-    rows: Vec<TableRow>,
+    rows: Vec<TextTableRow>,
     columns: Columns,
 }
 
@@ -61,7 +61,7 @@ pub struct PlannedConnection {
     pub name: String,
     /// As it stands in the file.
     pub address: String,
-    pub verdict: Result<NewConnection, Skipped>,
+    pub verdict: Result<NewConnection, SkippedLine>,
 }
 
 /// An entry that can be added.
@@ -73,7 +73,7 @@ pub struct NewConnection {
 
 /// Why a line is left out.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum Skipped {
+pub enum SkippedLine {
     /// Not an error: the manual asks for it.
     #[error("controllers on USB are not reached over the network")]
     Usb,
@@ -110,13 +110,13 @@ impl NewConnection {
 }
 
 impl ConnectionList {
-    /// Reads text as [`text::decode`] takes it, and a table as [`Table::read`] does. Case and order of the columns do not
+    /// Reads text as [`text::decode`] takes it, and a table as [`TextTable::read`] does. Case and order of the columns do not
     /// matter, nor do other columns and empty lines.
     pub fn parse(bytes: &[u8]) -> Result<Self, ConnectionListError> {
         if bytes.len() > MAX_CONNECTION_LIST_BYTES {
             return Err(ConnectionListError::TooLarge(bytes.len()));
         }
-        let mut rows = Table::read(&text::decode(bytes)?, MAX_CONNECTIONS + 2).rows;
+        let mut rows = TextTable::read(&text::decode(bytes)?, MAX_CONNECTIONS + 2).rows;
         if rows.is_empty() {
             return Err(ConnectionListError::Columns(String::new()));
         }
@@ -130,20 +130,20 @@ impl ConnectionList {
 
     /// Whether text begins as a connection list.
     pub fn begins(text: &str) -> bool {
-        Table::read(text, 1).rows.first().is_some_and(|first| Columns::of(first).is_some())
+        TextTable::read(text, 1).rows.first().is_some_and(|first| Columns::of(first).is_some())
     }
 
     /// What an import would add to the list of controllers and what it would leave out, in the file's order.
     pub fn plan(&self, configuration: &Configuration) -> Vec<PlannedConnection> {
         let mut names = std::collections::HashMap::new();
         let mut addresses = std::collections::HashMap::new();
-        let plan_one = |row: &TableRow| {
+        let plan_one = |row: &TextTableRow| {
             let verdict = self.columns.read(row, configuration).and_then(|new| {
                 if let Some(line) = names.get(&new.name) {
-                    return Err(Skipped::NameTwice(*line));
+                    return Err(SkippedLine::NameTwice(*line));
                 }
                 if let Some(line) = addresses.get(&new.address) {
-                    return Err(Skipped::AddressTwice(*line));
+                    return Err(SkippedLine::AddressTwice(*line));
                 }
                 names.insert(new.name.clone(), row.line);
                 addresses.insert(new.address.clone(), row.line);
@@ -158,7 +158,7 @@ impl ConnectionList {
 }
 
 /// The names of a first line with at least one of the columns, short enough for a message.
-fn shown(first: &TableRow) -> String {
+fn shown(first: &TextTableRow) -> String {
     let is_column = |field: &String| CONNECTION_LIST_COLUMNS.iter().any(|name| field.eq_ignore_ascii_case(name));
     if !first.fields.iter().any(is_column) {
         return String::new();
@@ -174,38 +174,38 @@ fn shown(first: &TableRow) -> String {
 const MAX_SHOWN: usize = 80;
 
 impl Columns {
-    fn of(first: &TableRow) -> Option<Self> {
+    fn of(first: &TextTableRow) -> Option<Self> {
         let column = |wanted: &str| first.fields.iter().position(|found| found.eq_ignore_ascii_case(wanted));
         let [name, kind, address] = CONNECTION_LIST_COLUMNS;
         Some(Self { name: column(name)?, kind: column(kind)?, address: column(address)?, count: first.fields.len() })
     }
 
-    fn read(self, row: &TableRow, configuration: &Configuration) -> Result<NewConnection, Skipped> {
+    fn read(self, row: &TextTableRow, configuration: &Configuration) -> Result<NewConnection, SkippedLine> {
         if row.is_broken {
-            return Err(Skipped::Quotes);
+            return Err(SkippedLine::Quotes);
         }
         if row.fields.len() > self.count {
-            return Err(Skipped::Fields(row.fields.len()));
+            return Err(SkippedLine::Fields(row.fields.len()));
         }
-        let text = |column: usize| row.fields.get(column).ok_or(Skipped::Fields(row.fields.len()));
+        let text = |column: usize| row.fields.get(column).ok_or(SkippedLine::Fields(row.fields.len()));
         let kind = text(self.kind)?;
         if kind.eq_ignore_ascii_case("usb") {
-            return Err(Skipped::Usb);
+            return Err(SkippedLine::Usb);
         }
         if kind.eq_ignore_ascii_case("virtual") {
-            return Err(Skipped::Virtual);
+            return Err(SkippedLine::Virtual);
         }
         let (name, address) = (text(self.name)?, text(self.address)?);
         if !kind.eq_ignore_ascii_case("ethernet") {
-            return Err(Skipped::Type(kind.clone()));
+            return Err(SkippedLine::Type(kind.clone()));
         }
-        let name: ControllerName = name.parse().map_err(Skipped::Name)?;
-        let address: Address = address.parse().map_err(Skipped::Address)?;
+        let name: ControllerName = name.parse().map_err(SkippedLine::Name)?;
+        let address: Address = address.parse().map_err(SkippedLine::Address)?;
         if configuration.controllers.iter().any(|c| c.name == name) {
-            return Err(Skipped::NameRegistered);
+            return Err(SkippedLine::NameRegistered);
         }
         match configuration.controllers.iter().find(|c| c.address == address) {
-            Some(taken) => Err(Skipped::AddressRegistered(taken.name.clone())),
+            Some(taken) => Err(SkippedLine::AddressRegistered(taken.name.clone())),
             None => Ok(NewConnection { name, address }),
         }
     }
@@ -228,7 +228,7 @@ mod tests {
         configuration
     }
 
-    fn verdicts(text: &str, list: &[(&str, &str)]) -> Vec<(usize, Result<String, Skipped>)> {
+    fn verdicts(text: &str, list: &[(&str, &str)]) -> Vec<(usize, Result<String, SkippedLine>)> {
         let plan = ConnectionList::parse(text.as_bytes()).unwrap().plan(&registered(list));
         plan.into_iter().map(|p| (p.line, p.verdict.map(|new| new.name.to_string()))).collect()
     }
@@ -240,11 +240,11 @@ mod tests {
             found,
             [
                 (2, Ok("Cell 1".into())),
-                (3, Err(Skipped::NameRegistered)),
+                (3, Err(SkippedLine::NameRegistered)),
                 (4, Ok("Assembly line 3".into())),
-                (5, Err(Skipped::AddressRegistered("Line 4".parse().unwrap()))),
-                (6, Err(Skipped::Usb)),
-                (7, Err(Skipped::Virtual)),
+                (5, Err(SkippedLine::AddressRegistered("Line 4".parse().unwrap()))),
+                (6, Err(SkippedLine::Usb)),
+                (7, Err(SkippedLine::Virtual)),
             ]
         );
         assert!(found.iter().all(|(line, verdict)| match verdict {
@@ -266,13 +266,13 @@ mod tests {
             found,
             [
                 (2, Ok("Cell 1".into())),
-                (4, Err(Skipped::NameTwice(2))),
-                (5, Err(Skipped::AddressTwice(2))),
-                (6, Err(Skipped::Name(NameError::TooLong(33)))),
-                (7, Err(Skipped::Address(AddressError::Host("10.0.0.999".into())))),
-                (8, Err(Skipped::Type("Bluetooth".into()))),
-                (9, Err(Skipped::Fields(2))),
-                (10, Err(Skipped::Name(NameError::Empty))),
+                (4, Err(SkippedLine::NameTwice(2))),
+                (5, Err(SkippedLine::AddressTwice(2))),
+                (6, Err(SkippedLine::Name(NameError::TooLong(33)))),
+                (7, Err(SkippedLine::Address(AddressError::Host("10.0.0.999".into())))),
+                (8, Err(SkippedLine::Type("Bluetooth".into()))),
+                (9, Err(SkippedLine::Fields(2))),
+                (10, Err(SkippedLine::Name(NameError::Empty))),
                 (11, Ok("Cell, 9".into())),
             ]
         );
@@ -309,7 +309,7 @@ mod tests {
         }
         let typed = "#TYPE System.Management.Automation.PSCustomObject\r\n\"Name\",\"Note\",\"Type\",\"Address\"\r\n\
                      \"Cell 1\",\"\",\"Ethernet\",\"10.0.0.1\"\r\n\"Cell 2\",\"x\",\"USB\"\r\n";
-        assert_eq!(verdicts(typed, &[]), [(3, Ok("Cell 1".into())), (4, Err(Skipped::Usb))]);
+        assert_eq!(verdicts(typed, &[]), [(3, Ok("Cell 1".into())), (4, Err(SkippedLine::Usb))]);
     }
 
     #[test]

@@ -8,7 +8,7 @@ use std::time::{SystemTime, UNIX_EPOCH};
 use chrono::{DateTime, Utc};
 
 use super::WorkspaceError;
-use super::atomic::{Staged, create_folder, sync_folder};
+use super::atomic::{StagedFile, create_folder, sync_folder};
 use crate::platform::replace;
 
 /// Writes files that belong together, after the files of the former set were moved aside. Returns where those are now.
@@ -23,8 +23,8 @@ use crate::platform::replace;
 /// A program that is killed in between leaves every former file in one of both places, and no file of the former set
 /// beside one of the new set.
 pub(super) fn replace_set(former: &[PathBuf], new: &[(PathBuf, &[u8])]) -> Result<Vec<PathBuf>, WorkspaceError> {
-    let staged = new.iter().map(|(path, bytes)| Staged::new(path, bytes)).collect::<Result<Vec<_>, _>>()?;
-    let mut moved = Moved::default();
+    let staged = new.iter().map(|(path, bytes)| StagedFile::new(path, bytes)).collect::<Result<Vec<_>, _>>()?;
+    let mut moved = MovedFiles::default();
     let date = unused_date(former);
     for file in former {
         moved.aside(file, &date)?;
@@ -41,14 +41,14 @@ pub(super) fn replace_set(former: &[PathBuf], new: &[(PathBuf, &[u8])]) -> Resul
 
 /// What was moved, and is moved back when this is dropped before the first of the new files is in place.
 #[derive(Default)]
-struct Moved {
+struct MovedFiles {
     /// From where, to where.
     files: Vec<(PathBuf, PathBuf)>,
     /// The new files take over from here.
     replaced: bool,
 }
 
-impl Moved {
+impl MovedFiles {
     fn aside(&mut self, file: &Path, date: &str) -> Result<(), WorkspaceError> {
         let failed = |e| WorkspaceError::writing(file, e);
         let (Some(parent), Some(name)) = (file.parent(), file.file_name()) else { return Ok(()) };
@@ -61,7 +61,7 @@ impl Moved {
     }
 }
 
-impl Drop for Moved {
+impl Drop for MovedFiles {
     fn drop(&mut self) {
         if self.replaced {
             return;
@@ -180,8 +180,8 @@ mod tests {
             let former = write(root.path(), &["key", "certificate"]);
             let new = ["key", "certificate"].map(|name| (root.path().join(name), b"new".as_slice()));
             // The steps of `replace_set`, up to there. A process that is killed runs no destructor.
-            let staged: Vec<_> = new.iter().map(|(path, bytes)| Staged::new(path, bytes).unwrap()).collect();
-            let (mut moved, date) = (Moved::default(), unused_date(&former));
+            let staged: Vec<_> = new.iter().map(|(path, bytes)| StagedFile::new(path, bytes).unwrap()).collect();
+            let (mut moved, date) = (MovedFiles::default(), unused_date(&former));
             former.iter().take(moved_before).for_each(|file| moved.aside(file, &date).unwrap());
             std::mem::forget(moved);
             for (index, file) in staged.into_iter().enumerate() {

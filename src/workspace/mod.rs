@@ -25,13 +25,13 @@ pub mod authority;
 mod certificate_files;
 mod certificate_import;
 mod configuration;
+mod configurator_identity;
 mod connection_list;
 mod error;
 mod file_sets;
 mod import_files;
 mod key_backups;
 mod keyring;
-mod own_identity;
 mod passphrase;
 mod password_list;
 mod password_store;
@@ -49,23 +49,24 @@ use std::path::{Path, PathBuf};
 pub use atomic::write_atomic;
 pub use certificate_files::{CertificateFiles, SaveError, SavedCertificate, SavedCsr, SavedFile};
 pub use configuration::{
-    Configuration, ControllerEntry, MAX_PARALLELISM, NotUnique, Options, Retrieved, ThemeChoice, WindowState,
+    Configuration, ControllerEntry, DuplicateController, MAX_PARALLELISM, Options, RetrievedInfo, ThemeChoice,
+    WindowState,
 };
+pub use configurator_identity::{ConfiguratorIdentity, ConfiguratorIdentityError, ConfiguratorIdentityFiles, KeyFile};
 pub use connection_list::{
     CONNECTION_LIST_COLUMNS, ConnectionList, ConnectionListError, MAX_CONNECTION_LIST_BYTES, MAX_CONNECTIONS,
-    NewConnection, PlannedConnection, Skipped,
+    NewConnection, PlannedConnection, SkippedLine,
 };
 pub use error::{FileError, WorkspaceError};
 pub use import_files::{certificate_files_beside, read_import_file};
 pub use key_backups::{BackupKind, KeyBackup, KeyBackupError, KeyBackupSource};
 pub use keyring::{Keyring, KeyringError, NoKeyring, SystemKeyring};
-pub use own_identity::{KeyFile, OwnIdentity, OwnIdentityError, OwnIdentityFiles};
 pub use passphrase::{MIN_PASSPHRASE_CHARS, PassphraseError, check_passphrase, check_protects_files};
 pub use password_list::{MAX_PASSWORD_LIST_BYTES, PasswordList, PasswordListError};
 pub use password_store::{PasswordPlace, PasswordStore, StoreStatus, VaultState};
 pub use passwords::{MemoryPasswords, PasswordError, Passwords};
 pub use recognise::{MAX_RECOGNISED_BYTES, RecogniseError, Recognised, recognise, recognise_file};
-pub use running_window::{Shown, StartRequests, show_running_window};
+pub use running_window::{ShowWindowOutcome, StartRequests, show_running_window};
 pub use settings_files::{SettingsFileError, SettingsFiles};
 pub use vault::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS, Vault, VaultError, VaultFiles};
 
@@ -117,7 +118,7 @@ fn lock_folder(folder: &Path) -> Result<WorkspaceLock, WorkspaceError> {
 
 /// A configuration as it was found.
 #[derive(Debug)]
-pub struct Loaded {
+pub struct LoadedConfiguration {
     pub configuration: Configuration,
     /// The file was damaged and is now kept under this name, with the reason.
     pub damaged: Option<(PathBuf, String)>,
@@ -158,8 +159,8 @@ impl Workspace {
         VaultFiles::new(&self.root)
     }
 
-    pub fn own_identity(&self) -> OwnIdentityFiles {
-        OwnIdentityFiles::new(&self.root)
+    pub fn own_identity(&self) -> ConfiguratorIdentityFiles {
+        ConfiguratorIdentityFiles::new(&self.root)
     }
 
     pub fn certificate_files(&self) -> CertificateFiles {
@@ -188,10 +189,10 @@ impl Workspace {
     ///
     /// A damaged file is renamed to `epson_opcua_config.damaged-<time>.json` and never written to again. If even that
     /// is impossible the workspace is refused, so that nothing can overwrite it.
-    pub fn load(&self) -> Result<Loaded, WorkspaceError> {
+    pub fn load(&self) -> Result<LoadedConfiguration, WorkspaceError> {
         let path = self.root.join(CONFIGURATION);
         let unreadable = |source| WorkspaceError::Unreadable { path: path.clone(), source };
-        let fresh = |damaged| Loaded { configuration: Configuration::default(), damaged };
+        let fresh = |damaged| LoadedConfiguration { configuration: Configuration::default(), damaged };
         let bytes = match read_bounded(&path, MAX_CONFIGURATION_BYTES) {
             Ok(bytes) => bytes,
             Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(fresh(None)),
@@ -203,7 +204,7 @@ impl Workspace {
             Configuration::from_json(&bytes)
         };
         match parsed {
-            Ok(configuration) => Ok(Loaded { configuration, damaged: None }),
+            Ok(configuration) => Ok(LoadedConfiguration { configuration, damaged: None }),
             Err(reason) => {
                 let aside = self.unused_name();
                 replace::rename(&path, &aside).map_err(|e| WorkspaceError::writing(&path, e))?;

@@ -66,20 +66,20 @@ pub struct PasswordStore {
     keyring: Box<dyn Keyring>,
     /// Of the keyring, and what could not be kept.
     memory: MemoryPasswords,
-    state: Mutex<State>,
+    state: Mutex<StoreState>,
 }
 
-struct State {
+struct StoreState {
     place: PasswordPlace,
     keyring_fails: bool,
-    access: Access,
+    access: StoreAccess,
     /// To be taken out of the vault once it is open.
     to_forget: BTreeSet<Fingerprint>,
     /// In memory, to be put into the vault once it is open.
     to_keep: BTreeSet<Fingerprint>,
 }
 
-enum Access {
+enum StoreAccess {
     Closed,
     Declined,
     Open(Box<Vault>),
@@ -93,10 +93,10 @@ impl std::fmt::Debug for PasswordStore {
 
 impl PasswordStore {
     pub fn new(vault: VaultFiles, place: PasswordPlace, keyring: impl Keyring + 'static) -> Self {
-        let state = State {
+        let state = StoreState {
             place,
             keyring_fails: false,
-            access: Access::Closed,
+            access: StoreAccess::Closed,
             to_forget: BTreeSet::new(),
             to_keep: BTreeSet::new(),
         };
@@ -107,10 +107,10 @@ impl PasswordStore {
     pub fn status(&self) -> StoreStatus {
         let state = self.state.lock();
         let vault = match &state.access {
-            Access::Open(vault) => VaultState::Open { passwords: vault.len() },
-            Access::Closed | Access::Declined if !self.vault.exists() => VaultState::None,
-            Access::Closed => VaultState::Closed,
-            Access::Declined => VaultState::Declined,
+            StoreAccess::Open(vault) => VaultState::Open { passwords: vault.len() },
+            StoreAccess::Closed | StoreAccess::Declined if !self.vault.exists() => VaultState::None,
+            StoreAccess::Closed => VaultState::Closed,
+            StoreAccess::Declined => VaultState::Declined,
         };
         StoreStatus { place: state.place, keyring_fails: state.keyring_fails, vault }
     }
@@ -153,7 +153,7 @@ impl PasswordStore {
             state.place = PasswordPlace::Vault;
         }
         let passwords = vault.len();
-        state.access = Access::Open(Box::new(vault));
+        state.access = StoreAccess::Open(Box::new(vault));
         passwords
     }
 
@@ -167,22 +167,22 @@ impl PasswordStore {
 
     /// Wipes what is known of the vault.
     pub fn close_vault(&self) {
-        self.state.lock().access = Access::Closed;
+        self.state.lock().access = StoreAccess::Closed;
     }
 
     /// From now on passwords are asked for instead of the passphrase.
     pub fn decline_vault(&self) {
         let mut state = self.state.lock();
-        if matches!(state.access, Access::Closed) {
-            state.access = Access::Declined;
+        if matches!(state.access, StoreAccess::Closed) {
+            state.access = StoreAccess::Declined;
         }
     }
 
     /// The controllers whose password is in the open vault; `None` while it is not open.
     pub fn in_vault(&self) -> Option<Vec<Fingerprint>> {
         match &self.state.lock().access {
-            Access::Open(vault) => Some(vault.controllers().collect()),
-            Access::Closed | Access::Declined => None,
+            StoreAccess::Open(vault) => Some(vault.controllers().collect()),
+            StoreAccess::Closed | StoreAccess::Declined => None,
         }
     }
 
@@ -199,12 +199,12 @@ impl PasswordStore {
     /// [`PasswordError::VaultClosed`] unless it is open, or [`PasswordError::NoVault`].
     fn with_vault<T>(&self, work: impl FnOnce(&mut Vault) -> Result<T, VaultError>) -> Result<T, PasswordError> {
         let mut state = self.state.lock();
-        let Access::Open(vault) = &mut state.access else {
+        let StoreAccess::Open(vault) = &mut state.access else {
             return Err(if self.vault.exists() { PasswordError::VaultClosed } else { PasswordError::NoVault });
         };
         let done = work(vault);
         if matches!(done, Err(VaultError::PassphraseChanged(_))) {
-            state.access = Access::Closed;
+            state.access = StoreAccess::Closed;
         }
         Ok(done?)
     }
@@ -216,7 +216,7 @@ impl PasswordStore {
     }
 
     fn is_declined(&self) -> bool {
-        matches!(self.state.lock().access, Access::Declined)
+        matches!(self.state.lock().access, StoreAccess::Declined)
     }
 
     fn ask_keyring(&self, controller: Fingerprint) -> Option<SecretString> {
@@ -322,9 +322,9 @@ mod tests {
 
     /// A keyring that works.
     #[derive(Default)]
-    struct Works(MemoryPasswords);
+    struct WorkingKeyring(MemoryPasswords);
 
-    impl Keyring for Works {
+    impl Keyring for WorkingKeyring {
         fn get(&self, controller: Fingerprint) -> Result<Option<SecretString>, KeyringError> {
             Ok(self.0.known(controller))
         }
@@ -342,9 +342,9 @@ mod tests {
         Problem::from(error).code
     }
 
-    struct Pc(tempfile::TempDir);
+    struct TestPc(tempfile::TempDir);
 
-    impl Pc {
+    impl TestPc {
         fn new() -> Self {
             Self(tempfile::tempdir().unwrap())
         }
@@ -369,7 +369,7 @@ mod tests {
 
     #[test]
     fn without_keyring_and_vault_a_password_is_known_until_the_end() {
-        let pc = Pc::new();
+        let pc = TestPc::new();
         let store = pc.start(PasswordPlace::Keyring, NoKeyring);
         assert!(store.status().keeps(), "nothing is known against it yet");
         assert_eq!(get(&store, "weld"), Ok(None));
@@ -392,9 +392,9 @@ mod tests {
 
     #[test]
     fn a_vault_that_was_declined_is_not_asked_for_again() {
-        let pc = Pc::new();
+        let pc = TestPc::new();
         pc.start(PasswordPlace::Vault, NoKeyring).create_vault(&PASSPHRASE.into(), &[]).unwrap();
-        let store = pc.start(PasswordPlace::Vault, Works::default());
+        let store = pc.start(PasswordPlace::Vault, WorkingKeyring::default());
         assert_eq!(get(&store, "weld"), Err(ErrorCode::VaultLocked));
         store.decline_vault();
         assert_eq!(get(&store, "weld"), Ok(None));
@@ -410,7 +410,7 @@ mod tests {
 
     #[test]
     fn what_was_deleted_while_the_vault_was_closed_is_taken_out() {
-        let pc = Pc::new();
+        let pc = TestPc::new();
         let store = pc.start(PasswordPlace::Vault, NoKeyring);
         assert_eq!(set(&store, "weld", "a"), Err(ErrorCode::VaultMissing));
         store.create_vault(&PASSPHRASE.into(), &[]).unwrap();
@@ -425,8 +425,8 @@ mod tests {
 
     #[test]
     fn by_choice_the_vault_is_used_beside_a_keyring_that_works() {
-        let pc = Pc::new();
-        let store = pc.start(PasswordPlace::Keyring, Works::default());
+        let pc = TestPc::new();
+        let store = pc.start(PasswordPlace::Keyring, WorkingKeyring::default());
         set(&store, "weld", "a").unwrap();
         assert_eq!(store.status().vault, VaultState::None);
         assert_eq!(store.create_vault(&PASSPHRASE.into(), &[id("weld"), id("paint")]).unwrap(), 1, "taken over");
@@ -442,7 +442,7 @@ mod tests {
 
     #[test]
     fn the_passphrase_is_changed_only_by_who_knows_it() {
-        let pc = Pc::new();
+        let pc = TestPc::new();
         let store = pc.start(PasswordPlace::Vault, NoKeyring);
         store.create_vault(&PASSPHRASE.into(), &[]).unwrap();
         set(&store, "weld", "a").unwrap();

@@ -3,12 +3,13 @@
 use super::authority::AuthorityError;
 use super::vault::VaultError;
 use super::{
-    ConnectionListError, FileError, KeyBackupError, KeyringError, Loaded, NotUnique, OwnIdentityError, PassphraseError,
-    PasswordError, PasswordListError, RecogniseError, SaveError, SettingsFileError, Skipped, WorkspaceError,
+    ConfiguratorIdentityError, ConnectionListError, DuplicateController, FileError, KeyBackupError, KeyringError,
+    LoadedConfiguration, PassphraseError, PasswordError, PasswordListError, RecogniseError, SaveError,
+    SettingsFileError, SkippedLine, WorkspaceError,
 };
 use crate::model::{ErrorCode, Problem};
 
-impl Loaded {
+impl LoadedConfiguration {
     /// What to tell the engineer, if anything.
     pub fn notice(&self) -> Option<Problem> {
         self.damaged.as_ref().map(|(path, reason)| {
@@ -17,7 +18,7 @@ impl Loaded {
     }
 }
 
-impl Skipped {
+impl SkippedLine {
     /// The mistake to be told about; `None` where leaving the line out is what was wanted.
     pub fn problem(&self, line: usize) -> Option<Problem> {
         let code = match self {
@@ -82,14 +83,16 @@ impl From<KeyBackupError> for Problem {
     }
 }
 
-impl From<OwnIdentityError> for Problem {
-    fn from(error: OwnIdentityError) -> Self {
+impl From<ConfiguratorIdentityError> for Problem {
+    fn from(error: ConfiguratorIdentityError) -> Self {
         let code = match error {
-            OwnIdentityError::Workspace(error) => return error.into(),
-            OwnIdentityError::Making(error) => return error.into(),
-            OwnIdentityError::Unreadable { .. } => ErrorCode::FileUnreadable,
-            OwnIdentityError::Content { .. } | OwnIdentityError::Unprotect { .. } => ErrorCode::FileFormat,
-            OwnIdentityError::Path(_) => ErrorCode::Internal,
+            ConfiguratorIdentityError::Workspace(error) => return error.into(),
+            ConfiguratorIdentityError::Making(error) => return error.into(),
+            ConfiguratorIdentityError::Unreadable { .. } => ErrorCode::FileUnreadable,
+            ConfiguratorIdentityError::Content { .. } | ConfiguratorIdentityError::Unprotect { .. } => {
+                ErrorCode::FileFormat
+            }
+            ConfiguratorIdentityError::Path(_) => ErrorCode::Internal,
         };
         Self::with_detail(code, error)
     }
@@ -117,11 +120,11 @@ impl From<SettingsFileError> for Problem {
     }
 }
 
-impl From<NotUnique> for Problem {
-    fn from(error: NotUnique) -> Self {
+impl From<DuplicateController> for Problem {
+    fn from(error: DuplicateController) -> Self {
         match error {
-            NotUnique::Name(name) => Self::with_detail(ErrorCode::NameTaken, name),
-            NotUnique::Address(of) => Self::with_detail(ErrorCode::AddressTaken, of),
+            DuplicateController::Name(name) => Self::with_detail(ErrorCode::NameTaken, name),
+            DuplicateController::Address(of) => Self::with_detail(ErrorCode::AddressTaken, of),
         }
     }
 }

@@ -24,7 +24,9 @@ use opcua_configurator::model::{
 };
 use opcua_configurator::pki::{Certificate, PrivateKey, ServerNames, TrustLists, TrustPolicy, self_signed};
 use opcua_configurator::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
-use opcua_configurator::virtual_controller::opcua::{Clock, DeviceIdentity, Events, OpcUaConfig, OpcUaServer};
+use opcua_configurator::virtual_controller::opcua::{
+    CertificateClock, DeviceIdentity, OpcUaConfig, OpcUaServer, ServerEvents,
+};
 use report::{Spread, line};
 use rsa::RsaPrivateKey;
 use rsa::pkcs8::{DecodePrivateKey as _, EncodePrivateKey as _, LineEnding};
@@ -43,7 +45,7 @@ async fn main() -> Result<(), Failure> {
     let reads = report::number(0).unwrap_or(if benching { 2_000 } else { 20 }).max(1);
     let sessions = report::number(1).unwrap_or(if benching { 20 } else { 1 }).max(1);
     let folder = tempfile::tempdir()?;
-    let (server, client) = (Identity::new("server")?, Identity::new("client")?);
+    let (server, client) = (TestApplication::new("server")?, TestApplication::new("client")?);
     let gated = gated(folder.path(), &server, &client).await?;
     let (bare, _bare_server) = bare(folder.path(), &server, &client).await?;
     println!("Admission of OPC UA clients, {} cores", report::cores());
@@ -84,13 +86,13 @@ async fn main() -> Result<(), Failure> {
 }
 
 /// An application's key and certificate.
-struct Identity {
+struct TestApplication {
     name: &'static str,
     key: PrivateKey,
     certificate: Certificate,
 }
 
-impl Identity {
+impl TestApplication {
     fn new(name: &'static str) -> Result<Self, Failure> {
         let subject = Subject {
             common_name: name.to_owned(),
@@ -134,7 +136,7 @@ fn cell() -> Result<CellHandle, Failure> {
     Ok(CellHandle::new(Cell::new(config), CellClock::manual()))
 }
 
-async fn gated(folder: &Path, server: &Identity, client: &Identity) -> Result<OpcUaServer, Failure> {
+async fn gated(folder: &Path, server: &TestApplication, client: &TestApplication) -> Result<OpcUaServer, Failure> {
     Ok(OpcUaServer::start(OpcUaConfig {
         application_name: server.name.to_owned(),
         application_uri: format!("urn:{}", server.name),
@@ -149,7 +151,7 @@ async fn gated(folder: &Path, server: &Identity, client: &Identity) -> Result<Op
         trust_policy: TrustPolicy::default(),
         detailed_status: false,
         refusals: None,
-        clock: Clock::default(),
+        clock: CertificateClock::default(),
         identity: DeviceIdentity {
             name: "Bench".to_owned(),
             series: ControllerSeries::Rc800,
@@ -157,14 +159,14 @@ async fn gated(folder: &Path, server: &Identity, client: &Identity) -> Result<Op
             firmware: FirmwareVersion::new(8, 1, 0),
         },
         cell: cell()?,
-        events: Events::default(),
+        events: ServerEvents::default(),
         pki_folder: folder.join("gated"),
     })
     .await?)
 }
 
 /// The library's server as it is, which is told to trust everybody. Its URL.
-async fn bare(folder: &Path, server: &Identity, client: &Identity) -> Result<(String, Running), Failure> {
+async fn bare(folder: &Path, server: &TestApplication, client: &TestApplication) -> Result<(String, Running), Failure> {
     let pki = folder.join("bare");
     server.write(&pki)?;
     fs::create_dir_all(pki.join("trusted"))?;
@@ -212,8 +214,8 @@ impl Client {
         url: &str,
         policy: WirePolicy,
         mode: MessageSecurityMode,
-        server: &Identity,
-        client: &Identity,
+        server: &TestApplication,
+        client: &TestApplication,
     ) -> Result<Self, Failure> {
         let folder = tempfile::tempdir()?;
         client.write(folder.path())?;

@@ -6,18 +6,18 @@
 //! Configurator and controllers share this process and its cores, and everything between them is real: TCP over
 //! loopback, a TLS handshake for every controller, passwords, sessions, JSON.
 
-#[allow(dead_code, reason = "tests need more of it")]
-#[path = "../common/plant.rs"]
-mod plant;
 mod report;
+#[allow(dead_code, reason = "tests need more of it")]
+#[path = "../common/test_fleet.rs"]
+mod test_fleet;
 
 use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::{GetInfo, Operation, SelfSigned, SelfSignedFields, StartServer};
 use opcua_configurator::model::{KeyLength, Validity};
 use opcua_configurator::virtual_controller::FleetFirmware;
-use plant::Plant;
 use report::{Spread, line};
+use test_fleet::TestFleet;
 use tokio_util::sync::CancellationToken;
 
 const LATENCY: Duration = Duration::from_millis(20);
@@ -36,14 +36,14 @@ async fn main() {
     let parallelism = report::number(1).unwrap_or(16).max(1);
 
     // What a process pays once, whatever the number of controllers, is paid by these two.
-    let first = Plant::start(2, FleetFirmware::Current).await;
+    let first = TestFleet::start(2, FleetFirmware::Current).await;
     run_servers(&first, 2).await;
 
     let before = report::resident_bytes();
-    let plant = Plant::start(count, FleetFirmware::Current).await;
+    let fleet = TestFleet::start(count, FleetFirmware::Current).await;
     let stopped = report::resident_bytes();
 
-    let times = get_information(&plant, count, parallelism, report::rounds_when(benching, ROUNDS)).await;
+    let times = get_information(&fleet, count, parallelism, report::rounds_when(benching, ROUNDS)).await;
     let turns = u32::try_from(count.div_ceil(parallelism)).unwrap_or(u32::MAX);
     let ideal = LATENCY * REQUESTS * turns;
     let ratios = Spread::of(times.iter().map(|time| time.as_secs_f64() / ideal.as_secs_f64()));
@@ -65,23 +65,23 @@ async fn main() {
     line("OPC UA server stopped", each(before, stopped, count));
     let servers = SERVERS.min(count);
     let before = report::resident_bytes();
-    run_servers(&plant, servers).await;
+    run_servers(&fleet, servers).await;
     let running = report::resident_bytes();
     line("OPC UA server running", format!("{} more", each(before, running, servers)));
 }
 
 /// How long each round took, after one that is not counted: there the controllers compare the password the slow way.
-async fn get_information(plant: &Plant, count: usize, parallelism: usize, rounds: usize) -> Vec<Duration> {
+async fn get_information(fleet: &TestFleet, count: usize, parallelism: usize, rounds: usize) -> Vec<Duration> {
     let set_latency = |latency| {
         for index in 0..count {
-            plant.controller(index).faults().update(|switches| switches.latency = latency);
+            fleet.controller(index).faults().update(|switches| switches.latency = latency);
         }
     };
     set_latency(LATENCY);
     let mut times = Vec::new();
     for _ in 0..=rounds {
         let start = Instant::now();
-        run(plant, count, GetInfo, parallelism).await;
+        run(fleet, count, GetInfo, parallelism).await;
         times.push(start.elapsed());
     }
     set_latency(Duration::ZERO);
@@ -89,7 +89,7 @@ async fn get_information(plant: &Plant, count: usize, parallelism: usize, rounds
 }
 
 /// Gives the first `count` controllers a certificate and starts their OPC UA servers.
-async fn run_servers(plant: &Plant, count: usize) {
+async fn run_servers(fleet: &TestFleet, count: usize) {
     let fields = SelfSignedFields {
         common_name: None,
         country: String::new(),
@@ -99,16 +99,16 @@ async fn run_servers(plant: &Plant, count: usize) {
         key_length: KeyLength::Rsa2048,
         validity: Validity::try_from(1).expect("a year"),
     };
-    run(plant, count, SelfSigned { fields, backup: None }, report::cores()).await;
-    run(plant, count, StartServer, report::cores()).await;
+    run(fleet, count, SelfSigned { fields, backup: None }, report::cores()).await;
+    run(fleet, count, StartServer, report::cores()).await;
 }
 
-async fn run(plant: &Plant, count: usize, operation: impl Operation + 'static, parallelism: usize) {
-    let mut controllers = plant.listed();
+async fn run(fleet: &TestFleet, count: usize, operation: impl Operation + 'static, parallelism: usize) {
+    let mut controllers = fleet.listed();
     controllers.truncate(count);
-    let mut context = plant.context();
+    let mut context = fleet.context();
     context.parallelism = parallelism;
-    let (reports, _) = plant::run(controllers, operation, context, CancellationToken::new(), |_| {}).await;
+    let (reports, _) = test_fleet::run(controllers, operation, context, CancellationToken::new(), |_| {}).await;
     for report in reports {
         report.result.expect("every controller does as it is told");
     }

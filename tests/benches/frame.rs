@@ -12,10 +12,10 @@ use std::time::{Duration, Instant};
 use chrono::{DateTime, Utc};
 use egui::{Label, Modifiers, MouseWheelUnit, RawInput, Rect, pos2, vec2};
 use egui_extras::TableBuilder;
-use opcua_configurator::jobs::{Report, Summary, TrustSnapshot};
+use opcua_configurator::jobs::{ControllerReport, JobSummary, TrustSnapshot};
 use opcua_configurator::model::{CertificateStatus, FirmwareGeneration, Language};
 use opcua_configurator::ui::App;
-use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
+use opcua_configurator::ui::backend::{BackendCommand, BackendEvent, RecordingBackend};
 use opcua_configurator::ui::model::{Column, Message, Model, Row, UiCommand};
 use opcua_configurator::ui::reduce;
 use opcua_configurator::workspace::{Configuration, Workspace};
@@ -60,18 +60,21 @@ fn main() {
 fn trust(mut model: Model, now: DateTime<Utc>) -> Model {
     reduce(&mut model, Message::MoveCursor(0));
     reduce(&mut model, Message::ToggleCursor);
-    let commands = reduce(&mut model, Message::Invoke(UiCommand::CLIENT_LISTS));
+    let commands = reduce(&mut model, Message::Invoke(UiCommand::CLIENT_CERTIFICATES));
     let run = commands.iter().find_map(|command| match command {
-        Command::Run { job, task, .. } => Some((*job, task)),
+        BackendCommand::Run { job, task, .. } => Some((*job, task)),
         _ => None,
     });
     let (job, task) = run.expect("the lists are read");
     let start = Instant::now();
     let result = Ok(many_certificates(CERTIFICATES, now));
-    let event = task.finished(0, Report { result, info: None }).expect("lists are its result");
-    reduce(&mut model, Message::Event(Event::Job { job, event }));
+    let event = task.finished(0, ControllerReport { result, info: None }).expect("lists are its result");
+    reduce(&mut model, Message::Event(BackendEvent::Job { job, event }));
     report("trust, lists arrive", start.elapsed());
-    reduce(&mut model, Message::Event(Event::JobEnded { job, summary: Summary { done: 1, ..Summary::default() } }));
+    reduce(
+        &mut model,
+        Message::Event(BackendEvent::JobEnded { job, summary: JobSummary { done: 1, ..JobSummary::default() } }),
+    );
     model
 }
 

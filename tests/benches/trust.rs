@@ -9,7 +9,7 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use chrono::Utc;
-use opcua_configurator::pki::{Certificate, Crl, Presented, Role, TrustLists, TrustPolicy};
+use opcua_configurator::pki::{Certificate, Crl, PeerRole, PresentedCertificate, TrustLists, TrustPolicy};
 use rcgen::{
     BasicConstraints, CertificateParams, CertificateRevocationListParams, DnType, IsCa, Issuer, KeyIdMethod, KeyPair,
     KeyUsagePurpose, PKCS_RSA_SHA256, RevocationReason, RevokedCertParams, SigningKey,
@@ -22,7 +22,7 @@ const ROUNDS: usize = 5;
 fn main() {
     let benching = report::is_benching();
     let checks = report::number(0).unwrap_or(if benching { 2_000 } else { 2 });
-    let plant = Plant::new();
+    let plant = BenchLists::new();
     println!("a chain of three with 2048-bit RSA keys, {checks} checks a round, one of {} cores", report::cores());
     for entries in [10, 100_000] {
         let crls = [plant.crl(&plant.root, entries), plant.crl(&plant.middle, entries)];
@@ -46,7 +46,7 @@ fn milliseconds(times: &[Duration]) -> Spread {
     Spread::of(times.iter().map(|time| time.as_secs_f64() * 1e3))
 }
 
-struct Plant {
+struct BenchLists {
     root: Issuer<'static, KeyPair>,
     middle: Issuer<'static, KeyPair>,
     root_certificate: Certificate,
@@ -54,7 +54,7 @@ struct Plant {
     application: Certificate,
 }
 
-impl Plant {
+impl BenchLists {
     fn new() -> Self {
         let (root, middle) = (authority("Root CA"), authority("Plant CA"));
         let keys = [(); 3].map(|()| KeyPair::generate_for(&PKCS_RSA_SHA256).expect("a key"));
@@ -100,10 +100,10 @@ impl Plant {
     }
 
     fn time(&self, lists: &TrustLists, checks: usize) -> Duration {
-        let presented = Presented {
+        let presented = PresentedCertificate {
             certificate: &self.application,
             chain: &[],
-            role: Role::Client,
+            role: PeerRole::Client,
             now: Utc::now(),
             application_uri: None,
             host: None,

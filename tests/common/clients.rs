@@ -21,10 +21,10 @@ use time::OffsetDateTime;
 use tokio::task::JoinHandle;
 use tokio::time::timeout;
 
-const PATIENCE: Duration = Duration::from_secs(30);
+const WAIT_LIMIT: Duration = Duration::from_secs(30);
 
 /// A client's certificate and key.
-pub struct Identity {
+pub struct TestApplication {
     pub name: String,
     pub certificate: Certificate,
     key: KeyPair,
@@ -66,7 +66,7 @@ fn client_params(name: &str, serial: u64) -> CertificateParams {
     params
 }
 
-impl Identity {
+impl TestApplication {
     /// With a certificate it signed itself.
     pub fn new(name: &str) -> Self {
         let mut params = client_params(name, 1);
@@ -112,18 +112,18 @@ impl Authority {
         Self { issuer, certificate }
     }
 
-    pub fn client(&self, name: &str, serial: u64) -> Identity {
+    pub fn client(&self, name: &str, serial: u64) -> TestApplication {
         let key = rsa();
         let mut params = client_params(name, serial);
         params.use_authority_key_identifier_extension = true;
         let certificate = Certificate::from_der(params.signed_by(&key, &self.issuer).unwrap().der()).unwrap();
-        Identity { name: name.to_owned(), certificate, key, serial: SerialNumber::from(serial) }
+        TestApplication { name: name.to_owned(), certificate, key, serial: SerialNumber::from(serial) }
     }
 
     /// Of now, for a week.
-    pub fn crl(&self, number: u64, revoked: &[&Identity]) -> Crl {
+    pub fn crl(&self, number: u64, revoked: &[&TestApplication]) -> Crl {
         let now = OffsetDateTime::now_utc();
-        let entry = |identity: &&Identity| RevokedCertParams {
+        let entry = |identity: &&TestApplication| RevokedCertParams {
             serial_number: identity.serial.clone(),
             revocation_time: now - time::Duration::minutes(1),
             reason_code: None,
@@ -180,7 +180,7 @@ pub struct Client {
 
 impl Client {
     /// With Basic256Sha256, signed and encrypted, anonymously.
-    pub async fn connect(endpoint: &str, identity: &Identity) -> Result<Self, StatusCode> {
+    pub async fn connect(endpoint: &str, identity: &TestApplication) -> Result<Self, StatusCode> {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir_all(folder.path().join("own")).unwrap();
         fs::create_dir_all(folder.path().join("private")).unwrap();
@@ -203,7 +203,7 @@ impl Client {
         let policy = opcua::crypto::SecurityPolicy::Basic256Sha256.to_str();
         let endpoint = (endpoint, policy, MessageSecurityMode::SignAndEncrypt, token);
         let (session, events) =
-            timeout(PATIENCE, client.connect_to_matching_endpoint(endpoint, IdentityToken::Anonymous))
+            timeout(WAIT_LIMIT, client.connect_to_matching_endpoint(endpoint, IdentityToken::Anonymous))
                 .await
                 .unwrap()
                 .map_err(|e| e.status())?;
@@ -212,7 +212,7 @@ impl Client {
         tokio::select! {
             _ = session.wait_for_connection() => Ok(Self { session, events, _folder: folder }),
             status = &mut events => Err(status.unwrap()),
-            () = tokio::time::sleep(PATIENCE) => panic!("neither connected nor refused"),
+            () = tokio::time::sleep(WAIT_LIMIT) => panic!("neither connected nor refused"),
         }
     }
 
@@ -220,12 +220,12 @@ impl Client {
     pub async fn is_answered(&self) -> bool {
         let state = ReadValueId::from(NodeId::from(VariableId::Server_ServerStatus_State));
         let read = self.session.read(std::slice::from_ref(&state), TimestampsToReturn::Neither, 0.0);
-        timeout(PATIENCE, read).await.is_ok_and(|answer| answer.is_ok())
+        timeout(WAIT_LIMIT, read).await.is_ok_and(|answer| answer.is_ok())
     }
 
     /// The server ends the connection.
     pub async fn ended(self) {
-        timeout(PATIENCE, self.events).await.expect("still connected").unwrap();
+        timeout(WAIT_LIMIT, self.events).await.expect("still connected").unwrap();
     }
 
     /// Ends the client at once, without a word to the server.
@@ -234,7 +234,7 @@ impl Client {
     }
 
     pub async fn close(self) {
-        let _ = timeout(PATIENCE, self.session.disconnect()).await;
-        let _ = timeout(PATIENCE, self.events).await;
+        let _ = timeout(WAIT_LIMIT, self.session.disconnect()).await;
+        let _ = timeout(WAIT_LIMIT, self.events).await;
     }
 }

@@ -3,13 +3,13 @@
 pub mod authority;
 pub mod ca;
 pub mod clients;
-pub mod desk;
+pub mod command_line_test;
 pub mod harness;
 pub mod https;
 pub mod opcua_client;
-pub mod plant;
 pub mod process;
 pub mod samples;
 pub mod soft_renderer;
+pub mod test_fleet;
 pub mod window;
-pub mod window_desk;
+pub mod window_test;

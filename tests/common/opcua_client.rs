@@ -12,7 +12,7 @@ use tokio::time::timeout;
 
 use super::authority::Application;
 
-const PATIENCE: Duration = Duration::from_secs(60);
+const WAIT_LIMIT: Duration = Duration::from_secs(60);
 
 pub struct Client {
     session: Arc<Session>,
@@ -41,7 +41,7 @@ impl Client {
             .session_retry_limit(0)
             .client()
             .unwrap();
-        let offered = timeout(PATIENCE, client.get_server_endpoints_from_url(endpoint)).await.unwrap();
+        let offered = timeout(WAIT_LIMIT, client.get_server_endpoints_from_url(endpoint)).await.unwrap();
         let offered = offered.map_err(|e| e.status())?;
         let fits =
             |policy: &str, mode| policy.ends_with("#Basic256Sha256") && mode == MessageSecurityMode::SignAndEncrypt;
@@ -54,17 +54,17 @@ impl Client {
         tokio::select! {
             _ = session.wait_for_connection() => Ok(Self { session, events, _folder: folder }),
             status = &mut events => Err(status.unwrap()),
-            () = tokio::time::sleep(PATIENCE) => panic!("neither connected nor refused"),
+            () = tokio::time::sleep(WAIT_LIMIT) => panic!("neither connected nor refused"),
         }
     }
 
     /// Waits until the server has ended the connection.
     pub async fn was_cut_off(self) -> bool {
-        timeout(PATIENCE, self.events).await.is_ok()
+        timeout(WAIT_LIMIT, self.events).await.is_ok()
     }
 
     pub async fn close(self) {
-        let _refused = timeout(PATIENCE, self.session.disconnect()).await;
-        let _ended = timeout(PATIENCE, self.events).await;
+        let _refused = timeout(WAIT_LIMIT, self.session.disconnect()).await;
+        let _ended = timeout(WAIT_LIMIT, self.events).await;
     }
 }

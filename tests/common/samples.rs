@@ -6,7 +6,7 @@ use opcua_configurator::model::{
     ListLimits, RevisionToken, ServerCertificate, ServerStatus,
 };
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::workspace::{Configuration, ControllerEntry, Retrieved};
+use opcua_configurator::workspace::{Configuration, ControllerEntry, RetrievedInfo};
 
 const NAMES: [&str; 12] = [
     "Weld 1",
@@ -44,7 +44,7 @@ pub fn entry(n: usize, now: DateTime<Utc>) -> ControllerEntry {
         connection: ConnectionKind::Management,
         fingerprint: Some(Fingerprint::of(&n.to_be_bytes())),
         last: (n % 12 != 6)
-            .then(|| Retrieved { at: now - Duration::minutes(n as i64 * 7), info: info(n, now, series) }),
+            .then(|| RetrievedInfo { at: now - Duration::minutes(n as i64 * 7), info: info(n, now, series) }),
     }
 }
 

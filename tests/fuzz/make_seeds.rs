@@ -8,21 +8,21 @@ use base64::Engine as _;
 use chrono::{DateTime, Utc};
 use opcua_configurator::model::{
     Base64Bytes, CertificateType, Changed, ClientList, ControllerSeries, CsrRequest, ErrorCode, FirmwareVersion,
-    HeldCertificate, HeldCertificates, KeyLength, ListedCertificate, LogChunk, Problem, RevisionToken, Revisioned,
-    SelfSignedRequest, ServerSettings, ServerStatus, Subject, TrustStep, Validity,
+    KeyLength, ListedCertificate, LogChunk, Problem, RevisionToken, Revisioned, SelfSignedRequest, ServerSettings,
+    ServerStatus, StoredServerCertificate, StoredServerCertificates, Subject, TrustStep, Validity,
 };
 use opcua_configurator::pki::{Certificate, Csr, PrivateKey, ServerNames, make_csr, self_signed, tls_identity};
 use opcua_configurator::protocol::{
-    Activate, AddUser, CsrMade, EditTrust, ExportContent, ExportSettings, ExportedUser, Failure, Hello, ImportCaSigned,
-    ImportCertificate, ImportCsr, ImportSettings, Installed, Login, MakeCsr, MakeSelfSigned, RemoveUsers,
-    SelectCertificate, Session, SetSettings, SettingsExport, WireSecret,
+    Activate, AddUser, CertificateInstalled, CsrMade, EditTrust, ExportContent, ExportSettings, ExportedUser,
+    FailureBody, Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Login, MakeCsr, MakeSelfSigned,
+    RemoveUsers, SelectCertificate, SessionStarted, SetSettings, SettingsExport, WireSecret,
 };
 use opcua_configurator::records::force::{AllData, DataHead, ForceDataType, ForceFooter, ForceHeader, Header};
 use opcua_configurator::records::motion::{Encoder, MotionBlock};
 use opcua_configurator::records::{ControllerTime, Label, Ticks};
 use opcua_configurator::virtual_controller::{
-    Faults, Identity, KeyPair, PendingCsr, SecretBytes, State, Store, StoredCertificate, demo_keys,
-    hash_connection_password,
+    ControllerIdentity, ControllerState, Faults, KeyPair, PendingCsr, SecretBytes, Store, TrustListCertificate,
+    demo_keys, hash_connection_password,
 };
 use opcua_configurator::workspace::Workspace;
 use serde::Serialize;
@@ -337,12 +337,12 @@ impl Seeds<'_> {
             summary: certificate.summary(),
             added: *now,
         };
-        let held = HeldCertificates {
+        let held = StoredServerCertificates {
             selected: kind,
-            held: vec![HeldCertificate { kind, certificate: der() }],
+            held: vec![StoredServerCertificate { kind, certificate: der() }],
             csr: Some(Base64Bytes(csr.der().to_vec())),
         };
-        let failure: Failure = Problem::with_detail(ErrorCode::PortConflict, 4840).into();
+        let failure: FailureBody = Problem::with_detail(ErrorCode::PortConflict, 4840).into();
         seeds! {
             "login": Login { password: secret() },
             "set-settings": SetSettings { revision, settings: settings(), delete_log: true, log_password: None },
@@ -373,9 +373,9 @@ impl Seeds<'_> {
             "activate": Activate { revision, licence: keys.licence, activation: keys.activation },
             "export-settings": ExportSettings { passphrase: secret() },
             "import-settings": ImportSettings { revision, export, passphrase: secret() },
-            "session": Session { token: secret(), idle_secs: 300 },
+            "session": SessionStarted { token: secret(), idle_secs: 300 },
             "hello": Hello { product: "opcua-controller-management".into(), versions: vec![1] },
-            "installed": Installed { changed: changed(), certificate: der() },
+            "installed": CertificateInstalled { changed: changed(), certificate: der() },
             "csr-made": CsrMade { changed: changed(), csr: Base64Bytes(csr.der().to_vec()) },
             "log": LogChunk { size: 90, from: 10, next: 90, text: "started\nstopped\n".into() },
             "info": samples::info(0, *now, ControllerSeries::Rc800),
@@ -408,7 +408,7 @@ impl Seeds<'_> {
         let Made { now, certificate, csr, .. } = &self.made;
         let der = || Base64Bytes(certificate.der().to_vec());
         let serial = || "R7A0000001".parse().expect("a serial number");
-        let identity = |series, firmware| Identity {
+        let identity = |series, firmware| ControllerIdentity {
             serial: serial(),
             series,
             firmware: version(firmware),
@@ -416,8 +416,8 @@ impl Seeds<'_> {
         };
         let tls = tls_identity("robot", *now).expect("an identity");
         let pair = || KeyPair { certificate: der(), private_key: SecretBytes(self.made.pkcs8().into()) };
-        let listed = || StoredCertificate { file_name: "client.der".into(), certificate: der(), added: *now };
-        let legacy = State {
+        let listed = || TrustListCertificate { file_name: "client.der".into(), certificate: der(), added: *now };
+        let legacy = ControllerState {
             identity: identity(ControllerSeries::Rc700, "7.5.54"),
             management: KeyPair {
                 certificate: Base64Bytes(tls.certificate_der.clone()),
@@ -437,7 +437,7 @@ impl Seeds<'_> {
             used_ports: vec![2001, 5000],
             revision: 7,
         };
-        let current = State {
+        let current = ControllerState {
             identity: identity(ControllerSeries::Rc800, "8.0.1"),
             activation_keys: None,
             certificates: [(CertificateType::CaSigned, pair())].into(),

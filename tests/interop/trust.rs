@@ -7,8 +7,8 @@ use std::{fs, thread};
 
 use chrono::Utc;
 use opcua_configurator::model::{CertificateStatus, SecurityPolicy};
-use opcua_configurator::pki::{Bundle, Presented, Role, TrustLists, TrustPolicy, read_bundle};
-use opcua_configurator::session::opcua_client::{ConnectTimeouts, Login, OpcUaClient, Target};
+use opcua_configurator::pki::{Bundle, PeerRole, PresentedCertificate, TrustLists, TrustPolicy, read_bundle};
+use opcua_configurator::session::opcua_client::{ConnectTimeouts, OpcUaClient, ServerLocation, UserLogin};
 use opcua_configurator::workspace::Workspace;
 use serde_json::Value;
 
@@ -334,15 +334,15 @@ async fn the_verifying_client_judges_the_servers_of_asyncua() {
         (4, &both, Some(UriInvalid)),
     ] {
         let name = servers[index].name;
-        let target = Target { host: "127.0.0.1".to_owned(), port: ports[index] };
+        let target = ServerLocation { host: "127.0.0.1".to_owned(), port: ports[index] };
         let endpoints = client.endpoints(&target).await.unwrap_or_else(|e| panic!("{name}: {e:?}"));
         assert_eq!(endpoints.len(), policies.len(), "{name}: {endpoints:?}");
         for endpoint in endpoints.iter().filter(|endpoint| endpoint.policy != Ok(SecurityPolicy::None)) {
             let (certificate, chain) = endpoint.certificates().expect("a certificate");
-            let presented = Presented {
+            let presented = PresentedCertificate {
                 certificate: &certificate,
                 chain: &chain,
-                role: Role::Server,
+                role: PeerRole::Server,
                 now: Utc::now(),
                 application_uri: Some(&endpoint.application_uri),
                 host: Some(&target.host),
@@ -351,10 +351,10 @@ async fn the_verifying_client_judges_the_servers_of_asyncua() {
             let verdict = lists.validate(&presented, &TrustPolicy::default());
             assert_eq!(verdict.as_ref().err().map(|rejection| rejection.status()), expected, "{name}: {verdict:?}");
             if expected.is_none() {
-                let tried = client.attempt(&target, endpoint, &certificate, &Login::Anonymous).await;
+                let tried = client.attempt(&target, endpoint, &certificate, &UserLogin::Anonymous).await;
                 assert_eq!(tried.map(|welcome| welcome.state), Ok(0), "{name}");
                 let other = &identity.certificate;
-                let tried = client.attempt(&target, endpoint, other, &Login::Anonymous).await;
+                let tried = client.attempt(&target, endpoint, other, &UserLogin::Anonymous).await;
                 assert!(tried.is_err(), "{name} does not have the certificate it must have");
             }
         }

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use opcua_configurator::model::{ControllerSeries, ErrorCode, Problem};
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::ui::backend::{Event, FileContents, RecordingBackend};
-use opcua_configurator::workspace::{ConnectionList, Retrieved};
+use opcua_configurator::ui::backend::{BackendEvent, FileContents, RecordingBackend};
+use opcua_configurator::workspace::{ConnectionList, RetrievedInfo};
 
 use crate::harness::{SIZE, choose, click, now, type_into, window};
 use crate::pictures::{W, assert_shows, chinese, job, picture, tell};
@@ -14,7 +14,7 @@ use crate::samples::{configuration, info};
 fn read(window: &mut W, path: &str, contents: &str) {
     let job = job(window);
     let contents = FileContents(contents.as_bytes().to_vec());
-    tell(window, Event::FileRead { job, result: Ok((PathBuf::from(path), contents)) });
+    tell(window, BackendEvent::FileRead { job, result: Ok((PathBuf::from(path), contents)) });
 }
 
 /// Legacy controllers, the last of which was never read; nobody has been activated.
@@ -24,7 +24,7 @@ fn legacy(count: usize) -> W {
         entry.series = ControllerSeries::Rc700;
         let mut info = info(n, now(), entry.series);
         info.activated = false;
-        entry.last = (n + 1 < count || count == 1).then(|| Retrieved { at: now(), info });
+        entry.last = (n + 1 < count || count == 1).then(|| RetrievedInfo { at: now(), info });
     }
     window(RecordingBackend::default(), configuration, SIZE)
 }
@@ -48,7 +48,7 @@ fn keys_from_a_file() {
     click(&mut window, "Choose…");
     let picking = job(&window);
     let path = PathBuf::from("/home/engineer/keys/activation.csv");
-    tell(&mut window, Event::FilePicked { job: picking, result: Ok(Some(path)) });
+    tell(&mut window, BackendEvent::FilePicked { job: picking, result: Ok(Some(path)) });
     let keys = "7agk-vcl3-x2eh-lgzg,HTMT-L6FB-WUZW-34CQ-GDMZ-RWUC";
     let serial = |n: usize| info(n, now(), ControllerSeries::Rc700).serial;
     let body = format!(
@@ -72,7 +72,7 @@ fn no_file_dialog() {
     choose(&mut window, &["Server settings", "Activation…"]);
     click(&mut window, "Choose…");
     let job = job(&window);
-    tell(&mut window, Event::FilePicked { job, result: Err(Problem::from(ErrorCode::NoFilePicker)) });
+    tell(&mut window, BackendEvent::FilePicked { job, result: Err(Problem::from(ErrorCode::NoFilePicker)) });
     assert_shows(&window, "The file dialog cannot be opened");
 }
 
@@ -103,7 +103,7 @@ fn confirm_identity() {
     click(&mut window, "Tick all");
     click(&mut window, "Get new information");
     let job = job(&window);
-    tell(&mut window, Event::Probed { job, result: Ok(Fingerprint::of(b"controller")) });
+    tell(&mut window, BackendEvent::Probed { job, result: Ok(Fingerprint::of(b"controller")) });
     assert_shows(&window, "1 of 3");
     chinese(&mut window);
     picture(&mut window, "confirm_identity_chinese");

@@ -9,9 +9,9 @@ use opcua_configurator::model::{
 use opcua_configurator::pki::{
     Certificate, CertificateAuthority, Crl, PrivateKey, RevocationReason, RevokedCertificate,
 };
-use opcua_configurator::ui::backend::{AuthorityDone, Event, RecordingBackend};
+use opcua_configurator::ui::backend::{AuthorityResult, BackendEvent, RecordingBackend};
 use opcua_configurator::workspace::authority::{
-    AuthorityOverview, IssuedCertificate, IssuedFor, PublishedAuthority, Revocation,
+    AuthorityOverview, IssuedCertificate, IssuedFor, PublishedAuthority, RecordedRevocation,
 };
 
 use crate::harness::{SIZE, choose, click, now, type_into, window};
@@ -27,8 +27,8 @@ fn open(names: &[&str]) -> W {
 
 fn done(window: &mut W, overview: Option<AuthorityOverview>) {
     let job = job(window);
-    let result = Ok(AuthorityDone { overview: overview.map(Box::new), saved: None });
-    tell(window, Event::AuthorityDone { job, result });
+    let result = Ok(AuthorityResult { overview: overview.map(Box::new), saved: None });
+    tell(window, BackendEvent::AuthorityDone { job, result });
 }
 
 fn request(common_name: &str, years: u8) -> AuthorityRequest {
@@ -91,7 +91,8 @@ fn overview() -> AuthorityOverview {
         (1..=6).map(|n| issued(n, "", CertificateProfile::Server, 400 * i64::from(n) - 390)).collect();
     list.push(issued(7, "SCADA", CertificateProfile::Client, 1500));
     list.push(issued(8, "Panel 2", CertificateProfile::Client, -3));
-    list[3].revoked = Some(Revocation { at: now() - Duration::days(2), reason: RevocationReason::KeyCompromise });
+    list[3].revoked =
+        Some(RecordedRevocation { at: now() - Duration::days(2), reason: RevocationReason::KeyCompromise });
     let revoked = [RevokedCertificate {
         serial_number: list[3].serial_number.clone(),
         at: made,
@@ -135,7 +136,7 @@ fn signing_for_controllers() {
     type_into(&mut window, "Passphrase", "correct house");
     click(&mut window, "Sign");
     let asked = job(&window);
-    tell(&mut window, Event::AuthorityDone { job: asked, result: Err(ErrorCode::AuthorityPassphrase.into()) });
+    tell(&mut window, BackendEvent::AuthorityDone { job: asked, result: Err(ErrorCode::AuthorityPassphrase.into()) });
     picture(&mut window, "authority_sign");
     chinese(&mut window);
     assert_shows(&window, "证书颁发机构的口令错误");

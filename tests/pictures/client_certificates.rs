@@ -1,10 +1,12 @@
 //! The dialogs about client certificates and CRLs as they look.
 
 use opcua_configurator::jobs::{TrustChange, TrustFile, TrustSnapshot, WatchEvent};
-use opcua_configurator::model::{CertificateStatus, CutClient, ErrorCode, FirmwareGeneration, Problem, RevisionToken};
+use opcua_configurator::model::{
+    CertificateStatus, DisconnectedClient, ErrorCode, FirmwareGeneration, Problem, RevisionToken,
+};
 use opcua_configurator::pki::{Certificate, read_bundle};
-use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
-use opcua_configurator::ui::features::trust::{DetailsView, TrustAction};
+use opcua_configurator::ui::backend::{BackendCommand, BackendEvent, RecordingBackend};
+use opcua_configurator::ui::features::client_certificates::{DetailsView, TrustAction};
 use opcua_configurator::ui::model::{JobId, Message, ReadTrustFile};
 use opcua_configurator::ui::reduce;
 use opcua_configurator::workspace::ThemeChoice;
@@ -37,36 +39,36 @@ const CLIENTS: [&str; 2] = ["Certificate", "Client certificates…"];
 const CRLS: [&str; 2] = ["Certificate", "CRL…"];
 
 fn watch(window: &W) -> JobId {
-    let watching = |command: &Command| match command {
-        Command::WatchTrust { job, .. } => Some(*job),
+    let watching = |command: &BackendCommand| match command {
+        BackendCommand::WatchTrust { job, .. } => Some(*job),
         _ => None,
     };
     window.state().backend.sent.iter().rev().find_map(watching).expect("the lists are watched")
 }
 
 /// What a change came to.
-fn changed(lists: TrustSnapshot, cut: Vec<CutClient>) -> TrustChange {
+fn changed(lists: TrustSnapshot, cut: Vec<DisconnectedClient>) -> TrustChange {
     TrustChange { lists, cut, undo: None }
 }
 
-fn cut(n: usize, name: &str, status: CertificateStatus) -> CutClient {
+fn cut(n: usize, name: &str, status: CertificateStatus) -> DisconnectedClient {
     let address = format!("192.168.10.{n}:50{n}12");
-    CutClient { address, issued_to: name.to_owned(), thumbprint: trust_samples::thumbprint(n), status }
+    DisconnectedClient { address, issued_to: name.to_owned(), thumbprint: trust_samples::thumbprint(n), status }
 }
 
 /// A client that tries to connect.
 fn newcomer(window: &mut W) {
-    let mut held = trust_samples::plant(now());
+    let mut held = trust_samples::fleet(now());
     let client =
         trust_samples::refused(14, "Robot cell viewer", "Robot cell viewer", CertificateStatus::Untrusted, 1, 0, now());
     held.rejected.insert(0, client);
     let job = watch(window);
-    tell(window, Event::TrustSeen { job, event: WatchEvent::Lists(Box::new(held)) });
+    tell(window, BackendEvent::TrustSeen { job, event: WatchEvent::Lists(Box::new(held)) });
 }
 
 #[test]
 fn client_certificates() {
-    let mut window = lists(CURRENT, CLIENTS, trust_samples::plant(now()), SIZE);
+    let mut window = lists(CURRENT, CLIENTS, trust_samples::fleet(now()), SIZE);
     assert_shows(&window, "Old visualisation");
     newcomer(&mut window);
     click(&mut window, "Tick Quality station 7");
@@ -78,7 +80,7 @@ fn client_certificates() {
 
 #[test]
 fn client_certificates_in_a_small_window() {
-    let mut window = lists(CURRENT, CLIENTS, trust_samples::plant(now()), [900.0, 500.0]);
+    let mut window = lists(CURRENT, CLIENTS, trust_samples::fleet(now()), [900.0, 500.0]);
     newcomer(&mut window);
     picture(&mut window, "trust_small");
     click(&mut window, "Rejected");
@@ -100,13 +102,13 @@ fn no_crls() {
 
 #[test]
 fn changes() {
-    let mut window = lists(CURRENT, CLIENTS, trust_samples::plant(now()), SIZE);
+    let mut window = lists(CURRENT, CLIENTS, trust_samples::fleet(now()), SIZE);
     click(&mut window, "Tick HMI line 3");
     click(&mut window, "Tick Old visualisation");
     click(&mut window, "Trusted: Delete…");
     assert_shows(&window, "4 of 50, 2 ticked");
     click(&mut window, "Delete");
-    let mut held = trust_samples::plant(now() - chrono::Duration::days(2));
+    let mut held = trust_samples::fleet(now() - chrono::Duration::days(2));
     held.revision = RevisionToken::new(5);
     held.trusted.retain(|listed| listed.summary.issued_to.len() > 17);
     let gone = vec![
@@ -115,7 +117,7 @@ fn changes() {
     ];
     finish(&mut window, vec![Ok(changed(held, gone))]);
     let job = watch(&window);
-    tell(&mut window, Event::TrustSeen { job, event: WatchEvent::Lost(ErrorCode::Timeout.into()) });
+    tell(&mut window, BackendEvent::TrustSeen { job, event: WatchEvent::Lost(ErrorCode::Timeout.into()) });
     assert_shows(&window, "HMI line 3 (192.168.10.3:50312)");
     chinese(&mut window);
     picture(&mut window, "trust_cut_chinese");
@@ -123,7 +125,7 @@ fn changes() {
 
 #[test]
 fn crls() {
-    let mut window = lists(CURRENT, CRLS, trust_samples::plant(now()), SIZE);
+    let mut window = lists(CURRENT, CRLS, trust_samples::fleet(now()), SIZE);
     click(&mut window, "Tick Plant issuing CA 1");
     assert_shows(&window, "expired, get a new one (covers Plant issuing CA 1)");
     chinese(&mut window);
@@ -135,7 +137,7 @@ fn crls() {
 /// Files that were chosen.
 fn files(window: &mut W, files: &[(&str, &[u8])]) {
     let job = window.state().backend.sent.iter().rev().find_map(|command| match command {
-        Command::ReadTrustFiles { job, .. } => Some(*job),
+        BackendCommand::ReadTrustFiles { job, .. } => Some(*job),
         _ => None,
     });
     let read = |(name, bytes): &(&str, &[u8])| {
@@ -144,7 +146,7 @@ fn files(window: &mut W, files: &[(&str, &[u8])]) {
         ReadTrustFile { path: format!("/media/usb/{name}").into(), result }
     };
     let files = files.iter().map(read).collect();
-    tell(window, Event::TrustFilesRead { job: job.expect("files are read"), files });
+    tell(window, BackendEvent::TrustFilesRead { job: job.expect("files are read"), files });
 }
 
 struct Pki {
@@ -172,7 +174,7 @@ fn pki() -> Pki {
 #[test]
 fn adding() {
     let pki = pki();
-    let mut window = lists(CURRENT, CLIENTS, trust_samples::plant(now()), SIZE);
+    let mut window = lists(CURRENT, CLIENTS, trust_samples::fleet(now()), SIZE);
     click(&mut window, "Trusted: Add…");
     assert_shows(&window, "Add certificates – Weld 1");
     type_into(&mut window, "Files", "/media/usb/service.p7b");
@@ -198,7 +200,7 @@ fn adding_to_many() {
     click(&mut window, "Add");
     assert_shows(&window, "Nobody is disconnected");
     click(&mut window, "Add certificates");
-    let result = changed(trust_samples::plant(now()), vec![cut(13, "HMI line 1", CertificateStatus::Revoked)]);
+    let result = changed(trust_samples::fleet(now()), vec![cut(13, "HMI line 1", CertificateStatus::Revoked)]);
     finish(&mut window, vec![Ok(result), Err(Problem::with_detail(ErrorCode::ListFull, "12 > 10"))]);
     assert_shows(&window, "HMI line 1 (192.168.10.13:501312): The authority has revoked it");
     click(&mut window, "Close");
@@ -210,7 +212,7 @@ fn adding_to_many() {
 /// As far as they are real, so that there is something to look into.
 fn real() -> TrustSnapshot {
     let pki = pki();
-    let mut held = trust_samples::plant(now());
+    let mut held = trust_samples::fleet(now());
     // Its issuer was not sent along, and nobody here has it.
     let client = &mut held.rejected[1];
     client.certificate.0.clone_from(&pki.client);
@@ -233,7 +235,7 @@ fn details_of_a_certificate() {
 
 #[test]
 fn details_of_a_revoked_certificate_with_its_chain() {
-    let (pki, mut held) = (pki(), trust_samples::plant(now()));
+    let (pki, mut held) = (pki(), trust_samples::fleet(now()));
     held.trusted[0].certificate.0.clone_from(&pki.client);
     held.issuers[0].certificate.0.clone_from(&pki.root);
     held.issuers[1].certificate.0.clone_from(&pki.issuing);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use opcua_configurator::model::{ErrorCode, Problem};
 use opcua_configurator::pki::PkiKind;
-use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::backend::{BackendEvent, RecordingBackend};
 use opcua_configurator::ui::model::DroppedFile;
 use opcua_configurator::workspace::Recognised;
 
@@ -41,7 +41,7 @@ fn hold(window: &mut W, files: Vec<DroppedFile>) {
     window.input_mut().hovered_files = hovered.collect();
     settle(window);
     let job = job(window);
-    tell(window, Event::Recognised { job, files });
+    tell(window, BackendEvent::Recognised { job, files });
 }
 
 fn drop(window: &mut W, files: Vec<DroppedFile>) {
@@ -51,7 +51,7 @@ fn drop(window: &mut W, files: Vec<DroppedFile>) {
     }
     settle(window);
     let job = job(window);
-    tell(window, Event::Recognised { job, files });
+    tell(window, BackendEvent::Recognised { job, files });
 }
 
 #[test]

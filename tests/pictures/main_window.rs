@@ -1,11 +1,11 @@
 //! The window as it looks, pixel by pixel.
 
-use opcua_configurator::jobs::{Done, OperationOutput, Step};
+use opcua_configurator::jobs::{JobStep, NoOutput, OperationOutput};
 use opcua_configurator::model::{
     ControllerInfo, ControllerSeries, ErrorCode, Language, Problem, RevisionToken, Revisioned, ServerSettings, UserName,
 };
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::backend::{BackendEvent, RecordingBackend};
 use opcua_configurator::ui::model::Message;
 use opcua_configurator::workspace::{Configuration, ThemeChoice};
 
@@ -76,11 +76,11 @@ fn add_controller() {
     type_into(&mut window, "IP address", "10.0.0.9");
     click(&mut window, "Apply");
     let probe = job(&window);
-    tell(&mut window, Event::Probed { job: probe, result: Ok(Fingerprint::of(b"weld 1")) });
+    tell(&mut window, BackendEvent::Probed { job: probe, result: Ok(Fingerprint::of(b"weld 1")) });
     picture(&mut window, "add_controller_fingerprint");
     click(&mut window, "It matches, add");
     let enroll = job(&window);
-    tell(&mut window, Event::Enrolled { job: enroll, result: Err(ErrorCode::WrongPassword.into()) });
+    tell(&mut window, BackendEvent::Enrolled { job: enroll, result: Err(ErrorCode::WrongPassword.into()) });
     assert_shows(&window, "The connection password is wrong");
 }
 
@@ -100,16 +100,16 @@ fn processing() {
     let mut window = open(24);
     tick(&mut window, &["Weld 1", "Weld 2", "Weld 10", "Paint booth", "Press feeder"]);
     click(&mut window, "Get new information");
-    succeed(&mut window, 0, Done, read(0));
+    succeed(&mut window, 0, NoOutput, read(0));
     let unreachable = Problem::with_detail(ErrorCode::Unreachable, "connection refused (os error 111)");
     fail(&mut window, 1, unreachable);
-    step(&mut window, 2, Step::Connect);
-    step(&mut window, 3, Step::Read);
+    step(&mut window, 2, JobStep::Connect);
+    step(&mut window, 3, JobStep::Read);
     click(&mut window, "Cancel");
     assert_shows(&window, "Stop after the step in hand?");
     click(&mut window, "Go on");
     for index in [2, 3] {
-        succeed(&mut window, index, Done, read(index));
+        succeed(&mut window, index, NoOutput, read(index));
     }
     fail(&mut window, 4, ErrorCode::Cancelled);
     end_job(&mut window, 3, 1, 1);

@@ -9,9 +9,9 @@ use egui_kittest::kittest::Queryable as _;
 use egui_kittest::{SnapshotOptions, image_snapshot};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{RgbaImage, imageops};
-use opcua_configurator::jobs::{OperationOutput, Report, Step, Summary};
+use opcua_configurator::jobs::{ControllerReport, JobStep, JobSummary, OperationOutput};
 use opcua_configurator::model::{ControllerInfo, Language, Problem};
-use opcua_configurator::ui::backend::{Command, Event, RecordingBackend};
+use opcua_configurator::ui::backend::{BackendCommand, BackendEvent, RecordingBackend};
 use opcua_configurator::ui::model::{JobId, Message, Task, TaskEvent};
 use opcua_configurator::ui::reduce;
 
@@ -76,7 +76,7 @@ pub fn tick(window: &mut W, names: &[&str]) {
 }
 
 /// The backend reports something.
-pub fn tell(window: &mut W, event: Event) {
+pub fn tell(window: &mut W, event: BackendEvent) {
     window.state_mut().backend.events.push_back(event);
     settle_twice(window);
 }
@@ -99,15 +99,15 @@ fn settle_twice(window: &mut W) {
 
 /// The job, attempt or file that was asked for last.
 pub fn job(window: &W) -> JobId {
-    let of = |command: &Command| match command {
-        Command::Run { job, .. }
-        | Command::Probe { job, .. }
-        | Command::Enroll { job, .. }
-        | Command::ReadFile { job, .. }
-        | Command::PickFile { job, .. }
-        | Command::Recognise { job, .. }
-        | Command::LookAtExport { job, .. }
-        | Command::Authority { job, .. } => Some(*job),
+    let of = |command: &BackendCommand| match command {
+        BackendCommand::Run { job, .. }
+        | BackendCommand::Probe { job, .. }
+        | BackendCommand::Enroll { job, .. }
+        | BackendCommand::ReadFile { job, .. }
+        | BackendCommand::PickFile { job, .. }
+        | BackendCommand::Recognise { job, .. }
+        | BackendCommand::LookAtExport { job, .. }
+        | BackendCommand::Authority { job, .. } => Some(*job),
         _ => None,
     };
     window.state().backend.sent.iter().rev().find_map(of).expect("something was asked for")
@@ -115,8 +115,8 @@ pub fn job(window: &W) -> JobId {
 
 /// The job that was started last, and its task.
 fn running(window: &W) -> (JobId, Task) {
-    let of = |command: &Command| match command {
-        Command::Run { job, task, .. } => Some((*job, task.clone())),
+    let of = |command: &BackendCommand| match command {
+        BackendCommand::Run { job, task, .. } => Some((*job, task.clone())),
         _ => None,
     };
     window.state().backend.sent.iter().rev().find_map(of).expect("a job was started")
@@ -125,26 +125,27 @@ fn running(window: &W) -> (JobId, Task) {
 /// The operation of that job succeeds for one of its controllers.
 pub fn succeed<O: OperationOutput>(window: &mut W, index: usize, output: O, info: Option<ControllerInfo>) {
     let (job, task) = running(window);
-    let event = task.finished(index, Report { result: Ok(output), info }).expect("a result of this operation");
-    tell(window, Event::Job { job, event });
+    let event =
+        task.finished(index, ControllerReport { result: Ok(output), info }).expect("a result of this operation");
+    tell(window, BackendEvent::Job { job, event });
 }
 
 /// It fails for one of them.
 pub fn fail(window: &mut W, index: usize, problem: impl Into<Problem>) {
     let (job, task) = running(window);
-    tell(window, Event::Job { job, event: task.failed(index, problem.into()) });
+    tell(window, BackendEvent::Job { job, event: task.failed(index, problem.into()) });
 }
 
 /// It is at this step with one of them.
-pub fn step(window: &mut W, index: usize, step: Step) {
+pub fn step(window: &mut W, index: usize, step: JobStep) {
     let (job, _) = running(window);
-    tell(window, Event::Job { job, event: TaskEvent::Step { index, step } });
+    tell(window, BackendEvent::Job { job, event: TaskEvent::Step { index, step } });
 }
 
 /// It ends.
 pub fn end_job(window: &mut W, done: usize, failed: usize, not_started: usize) {
     let (job, _) = running(window);
-    tell(window, Event::JobEnded { job, summary: Summary { done, failed, not_started } });
+    tell(window, BackendEvent::JobEnded { job, summary: JobSummary { done, failed, not_started } });
 }
 
 /// It gives these results, one a controller, and ends.

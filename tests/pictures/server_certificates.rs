@@ -2,11 +2,12 @@
 
 use opcua_configurator::jobs::{CertificateChecked, CertificateExported};
 use opcua_configurator::model::{
-    Base64Bytes, CertificateSummary, CertificateType, ControllerSeries, ErrorCode, HeldCertificate, HeldCertificates,
-    KeyLength, Problem, RevisionToken, Revisioned, SelfSignedRequest, ServerSettings, Subject, Validity,
+    Base64Bytes, CertificateSummary, CertificateType, ControllerSeries, ErrorCode, KeyLength, Problem, RevisionToken,
+    Revisioned, SelfSignedRequest, ServerSettings, StoredServerCertificate, StoredServerCertificates, Subject,
+    Validity,
 };
 use opcua_configurator::pki::{
-    Certificate, CertificateFlaw, Finding, Issuers, KeyUsage, PrivateKey, ServerNames, Severity, self_signed,
+    Certificate, CertificateFinding, CertificateFlaw, Issuers, KeyUsage, PrivateKey, ServerNames, Severity, self_signed,
 };
 use opcua_configurator::ui::backend::RecordingBackend;
 use opcua_configurator::workspace::SavedFile;
@@ -41,10 +42,11 @@ fn certificate() -> Base64Bytes {
     Base64Bytes(self_signed(&request, &names, &key, now()).unwrap().der().to_vec())
 }
 
-fn held(kinds: &[CertificateType], selected: CertificateType) -> Revisioned<HeldCertificates> {
+fn held(kinds: &[CertificateType], selected: CertificateType) -> Revisioned<StoredServerCertificates> {
     let certificate = certificate();
-    let held = kinds.iter().map(|kind| HeldCertificate { kind: *kind, certificate: certificate.clone() }).collect();
-    Revisioned { revision: RevisionToken::new(4), value: HeldCertificates { selected, held, csr: None } }
+    let held =
+        kinds.iter().map(|kind| StoredServerCertificate { kind: *kind, certificate: certificate.clone() }).collect();
+    Revisioned { revision: RevisionToken::new(4), value: StoredServerCertificates { selected, held, csr: None } }
 }
 
 #[test]
@@ -102,7 +104,7 @@ fn ca_signed() {
     }
     click(&mut window, "Import…");
     let hosts = CertificateFlaw::HostName { hosts: vec!["192.168.10.1".into()], names: vec!["192.168.0.1".into()] };
-    let hosts = Finding { flaw: hosts, severity: Severity::Warning };
+    let hosts = CertificateFinding { flaw: hosts, severity: Severity::Warning };
     finish(&mut window, vec![checked(vec![hosts])]);
     assert_shows(&window, "BadCertificateHostNameInvalid");
 }
@@ -120,8 +122,11 @@ fn ca_signed_for_many() {
         vec![
             checked(vec![]),
             checked(vec![
-                Finding { flaw: CertificateFlaw::Expired { until: not_after, now: now() }, severity: Severity::Error },
-                Finding {
+                CertificateFinding {
+                    flaw: CertificateFlaw::Expired { until: not_after, now: now() },
+                    severity: Severity::Error,
+                },
+                CertificateFinding {
                     flaw: CertificateFlaw::KeyUsageLacks { missing: vec![KeyUsage::NonRepudiation] },
                     severity: Severity::Warning,
                 },
@@ -199,11 +204,11 @@ fn ca(name: &str, by: Option<&str>, from: i32) -> Certificate {
     Certificate::from_der(made.der()).unwrap()
 }
 
-fn checked(findings: Vec<Finding>) -> Result<CertificateChecked, Problem> {
+fn checked(findings: Vec<CertificateFinding>) -> Result<CertificateChecked, Problem> {
     checked_with(findings, None)
 }
 
-fn checked_with(findings: Vec<Finding>, issuers: Option<Issuers>) -> Result<CertificateChecked, Problem> {
+fn checked_with(findings: Vec<CertificateFinding>, issuers: Option<Issuers>) -> Result<CertificateChecked, Problem> {
     let summary = CertificateSummary { issued_by: "Plant CA".into(), ..summary() };
     Ok(CertificateChecked { summary: Some(summary), findings, issuers })
 }

@@ -2,7 +2,7 @@
 
 use opcua_configurator::jobs::SettingsExported;
 use opcua_configurator::model::{ControllerSeries, ErrorCode, FirmwareVersion, LogChunk, Problem};
-use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::backend::{BackendEvent, RecordingBackend};
 use opcua_configurator::ui::model::ExportFound;
 
 use crate::harness::{SIZE, choose, click, now, type_into, window};
@@ -42,7 +42,7 @@ fn import() {
     let mut window = open(&["Weld 2"], &["Server settings", "Import…"]);
     let look = job(&window);
     let found = ExportFound { exported: now(), firmware: FirmwareVersion::new(7, 5, 54) };
-    tell(&mut window, Event::ExportSeen { job: look, result: Ok(found) });
+    tell(&mut window, BackendEvent::ExportSeen { job: look, result: Ok(found) });
     assert_shows(&window, "2026-06-01 16:30, firmware 7.5.54");
     click(&mut window, "Import");
     assert_shows(&window, "Settings and users in the controller are replaced");
@@ -54,7 +54,7 @@ fn nothing_to_import() {
     let look = job(&window);
     let missing =
         Problem::with_detail(ErrorCode::ExportMissing, "/home/engineer/EpsonRC80/OPCUA/SN0001460/option.json");
-    tell(&mut window, Event::ExportSeen { job: look, result: Err(missing) });
+    tell(&mut window, BackendEvent::ExportSeen { job: look, result: Err(missing) });
     assert_shows(&window, "No settings were exported from this controller");
 }
 

@@ -29,7 +29,7 @@ pub fn nothing(generation: FirmwareGeneration, clock: DateTime<Utc>) -> TrustSna
 }
 
 /// A controller in a plant that has been at it for a while.
-pub fn plant(clock: DateTime<Utc>) -> TrustSnapshot {
+pub fn fleet(clock: DateTime<Utc>) -> TrustSnapshot {
     let mut held = nothing(FirmwareGeneration::Current, clock);
     held.trusted = vec![
         listed(1, "HMI line 3", "Plant issuing CA 1", "hmi_line_3.der", 400, clock),

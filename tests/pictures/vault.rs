@@ -1,7 +1,7 @@
 //! How the vault for connection passwords looks, and adding a controller that is switched off.
 
 use opcua_configurator::model::{ErrorCode, Problem};
-use opcua_configurator::ui::backend::{Event, RecordingBackend};
+use opcua_configurator::ui::backend::{BackendEvent, RecordingBackend};
 use opcua_configurator::ui::features::vault::VaultRequest;
 use opcua_configurator::ui::model::Message;
 use opcua_configurator::workspace::{PasswordPlace, StoreStatus, VaultState};
@@ -15,7 +15,7 @@ fn open(place: PasswordPlace, vault: VaultState) -> W {
     configuration.options.passwords = place;
     let mut window = window(RecordingBackend::default(), configuration, SIZE);
     let keyring_fails = place == PasswordPlace::Keyring;
-    tell(&mut window, Event::PasswordStore(StoreStatus { place, keyring_fails, vault }));
+    tell(&mut window, BackendEvent::PasswordStore(StoreStatus { place, keyring_fails, vault }));
     window
 }
 
@@ -29,7 +29,7 @@ fn options() {
 #[test]
 fn create() {
     let mut window = open(PasswordPlace::Keyring, VaultState::None);
-    tell(&mut window, Event::PasswordNotKept(ErrorCode::KeyringUnavailable.into()));
+    tell(&mut window, BackendEvent::PasswordNotKept(ErrorCode::KeyringUnavailable.into()));
     assert_shows(&window, "Passwords are not kept");
     click(&mut window, "Passwords are not kept");
     type_into(&mut window, "Passphrase", "short");
@@ -43,7 +43,7 @@ fn wrong_passphrase() {
     say(&mut window, Message::act(|model| model.vault_request(VaultRequest::Open)));
     type_into(&mut window, "Passphrase", "correct house");
     click(&mut window, "Open");
-    tell(&mut window, Event::VaultDone(Err(ErrorCode::VaultPassphrase.into())));
+    tell(&mut window, BackendEvent::VaultDone(Err(ErrorCode::VaultPassphrase.into())));
     chinese(&mut window);
     picture(&mut window, "vault_open_chinese");
 }
@@ -64,6 +64,6 @@ fn unreachable() {
     click(&mut window, "Apply");
     let probe = job(&window);
     let unreachable = Problem::with_detail(ErrorCode::Unreachable, "connection refused (os error 111)");
-    tell(&mut window, Event::Probed { job: probe, result: Err(unreachable) });
+    tell(&mut window, BackendEvent::Probed { job: probe, result: Err(unreachable) });
     assert_shows(&window, "Add without confirming its identity");
 }

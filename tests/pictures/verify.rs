@@ -4,16 +4,16 @@ use std::path::PathBuf;
 
 use chrono::Duration;
 use opcua_configurator::jobs::{
-    CertificateVerdict, EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict, VerifyFinding,
-    VerifyReport,
+    CertificateVerdict, ConnectRefusal, EndpointVerdict, NotTried, RefusalDetails, TokenOutcome, TokenVerdict,
+    VerifyFinding, VerifyReport,
 };
 use opcua_configurator::model::{
     CertificateStatus, CertificateSummary, ControllerSeries, ErrorCode, Problem, SecurityPolicy, ServerStatus,
 };
-use opcua_configurator::pki::{CertificateFlaw, Finding, Rejection, Severity, client_identity};
+use opcua_configurator::pki::{CertificateFinding, CertificateFlaw, CertificateRejection, Severity, client_identity};
 use opcua_configurator::session::opcua_client::{MessageSecurity, TokenKind};
 use opcua_configurator::ui::backend::RecordingBackend;
-use opcua_configurator::workspace::OwnIdentity;
+use opcua_configurator::workspace::ConfiguratorIdentity;
 
 use crate::harness::{SIZE, choose, click, now, window};
 use crate::pictures::{W, assert_shows, chinese, end_job, fail, picture, succeed, tick};
@@ -50,8 +50,8 @@ fn summary() -> CertificateSummary {
     }
 }
 
-fn own() -> OwnIdentity {
-    OwnIdentity {
+fn own() -> ConfiguratorIdentity {
+    ConfiguratorIdentity {
         certificate: client_identity("OPC UA Configurator", "desk", now()).unwrap().certificate,
         certificate_path: PathBuf::from("/home/engineer/EpsonRC80/OPCUA/Configurator/configurator.der"),
         key_path: PathBuf::from("/home/engineer/EpsonRC80/OPCUA/Configurator/configurator_key.pem"),
@@ -73,7 +73,7 @@ fn endpoint(
 fn troubled() -> VerifyReport {
     let untrusted = || {
         let reason = "neither it nor any of its issuers is in the trust list".to_owned();
-        TokenOutcome::Fails(Refusal::OwnCertificate(Some(RefusalDetails {
+        TokenOutcome::Fails(ConnectRefusal::OwnCertificate(Some(RefusalDetails {
             status: CertificateStatus::Untrusted,
             cause: None,
             reason,
@@ -98,8 +98,8 @@ fn troubled() -> VerifyReport {
         findings: vec![VerifyFinding::WeakPolicy(SecurityPolicy::None)],
         certificate: Some(CertificateVerdict {
             summary: summary(),
-            refused: Some(Rejection { flaw: expired(), subject: "CN=EpsonRC.SN1".into(), depth: 0 }),
-            findings: vec![Finding { flaw: expired(), severity: Severity::Error }],
+            refused: Some(CertificateRejection { flaw: expired(), subject: "CN=EpsonRC.SN1".into(), depth: 0 }),
+            findings: vec![CertificateFinding { flaw: expired(), severity: Severity::Error }],
         }),
         endpoints,
     }

@@ -16,19 +16,19 @@ use std::time::Duration;
 use async_trait::async_trait;
 
 pub use report::{
-    CertificateVerdict, Counts, EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict,
-    VerifyFinding, VerifyReport,
+    CertificateVerdict, ConnectRefusal, EndpointVerdict, NotTried, RefusalDetails, TokenOutcome, TokenVerdict,
+    VerifyCounts, VerifyFinding, VerifyReport,
 };
 
 pub use trust::TrustConfigurator;
 
-use super::{Confirmation, Operation, OperationOutput, OutputFacts, Run, Step};
+use super::{Confirmation, JobStep, Operation, OperationOutput, OperationRun, OutputFacts};
 use crate::model::{
-    ControllerInfo, Credential, ErrorCode, Problem, ServerSettings, ServerStatus, UserTokenPolicy, clock,
+    ControllerInfo, ErrorCode, Problem, ServerSettings, ServerStatus, UserCredential, UserTokenPolicy, clock,
 };
-use crate::pki::{Certificate, Expected, check_server};
-use crate::session::opcua_client::{ConnectTimeouts, Endpoint, OpcUaClient, Target, is_reachable};
-use crate::workspace::OwnIdentityFiles;
+use crate::pki::{Certificate, ExpectedServer, check_server};
+use crate::session::opcua_client::{ConnectTimeouts, Endpoint, OpcUaClient, ServerLocation, is_reachable};
+use crate::workspace::ConfiguratorIdentityFiles;
 use probe::{Probe, clock, compare, offered_policies, refusal_of};
 
 /// Connects as an OPC UA client through every endpoint a controller offers, with every token.
@@ -41,12 +41,12 @@ use probe::{Probe, clock, compare, offered_policies, refusal_of};
 #[derive(Debug, Clone)]
 pub struct Verify {
     /// What this program shows to servers.
-    pub identity: OwnIdentityFiles,
+    pub identity: ConfiguratorIdentityFiles,
     /// Who logs in where a user name is wanted; `None` leaves that out.
-    pub login: Option<Credential>,
+    pub login: Option<UserCredential>,
     /// Put this program's certificate into the trusted list first.
     pub trust_first: bool,
-    pub patience: ConnectTimeouts,
+    pub timeouts: ConnectTimeouts,
 }
 
 impl OperationOutput for VerifyReport {
@@ -64,8 +64,8 @@ impl Operation for Verify {
         self.trust_first.then(Confirmation::default)
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<VerifyReport, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<VerifyReport, Problem> {
+        run.begin(JobStep::Read)?;
         let own = trust::own(&self.identity, run).await?;
         if self.trust_first {
             trust::trust(run, &own).await?;
@@ -75,8 +75,8 @@ impl Operation for Verify {
         let held = run.session.certificates().await?.value;
         let users = run.session.users().await?.value.len();
         let selected = held.of(held.selected).and_then(|der| Certificate::from_der(der).ok());
-        let known = Known { info, settings, selected, users };
-        let target = Target { host: run.controller.address.host().to_owned(), port: known.settings.port.get() };
+        let known = ReportedFacts { info, settings, selected, users };
+        let target = ServerLocation { host: run.controller.address.host().to_owned(), port: known.settings.port.get() };
         let mut report =
             VerifyReport { url: target.url(), own, findings: Vec::new(), certificate: None, endpoints: Vec::new() };
         self.fill(&mut report, run, &known, &target).await?;
@@ -86,7 +86,7 @@ impl Operation for Verify {
 }
 
 /// What the controller says of itself.
-struct Known {
+struct ReportedFacts {
     info: ControllerInfo,
     settings: ServerSettings,
     selected: Option<Certificate>,
@@ -97,11 +97,11 @@ impl Verify {
     async fn fill(
         &self,
         report: &mut VerifyReport,
-        run: &mut Run<'_>,
-        known: &Known,
-        target: &Target,
+        run: &mut OperationRun<'_>,
+        known: &ReportedFacts,
+        target: &ServerLocation,
     ) -> Result<(), Problem> {
-        let Known { info, settings, selected, users } = known;
+        let ReportedFacts { info, settings, selected, users } = known;
         report.findings.extend(clock(info.clock, clock::now()));
         if *users == 0 && !settings.user_tokens.contains(&UserTokenPolicy::Anonymous) {
             report.findings.push(VerifyFinding::NoUsers);
@@ -110,9 +110,9 @@ impl Verify {
             report.findings.push(VerifyFinding::NotRunning { status: info.status, error: info.error });
             return Ok(());
         }
-        run.begin(Step::Verify)?;
-        let (own, patience) = (report.own.clone(), self.patience);
-        let client = run.off_thread(move || OpcUaClient::new(&own, patience)).await?;
+        run.begin(JobStep::Verify)?;
+        let (own, timeouts) = (report.own.clone(), self.timeouts);
+        let client = run.off_thread(move || OpcUaClient::new(&own, timeouts)).await?;
         let endpoints = match client.endpoints(target).await {
             Ok(endpoints) => distinct(endpoints),
             Err(failure) => {
@@ -142,10 +142,10 @@ impl Verify {
     /// Every endpoint shows the same certificate; the first that is not the selected one counts.
     async fn judge(
         &self,
-        run: &Run<'_>,
+        run: &OperationRun<'_>,
         endpoints: &[Endpoint],
-        known: &Known,
-        target: &Target,
+        known: &ReportedFacts,
+        target: &ServerLocation,
     ) -> Result<Option<CertificateVerdict>, Problem> {
         let shown = endpoints.iter().filter_map(|endpoint| Some((endpoint, endpoint.certificates().ok()?.0)));
         let mut shown: Vec<(&Endpoint, Certificate)> = shown.collect();
@@ -157,7 +157,8 @@ impl Verify {
         let verdict = run
             .on_a_core(move || {
                 let now = clock::now();
-                let expected = Expected { application_uri: &application_uri, hosts: &hosts, policies: &policies, now };
+                let expected =
+                    ExpectedServer { application_uri: &application_uri, hosts: &hosts, policies: &policies, now };
                 let check = check_server(&leaf, selected.as_ref(), &expected, controllers_clock);
                 CertificateVerdict { summary: leaf.summary(), refused: check.refused, findings: check.findings }
             })
@@ -177,7 +178,7 @@ fn distinct(mut endpoints: Vec<Endpoint>) -> Vec<Endpoint> {
 }
 
 /// Whether the server names another address than the one it was reached at, in the first endpoint that does.
-async fn other_address(endpoints: &[Endpoint], target: &Target) -> Option<VerifyFinding> {
+async fn other_address(endpoints: &[Endpoint], target: &ServerLocation) -> Option<VerifyFinding> {
     let other = endpoints.iter().find(|endpoint| !endpoint.target().is_some_and(|named| is_same(&named, target)))?;
     let reachable = match other.target() {
         Some(named) => is_reachable(&named, OTHER_ADDRESS).await,
@@ -186,8 +187,8 @@ async fn other_address(endpoints: &[Endpoint], target: &Target) -> Option<Verify
     Some(VerifyFinding::OtherAddress { url: other.url.clone(), reachable })
 }
 
-fn is_same(one: &Target, other: &Target) -> bool {
-    let ip = |target: &Target| target.host.parse::<std::net::IpAddr>();
+fn is_same(one: &ServerLocation, other: &ServerLocation) -> bool {
+    let ip = |target: &ServerLocation| target.host.parse::<std::net::IpAddr>();
     let same_host = match (ip(one), ip(other)) {
         (Ok(one), Ok(other)) => one == other,
         _ => one.host.eq_ignore_ascii_case(&other.host),

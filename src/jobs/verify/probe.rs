@@ -2,39 +2,45 @@ use std::collections::BTreeSet;
 
 use chrono::{DateTime, TimeDelta, Utc};
 
-use super::report::{EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict, VerifyFinding};
-use crate::jobs::{Run, Step};
-use crate::model::{CertificateStatus, Credential, Problem, SecurityPolicy, ServerSettings, UserTokenPolicy};
+use super::report::{
+    ConnectRefusal, EndpointVerdict, NotTried, RefusalDetails, TokenOutcome, TokenVerdict, VerifyFinding,
+};
+use crate::jobs::{JobStep, OperationRun};
+use crate::model::{CertificateStatus, Problem, SecurityPolicy, ServerSettings, UserCredential, UserTokenPolicy};
 use crate::pki::{Certificate, RejectedClient};
 use crate::session::opcua_client::{
-    Cause, Endpoint, Failure, Login, MessageSecurity, OpcUaClient, Stage, Target, TokenKind, is_about_a_certificate,
-    is_about_a_user, printable,
+    ConnectFailure, ConnectFailureCause, ConnectStage, Endpoint, MessageSecurity, OpcUaClient, ServerLocation,
+    TokenKind, UserLogin, is_about_a_certificate, is_about_a_user, printable,
 };
 
 /// What is tried at one server, and with what.
 pub(super) struct Probe<'a> {
     pub client: &'a OpcUaClient,
-    pub target: &'a Target,
+    pub target: &'a ServerLocation,
     pub own: &'a Certificate,
     /// What the server must show.
     pub selected: Option<&'a Certificate>,
-    pub login: Option<&'a Credential>,
+    pub login: Option<&'a UserCredential>,
     /// The controller's clock when this began.
     pub since: DateTime<Utc>,
     /// A password that was refused is not sent a second time.
     pub password_refused: bool,
     /// How this program's certificate was refused at another endpoint.
-    pub certificate_refused: Option<Refusal>,
+    pub certificate_refused: Option<ConnectRefusal>,
 }
 
 impl Probe<'_> {
     /// Every token of one endpoint, one after the other.
-    pub async fn endpoint(&mut self, run: &mut Run<'_>, endpoint: &Endpoint) -> Result<EndpointVerdict, Problem> {
+    pub async fn endpoint(
+        &mut self,
+        run: &mut OperationRun<'_>,
+        endpoint: &Endpoint,
+    ) -> Result<EndpointVerdict, Problem> {
         let mut tokens = Vec::new();
         // What keeps one token out before anybody logs in keeps out the others as well.
-        let mut shut: Option<Refusal> = None;
+        let mut shut: Option<ConnectRefusal> = None;
         for token in &endpoint.tokens {
-            run.begin(Step::Verify)?;
+            run.begin(JobStep::Verify)?;
             let login = self.login_for(endpoint, token.kind, token.protected);
             let verdict = match (login, &shut) {
                 (Err(why), _) => TokenOutcome::NotTried(why),
@@ -42,14 +48,14 @@ impl Probe<'_> {
                 (Ok((expected, login)), None) => {
                     match self.client.attempt(self.target, endpoint, expected, &login).await {
                         Ok(welcome) if welcome.state == RUNNING => TokenOutcome::Works,
-                        Ok(welcome) => TokenOutcome::Fails(Refusal::State(welcome.state)),
+                        Ok(welcome) => TokenOutcome::Fails(ConnectRefusal::State(welcome.state)),
                         Err(failure) => {
                             let refusal = self.refusal(run, endpoint, token.kind, &failure).await;
-                            if failure.stage < Stage::Login {
+                            if failure.stage < ConnectStage::Login {
                                 shut = Some(refusal.clone());
                             }
-                            self.password_refused |= refusal == Refusal::Password;
-                            if matches!(refusal, Refusal::OwnCertificate(Some(_))) {
+                            self.password_refused |= refusal == ConnectRefusal::Password;
+                            if matches!(refusal, ConnectRefusal::OwnCertificate(Some(_))) {
                                 self.certificate_refused = Some(refusal.clone());
                             }
                             TokenOutcome::Fails(refusal)
@@ -67,7 +73,7 @@ impl Probe<'_> {
         endpoint: &Endpoint,
         kind: TokenKind,
         protected: bool,
-    ) -> Result<(&Certificate, Login), NotTried> {
+    ) -> Result<(&Certificate, UserLogin), NotTried> {
         let Ok(policy) = endpoint.policy else { return Err(NotTried::UnknownSecurity) };
         let secured = match (policy, endpoint.mode) {
             (SecurityPolicy::None, Some(MessageSecurity::None)) => false,
@@ -87,26 +93,32 @@ impl Probe<'_> {
             }
         }
         match (kind, self.login) {
-            (TokenKind::Anonymous, _) => Ok((selected, Login::Anonymous)),
+            (TokenKind::Anonymous, _) => Ok((selected, UserLogin::Anonymous)),
             (TokenKind::Certificate | TokenKind::Issued, _) => Err(NotTried::OtherToken),
             (TokenKind::UserName, None) => Err(NotTried::NoPassword),
             (TokenKind::UserName, Some(_)) if !protected => Err(NotTried::PasswordInTheClear),
             (TokenKind::UserName, Some(_)) if self.password_refused => Err(NotTried::PasswordRefused),
-            (TokenKind::UserName, Some(Credential { name, password })) => {
-                Ok((selected, Login::User { name: name.as_str().to_owned(), password: password.secret().clone() }))
+            (TokenKind::UserName, Some(UserCredential { name, password })) => {
+                Ok((selected, UserLogin::User { name: name.as_str().to_owned(), password: password.secret().clone() }))
             }
         }
     }
 
     /// What a failure means, with the true reason where the controller tells it.
-    async fn refusal(&self, run: &mut Run<'_>, endpoint: &Endpoint, kind: TokenKind, failure: &Failure) -> Refusal {
+    async fn refusal(
+        &self,
+        run: &mut OperationRun<'_>,
+        endpoint: &Endpoint,
+        kind: TokenKind,
+        failure: &ConnectFailure,
+    ) -> ConnectRefusal {
         let secured = endpoint.policy != Ok(SecurityPolicy::None);
-        let early = matches!(failure.stage, Stage::Channel | Stage::CreateSession);
-        let closed = failure.cause == Cause::Closed;
+        let early = matches!(failure.stage, ConnectStage::Channel | ConnectStage::CreateSession);
+        let closed = failure.cause == ConnectFailureCause::Closed;
         if secured && early && (closed || failure.status().is_some_and(is_about_a_certificate)) {
-            let why = self.told_why(run).await;
+            let why = self.ask_for_reason(run).await;
             if why.is_some() || !closed {
-                return Refusal::OwnCertificate(why.or_else(|| told_plainly(failure)));
+                return ConnectRefusal::OwnCertificate(why.or_else(|| stated_reason(failure)));
             }
             // A server says no more to an address it has refused too often.
             if let Some(before) = &self.certificate_refused {
@@ -114,18 +126,22 @@ impl Probe<'_> {
             }
         }
         match (refusal_of(failure), failure.stage, kind) {
-            (Refusal::Status { name, .. }, Stage::Login, TokenKind::UserName) if is_about_a_user(&name) => {
-                Refusal::Password
+            (ConnectRefusal::Status { name, .. }, ConnectStage::Login, TokenKind::UserName)
+                if is_about_a_user(&name) =>
+            {
+                ConnectRefusal::Password
             }
-            (Refusal::Status { name, .. }, Stage::Login, TokenKind::Anonymous) if is_about_a_user(&name) => {
-                Refusal::Anonymous
+            (ConnectRefusal::Status { name, .. }, ConnectStage::Login, TokenKind::Anonymous)
+                if is_about_a_user(&name) =>
+            {
+                ConnectRefusal::Anonymous
             }
             (refusal, ..) => refusal,
         }
     }
 
     /// Why the controller refused this program's certificate just now, if it did and says so.
-    async fn told_why(&self, run: &mut Run<'_>) -> Option<RefusalDetails> {
+    async fn ask_for_reason(&self, run: &mut OperationRun<'_>) -> Option<RefusalDetails> {
         let rejected = run.session.rejected_clients().await.inspect_err(|problem| {
             tracing::info!(%problem, "the controller does not tell whom it refused");
         });
@@ -136,21 +152,25 @@ impl Probe<'_> {
 }
 
 /// The reason of a failure that does not depend on the user token.
-pub(super) fn refusal_of(failure: &Failure) -> Refusal {
+pub(super) fn refusal_of(failure: &ConnectFailure) -> ConnectRefusal {
     match &failure.cause {
-        Cause::NotReachable(why) => Refusal::NotReachable(why.clone()),
-        Cause::TimedOut => Refusal::TimedOut,
-        Cause::NotOpcUa(why) => Refusal::NotOpcUa(why.clone()),
-        Cause::Closed => Refusal::Closed,
-        Cause::OtherCertificate => Refusal::OtherCertificate,
-        Cause::Status { name, .. } if BUSY.contains(&name.as_str()) => Refusal::Busy(name.clone()),
-        Cause::Status { name, reason, .. } => Refusal::Status { name: name.clone(), reason: reason.clone() },
-        Cause::Internal(why) => Refusal::Status { name: "BadInternalError".to_owned(), reason: why.clone() },
+        ConnectFailureCause::NotReachable(why) => ConnectRefusal::NotReachable(why.clone()),
+        ConnectFailureCause::TimedOut => ConnectRefusal::TimedOut,
+        ConnectFailureCause::NotOpcUa(why) => ConnectRefusal::NotOpcUa(why.clone()),
+        ConnectFailureCause::Closed => ConnectRefusal::Closed,
+        ConnectFailureCause::OtherCertificate => ConnectRefusal::OtherCertificate,
+        ConnectFailureCause::Status { name, .. } if BUSY.contains(&name.as_str()) => ConnectRefusal::Busy(name.clone()),
+        ConnectFailureCause::Status { name, reason, .. } => {
+            ConnectRefusal::Status { name: name.clone(), reason: reason.clone() }
+        }
+        ConnectFailureCause::Internal(why) => {
+            ConnectRefusal::Status { name: "BadInternalError".to_owned(), reason: why.clone() }
+        }
     }
 }
 
 /// A server that tells the client itself, which the standard advises against.
-fn told_plainly(failure: &Failure) -> Option<RefusalDetails> {
+fn stated_reason(failure: &ConnectFailure) -> Option<RefusalDetails> {
     let status = failure.status()?.parse().ok().filter(|status| *status != CertificateStatus::SecurityChecksFailed)?;
     Some(RefusalDetails { status, cause: None, reason: failure.cause.to_string() })
 }
@@ -205,24 +225,30 @@ const BUSY: [&str; 5] = [
 mod tests {
     use super::*;
 
-    fn status(stage: Stage, name: &str) -> Failure {
-        Failure { stage, cause: Cause::Status { code: 0, name: name.into(), reason: String::new() } }
+    fn status(stage: ConnectStage, name: &str) -> ConnectFailure {
+        ConnectFailure {
+            stage,
+            cause: ConnectFailureCause::Status { code: 0, name: name.into(), reason: String::new() },
+        }
     }
 
     #[test]
     fn a_server_without_room_is_told_from_one_that_refuses() {
         assert_eq!(
-            refusal_of(&status(Stage::Channel, "BadTcpServerTooBusy")),
-            Refusal::Busy("BadTcpServerTooBusy".into())
+            refusal_of(&status(ConnectStage::Channel, "BadTcpServerTooBusy")),
+            ConnectRefusal::Busy("BadTcpServerTooBusy".into())
         );
-        assert!(matches!(refusal_of(&status(Stage::Channel, "BadSecurityPolicyRejected")), Refusal::Status { .. }));
+        assert!(matches!(
+            refusal_of(&status(ConnectStage::Channel, "BadSecurityPolicyRejected")),
+            ConnectRefusal::Status { .. }
+        ));
         assert!(is_about_a_certificate("BadSecurityChecksFailed") && !is_about_a_certificate("BadTimeout"));
     }
 
     #[test]
     fn a_status_that_tells_nothing_is_no_reason() {
-        assert_eq!(told_plainly(&status(Stage::Channel, "BadSecurityChecksFailed")), None);
-        let told = told_plainly(&status(Stage::Channel, "BadCertificateRevoked"));
+        assert_eq!(stated_reason(&status(ConnectStage::Channel, "BadSecurityChecksFailed")), None);
+        let told = stated_reason(&status(ConnectStage::Channel, "BadCertificateRevoked"));
         assert_eq!(told.map(|told| told.status), Some(CertificateStatus::Revoked));
     }
 

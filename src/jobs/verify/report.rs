@@ -1,9 +1,9 @@
 use chrono::TimeDelta;
 
 use crate::model::{CertificateStatus, CertificateSummary, ErrorCode, SecurityPolicy, ServerStatus, UserTokenPolicy};
-use crate::pki::{Finding, RefusalCause, Rejection, Severity};
+use crate::pki::{CertificateFinding, CertificateRejection, RefusalCause, Severity};
 use crate::session::opcua_client::{MessageSecurity, TokenKind};
-use crate::workspace::OwnIdentity;
+use crate::workspace::ConfiguratorIdentity;
 
 /// What came of connecting to one controller's OPC UA server as a client does.
 #[derive(Debug, Clone, PartialEq)]
@@ -11,7 +11,7 @@ pub struct VerifyReport {
     /// What was connected to: the address in the engineer's list, and the port of the basic settings.
     pub url: String,
     /// What this program showed to the server.
-    pub own: OwnIdentity,
+    pub own: ConfiguratorIdentity,
     /// Errors first.
     pub findings: Vec<VerifyFinding>,
     /// `None`: the server showed none.
@@ -25,9 +25,9 @@ pub struct VerifyReport {
 pub struct CertificateVerdict {
     pub summary: CertificateSummary,
     /// Why it is refused (OPC 10000-4 §6.1.3); `None`: it is accepted.
-    pub refused: Option<Rejection>,
+    pub refused: Option<CertificateRejection>,
     /// Everything clients may say about it, errors first.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<CertificateFinding>,
 }
 
 /// One endpoint: a security policy with a mode.
@@ -50,13 +50,13 @@ pub struct TokenVerdict {
 pub enum TokenOutcome {
     /// A session was activated, and values were read.
     Works,
-    Fails(Refusal),
+    Fails(ConnectRefusal),
     NotTried(NotTried),
 }
 
 /// Why a client does not get in.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Refusal {
+pub enum ConnectRefusal {
     /// No TCP connection; the operating system's words.
     NotReachable(String),
     TimedOut,
@@ -121,7 +121,7 @@ pub enum VerifyFinding {
         error: Option<ErrorCode>,
     },
     /// The server could not be asked for its endpoints.
-    NoAnswer(Refusal),
+    NoAnswer(ConnectRefusal),
     NoEndpoints,
     /// Ticked in the basic settings, but not offered.
     PolicyMissing(SecurityPolicy),
@@ -152,8 +152,8 @@ impl VerifyReport {
     }
 
     /// What was offered: how much of it works, fails, was not tried.
-    pub fn counts(&self) -> Counts {
-        let mut counts = Counts::default();
+    pub fn counts(&self) -> VerifyCounts {
+        let mut counts = VerifyCounts::default();
         for verdict in self.verdicts() {
             match verdict {
                 TokenOutcome::Works => counts.work += 1,
@@ -167,7 +167,7 @@ impl VerifyReport {
     /// The server refuses this program because nobody has trusted its certificate yet, or for a reason nobody knows.
     pub fn lacks_trust(&self) -> bool {
         self.verdicts().any(|verdict| match verdict {
-            TokenOutcome::Fails(Refusal::OwnCertificate(why)) => {
+            TokenOutcome::Fails(ConnectRefusal::OwnCertificate(why)) => {
                 why.as_ref().is_none_or(|told| told.status == CertificateStatus::Untrusted)
             }
             _ => false,
@@ -186,7 +186,7 @@ impl VerifyReport {
 
 impl CertificateVerdict {
     /// Without what is the reason of the refusal.
-    pub fn further_findings(&self) -> impl Iterator<Item = &Finding> {
+    pub fn further_findings(&self) -> impl Iterator<Item = &CertificateFinding> {
         let told = self.refused.as_ref().map(|rejection| &rejection.flaw);
         self.findings.iter().filter(move |finding| Some(&finding.flaw) != told)
     }
@@ -194,7 +194,7 @@ impl CertificateVerdict {
 
 /// See [`VerifyReport::counts`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Counts {
+pub struct VerifyCounts {
     pub work: usize,
     pub fail: usize,
     pub not_tried: usize,

@@ -1,40 +1,43 @@
 use async_trait::async_trait;
 
-use crate::jobs::{Confirmation, Done, Operation, Run, Step, TrustSnapshot};
+use crate::jobs::{Confirmation, JobStep, NoOutput, Operation, OperationRun, TrustSnapshot};
 use crate::model::{Base64Bytes, ClientList, ErrorCode, Problem, TrustStep, clock};
-use crate::workspace::{OwnIdentity, OwnIdentityFiles};
+use crate::workspace::{ConfiguratorIdentity, ConfiguratorIdentityFiles};
 
 /// Puts this program's own certificate into the trusted list of a controller, if it is not there yet, so that it may
 /// connect as an OPC UA client like any other.
 #[derive(Debug, Clone)]
 pub struct TrustConfigurator {
-    pub identity: OwnIdentityFiles,
+    pub identity: ConfiguratorIdentityFiles,
 }
 
 #[async_trait]
 impl Operation for TrustConfigurator {
-    type Output = Done;
+    type Output = NoOutput;
 
     fn confirmation(&self) -> Option<Confirmation> {
         Some(Confirmation::default())
     }
 
-    async fn run(&self, run: &mut Run<'_>) -> Result<Done, Problem> {
-        run.begin(Step::Read)?;
+    async fn run(&self, run: &mut OperationRun<'_>) -> Result<NoOutput, Problem> {
+        run.begin(JobStep::Read)?;
         let own = own(&self.identity, run).await?;
         trust(run, &own).await?;
-        Ok(Done)
+        Ok(NoOutput)
     }
 }
 
 /// The program's own certificate; made if there is none yet.
-pub(super) async fn own(files: &OwnIdentityFiles, run: &Run<'_>) -> Result<OwnIdentity, Problem> {
+pub(super) async fn own(
+    files: &ConfiguratorIdentityFiles,
+    run: &OperationRun<'_>,
+) -> Result<ConfiguratorIdentity, Problem> {
     let files = files.clone();
     Ok(run.on_a_core(move || files.load_or_make(clock::now())).await??)
 }
 
 /// Does nothing if it is trusted already.
-pub(super) async fn trust(run: &mut Run<'_>, own: &OwnIdentity) -> Result<(), Problem> {
+pub(super) async fn trust(run: &mut OperationRun<'_>, own: &ConfiguratorIdentity) -> Result<(), Problem> {
     let before = TrustSnapshot::read(run.session).await?;
     let thumbprint = own.certificate.thumbprint_sha1();
     if before.holds(ClientList::Trusted, &thumbprint) {
@@ -51,7 +54,7 @@ pub(super) async fn trust(run: &mut Run<'_>, own: &OwnIdentity) -> Result<(), Pr
         let certificates = vec![(name, Base64Bytes(own.certificate.der().to_vec()))];
         TrustStep::Add { list: ClientList::Trusted, certificates }
     };
-    run.begin(Step::Apply)?;
+    run.begin(JobStep::Apply)?;
     run.session.edit_trust(before.revision, vec![step]).await?;
     Ok(())
 }

@@ -2,8 +2,8 @@ use thiserror::Error;
 
 use super::{ActivationKeys, KeyError};
 use crate::model::SerialNumber;
-use crate::model::table::{SEPARATORS, Table, TableRow};
 use crate::model::text::{self, TextError};
+use crate::model::text_table::{SEPARATORS, TextTable, TextTableRow};
 
 /// What the first line of an activation file says, and nothing else.
 pub const FIRST_LINE: &str = "OPCUA.Activation.Ver.1.0";
@@ -40,12 +40,12 @@ pub struct LineMistake {
     pub line: usize,
     /// Whom the line is for, as far as that can be read.
     pub serial: Option<SerialNumber>,
-    pub mistake: Mistake,
+    pub mistake: ActivationMistake,
 }
 
 /// What is wrong with a line. Never carries a key.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
-pub enum Mistake {
+pub enum ActivationMistake {
     #[error("it has {0} field{s}; serial number, licence key and activation key are required", s = if *.0 == 1 { "" } else { "s" })]
     Fields(usize),
     #[error("its fields are separated by {found:?}, those of the lines before by {expected:?}")]
@@ -95,7 +95,7 @@ fn difference(found: &str) -> String {
 
 /// What an activation file says about one controller.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Entry<'a> {
+pub enum ActivationEntry<'a> {
     Line(&'a ActivationLine),
     Mistake(&'a LineMistake),
     Missing,
@@ -113,26 +113,26 @@ impl ActivationFile {
     }
 
     /// What the file says about a controller. Upper and lower case of its serial number do not matter.
-    pub fn find(&self, serial: &SerialNumber) -> Entry<'_> {
+    pub fn find(&self, serial: &SerialNumber) -> ActivationEntry<'_> {
         let is_it = |found: &SerialNumber| found.as_str().eq_ignore_ascii_case(serial.as_str());
         if let Some(line) = self.lines.iter().find(|line| is_it(&line.serial)) {
-            return Entry::Line(line);
+            return ActivationEntry::Line(line);
         }
         match self.mistakes.iter().find(|mistake| mistake.serial.as_ref().is_some_and(is_it)) {
-            Some(mistake) => Entry::Mistake(mistake),
-            None => Entry::Missing,
+            Some(mistake) => ActivationEntry::Mistake(mistake),
+            None => ActivationEntry::Missing,
         }
     }
 }
 
 /// Reads an activation file: text as [`text::decode`] takes it, first line [`FIRST_LINE`], then
 /// `serial,licence,activation`, one controller a line. What spreadsheets add when they save it does not matter, see
-/// [`Table::read`]: other separators, quotation marks, empty lines, and empty fields at the end.
+/// [`TextTable::read`]: other separators, quotation marks, empty lines, and empty fields at the end.
 pub fn parse(bytes: &[u8]) -> Result<ActivationFile, ActivationFileError> {
     if bytes.len() > MAX_ACTIVATION_FILE_BYTES {
         return Err(ActivationFileError::TooLarge(bytes.len()));
     }
-    let table = Table::read(&text::decode(bytes)?, usize::MAX);
+    let table = TextTable::read(&text::decode(bytes)?, usize::MAX);
     let (first, rows) = table.rows.split_first().ok_or(ActivationFileError::Empty)?;
     if first.fields != [FIRST_LINE] {
         return Err(ActivationFileError::FirstLine(shown(first)));
@@ -150,14 +150,14 @@ pub fn parse(bytes: &[u8]) -> Result<ActivationFile, ActivationFileError> {
 
 /// Whether text begins as an activation file, of whatever version and case.
 pub fn begins(text: &str) -> bool {
-    let first = Table::read(text, 1).rows.into_iter().next().and_then(|row| row.fields.into_iter().next());
+    let first = TextTable::read(text, 1).rows.into_iter().next().and_then(|row| row.fields.into_iter().next());
     first.is_some_and(|field| {
         field.get(..FIRST_LINE_START.len()).is_some_and(|start| start.eq_ignore_ascii_case(FIRST_LINE_START))
     })
 }
 
 /// The first field of a first line that is another but like it, short enough for a message.
-fn shown(first: &TableRow) -> String {
+fn shown(first: &TextTableRow) -> String {
     let field = first.fields.first().map_or("", String::as_str);
     let folded = field.to_ascii_lowercase();
     if !folded.contains("opcua") && !folded.contains("activation") {
@@ -173,7 +173,7 @@ fn shown(first: &TableRow) -> String {
 /// Where the end of the first line is missing, the serial number follows it, and then the keys.
 const MAX_SHOWN: usize = FIRST_LINE.len() + 8;
 
-fn one(row: &TableRow, separator: char) -> Result<ActivationLine, LineMistake> {
+fn one(row: &TextTableRow, separator: char) -> Result<ActivationLine, LineMistake> {
     let (line, fields) = (row.line, &row.fields);
     let is_other = |found: &char| *found != separator && fields.len() == 1 && fields[0].contains(*found);
     let other = SEPARATORS.into_iter().find(is_other);
@@ -186,19 +186,19 @@ fn one(row: &TableRow, separator: char) -> Result<ActivationLine, LineMistake> {
     let serial = first.and_then(|serial| serial.trim().parse::<SerialNumber>().ok());
     let wrong = |mistake| LineMistake { line, serial: serial.clone(), mistake };
     if row.is_broken {
-        return Err(wrong(Mistake::Quotes));
+        return Err(wrong(ActivationMistake::Quotes));
     }
     if let Some(found) = other {
-        return Err(wrong(Mistake::Separator { found, expected: separator }));
+        return Err(wrong(ActivationMistake::Separator { found, expected: separator }));
     }
     let [_, licence, activation] = &fields[..] else {
-        return Err(wrong(Mistake::Fields(fields.len())));
+        return Err(wrong(ActivationMistake::Fields(fields.len())));
     };
     let Some(serial) = serial.clone() else {
-        return Err(wrong(Mistake::Serial));
+        return Err(wrong(ActivationMistake::Serial));
     };
-    let licence = licence.parse().map_err(|error| wrong(Mistake::Licence(error)))?;
-    let activation = activation.parse().map_err(|error| wrong(Mistake::Activation(error)))?;
+    let licence = licence.parse().map_err(|error| wrong(ActivationMistake::Licence(error)))?;
+    let activation = activation.parse().map_err(|error| wrong(ActivationMistake::Activation(error)))?;
     Ok(ActivationLine { line, serial, keys: ActivationKeys { licence, activation } })
 }
 
@@ -215,7 +215,7 @@ impl ActivationFile {
             let elsewhere =
                 by_serial.get(&folded(&line.serial)).and_then(|lines| lines.iter().find(|other| **other != line.line));
             if let Some(other) = elsewhere {
-                let mistake = Mistake::Duplicate(*other);
+                let mistake = ActivationMistake::Duplicate(*other);
                 duplicates.push(LineMistake { line: line.line, serial: Some(line.serial.clone()), mistake });
             }
             elsewhere.is_none()
@@ -233,7 +233,7 @@ mod tests {
         R7A0000001,aaaa-aaaa-aaaa-aaaa,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n\
         R9B0000001,bbbb-bbbb-bbbb-bbbb,YYYY-YYYY-YYYY-YYYY-YYYY-YYYY\n";
 
-    fn mistakes(body: &str) -> Vec<(usize, Mistake)> {
+    fn mistakes(body: &str) -> Vec<(usize, ActivationMistake)> {
         let file = parse(format!("{FIRST_LINE}\n{body}").as_bytes()).unwrap();
         file.mistakes().iter().map(|m| (m.line, m.mistake.clone())).collect()
     }
@@ -285,7 +285,7 @@ mod tests {
             let file = read(name);
             assert_eq!(file.lines().len(), 4, "{name}");
             for line in expected.lines() {
-                let Entry::Line(found) = file.find(&line.serial) else { panic!("{name}: {}", line.serial) };
+                let ActivationEntry::Line(found) = file.find(&line.serial) else { panic!("{name}: {}", line.serial) };
                 assert_eq!(found.keys, line.keys, "{name}");
             }
         }
@@ -336,22 +336,22 @@ mod tests {
         assert_eq!(
             mistakes(body),
             [
-                (2, Mistake::Fields(2)),
-                (4, Mistake::Serial),
-                (5, Mistake::Licence(KeyError::Length { found: 15, expected: 16 })),
-                (6, Mistake::Activation(KeyError::Character('！'))),
-                (7, Mistake::Separator { found: ';', expected: ',' }),
-                (8, Mistake::Fields(1)),
-                (9, Mistake::Fields(4)),
-                (11, Mistake::Quotes),
+                (2, ActivationMistake::Fields(2)),
+                (4, ActivationMistake::Serial),
+                (5, ActivationMistake::Licence(KeyError::Length { found: 15, expected: 16 })),
+                (6, ActivationMistake::Activation(KeyError::Character('！'))),
+                (7, ActivationMistake::Separator { found: ';', expected: ',' }),
+                (8, ActivationMistake::Fields(1)),
+                (9, ActivationMistake::Fields(4)),
+                (11, ActivationMistake::Quotes),
             ]
         );
         let text = format!("{FIRST_LINE}\n{body}");
         let file = parse(text.as_bytes()).unwrap();
         let other = file.find(&"R7A0000005".parse().unwrap());
-        assert!(matches!(other, Entry::Mistake(LineMistake { line: 7, .. })), "{other:?}");
-        assert!(Mistake::Fields(1).to_string().starts_with("it has 1 field;"));
-        assert!(Mistake::Fields(2).to_string().starts_with("it has 2 fields;"));
+        assert!(matches!(other, ActivationEntry::Mistake(LineMistake { line: 7, .. })), "{other:?}");
+        assert!(ActivationMistake::Fields(1).to_string().starts_with("it has 1 field;"));
+        assert!(ActivationMistake::Fields(2).to_string().starts_with("it has 2 fields;"));
     }
 
     #[test]
@@ -359,11 +359,11 @@ mod tests {
         let text = format!("{SAMPLE}r7a0000001,cccc-cccc-cccc-cccc,XXXX-XXXX-XXXX-XXXX-XXXX-XXXX\n");
         let file = parse(text.as_bytes()).unwrap();
         let serial = "R7A0000001".parse().unwrap();
-        let Entry::Mistake(mistake) = file.find(&serial) else { panic!("{file:?}") };
-        assert_eq!((mistake.line, &mistake.mistake), (2, &Mistake::Duplicate(4)));
-        assert_eq!(file.mistakes()[1].mistake, Mistake::Duplicate(2));
-        assert!(matches!(file.find(&"R9B0000001".parse().unwrap()), Entry::Line(_)));
-        assert_eq!(file.find(&"TVT0000001".parse().unwrap()), Entry::Missing);
+        let ActivationEntry::Mistake(mistake) = file.find(&serial) else { panic!("{file:?}") };
+        assert_eq!((mistake.line, &mistake.mistake), (2, &ActivationMistake::Duplicate(4)));
+        assert_eq!(file.mistakes()[1].mistake, ActivationMistake::Duplicate(2));
+        assert!(matches!(file.find(&"R9B0000001".parse().unwrap()), ActivationEntry::Line(_)));
+        assert_eq!(file.find(&"TVT0000001".parse().unwrap()), ActivationEntry::Missing);
     }
 
     #[test]

@@ -5,15 +5,15 @@
 //! |---|---|
 //! | `keys` | [`LicenceKey`] and [`ActivationKey`]: text from a mail or a sheet becomes a key, or says what is wrong |
 //! | `file` | [`ActivationFile`]: bytes become lines, each mistake with its line number |
-//! | `plan` | [`Plan`]: which controller gets which line, before anything is sent |
+//! | `plan` | [`ActivationPlan`]: which controller gets which line, before anything is sent |
 
 mod file;
 mod keys;
 mod plan;
 
 pub use file::{
-    ActivationFile, ActivationFileError, ActivationLine, Entry, FIRST_LINE, LineMistake, MAX_ACTIVATION_FILE_BYTES,
-    Mistake, begins, parse,
+    ActivationEntry, ActivationFile, ActivationFileError, ActivationLine, ActivationMistake, FIRST_LINE, LineMistake,
+    MAX_ACTIVATION_FILE_BYTES, begins, parse,
 };
 pub use keys::{ActivationKey, ActivationKeys, KeyError, LicenceKey};
-pub use plan::{ActivationDecision, Plan, PlannedActivation, plan};
+pub use plan::{ActivationDecision, ActivationPlan, PlannedActivation, plan};

@@ -1,9 +1,9 @@
-use super::{ActivationFile, Entry};
+use super::{ActivationEntry, ActivationFile};
 use crate::model::{ControllerName, FirmwareGeneration, FirmwareVersion, SerialNumber};
 
 /// What an activation file means for the ticked controllers: what a dialog shows before anything is sent.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Plan {
+pub struct ActivationPlan {
     /// One for each ticked controller, in their order.
     pub controllers: Vec<PlannedActivation>,
     /// Good lines that no ticked controller needs: number and serial number.
@@ -30,7 +30,7 @@ pub enum ActivationDecision {
     FirmwareTooNew,
 }
 
-impl Plan {
+impl ActivationPlan {
     /// How many controllers get keys.
     pub fn ready(&self) -> usize {
         self.controllers.iter().filter(|c| matches!(c.decision, ActivationDecision::Activate { .. })).count()
@@ -38,12 +38,12 @@ impl Plan {
 }
 
 /// Looks every ticked controller up in the file.
-pub fn plan(file: &ActivationFile, controllers: &[(ControllerName, SerialNumber, FirmwareVersion)]) -> Plan {
+pub fn plan(file: &ActivationFile, controllers: &[(ControllerName, SerialNumber, FirmwareVersion)]) -> ActivationPlan {
     let decision = |serial, firmware: FirmwareVersion| match (firmware.generation(), file.find(serial)) {
         (FirmwareGeneration::Current, _) => ActivationDecision::FirmwareTooNew,
-        (FirmwareGeneration::Legacy, Entry::Line(line)) => ActivationDecision::Activate { line: line.line },
-        (FirmwareGeneration::Legacy, Entry::Mistake(mistake)) => ActivationDecision::Mistake(mistake.clone()),
-        (FirmwareGeneration::Legacy, Entry::Missing) => ActivationDecision::Missing,
+        (FirmwareGeneration::Legacy, ActivationEntry::Line(line)) => ActivationDecision::Activate { line: line.line },
+        (FirmwareGeneration::Legacy, ActivationEntry::Mistake(mistake)) => ActivationDecision::Mistake(mistake.clone()),
+        (FirmwareGeneration::Legacy, ActivationEntry::Missing) => ActivationDecision::Missing,
     };
     let controllers: Vec<PlannedActivation> = controllers
         .iter()
@@ -62,12 +62,12 @@ pub fn plan(file: &ActivationFile, controllers: &[(ControllerName, SerialNumber,
         .collect();
     let unused = file.lines().iter().filter(|line| !needed.contains(&line.line));
     let unused = unused.map(|line| (line.line, line.serial.clone())).collect();
-    Plan { controllers, unused }
+    ActivationPlan { controllers, unused }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Mistake, parse};
+    use super::super::{ActivationMistake, parse};
     use super::*;
 
     #[test]
@@ -95,7 +95,7 @@ mod tests {
         let verdicts: Vec<&ActivationDecision> = plan.controllers.iter().map(|c| &c.decision).collect();
         assert_eq!(verdicts[0], &ActivationDecision::Activate { line: 2 });
         assert!(
-            matches!(verdicts[1], ActivationDecision::Mistake(m) if m.line == 3 && m.mistake == Mistake::Fields(4))
+            matches!(verdicts[1], ActivationDecision::Mistake(m) if m.line == 3 && m.mistake == ActivationMistake::Fields(4))
         );
         assert_eq!(verdicts[2..], [&ActivationDecision::Missing, &ActivationDecision::FirmwareTooNew]);
         assert_eq!(plan.ready(), 1);

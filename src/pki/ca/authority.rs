@@ -42,11 +42,12 @@ impl CertificateAuthority {
         let name = encode::name(&request.subject)?;
         let public_key = encode::public_key(&key)?;
         let key_id = encode::key_id(&public_key)?;
-        let dates = Dates {
+        let dates = ValidityPeriod {
             not_before: now.checked_sub_signed(CLOCK_SKEW).ok_or(PkiError::Dates)?,
             not_after: now.checked_add_signed(request.validity.duration()).ok_or(PkiError::Dates)?,
         };
-        let draft = Draft { subject: name.clone(), public_key, dates, extensions: ca_extensions(path_length)? };
+        let draft =
+            UnsignedCertificate { subject: name.clone(), public_key, dates, extensions: ca_extensions(path_length)? };
         let certificate = draft.signed((&name, &key_id, &key))?;
         Ok(Self { certificate, key, name, key_id })
     }
@@ -67,7 +68,7 @@ impl CertificateAuthority {
         let public_key = encode::public_key(&key)?;
         let key_id = encode::key_id(&public_key)?;
         let dates = self.dates(request.validity.duration(), now)?;
-        let draft = Draft { subject: name.clone(), public_key, dates, extensions: ca_extensions(0)? };
+        let draft = UnsignedCertificate { subject: name.clone(), public_key, dates, extensions: ca_extensions(0)? };
         let certificate = self.certify(draft)?;
         Ok(Self { certificate, key, name, key_id })
     }
@@ -112,17 +113,17 @@ impl CertificateAuthority {
     }
 
     /// From a day ago until `now` plus `validity`, but never beyond this CA's own dates.
-    pub(super) fn dates(&self, validity: chrono::Duration, now: DateTime<Utc>) -> Result<Dates, PkiError> {
+    pub(super) fn dates(&self, validity: chrono::Duration, now: DateTime<Utc>) -> Result<ValidityPeriod, PkiError> {
         self.check_valid(now)?;
         let not_before = now.checked_sub_signed(CLOCK_SKEW).ok_or(PkiError::Dates)?;
         let not_after = now.checked_add_signed(validity).ok_or(PkiError::Dates)?;
-        Ok(Dates {
+        Ok(ValidityPeriod {
             not_before: not_before.max(self.certificate.not_before()),
             not_after: not_after.min(self.certificate.not_after()),
         })
     }
 
-    pub(super) fn certify(&self, draft: Draft) -> Result<Certificate, PkiError> {
+    pub(super) fn certify(&self, draft: UnsignedCertificate) -> Result<Certificate, PkiError> {
         draft.signed((&self.name, &self.key_id, &self.key))
     }
 }
@@ -134,21 +135,21 @@ impl fmt::Debug for CertificateAuthority {
 }
 
 /// When a certificate is valid, both ends included.
-pub(super) struct Dates {
+pub(super) struct ValidityPeriod {
     pub not_before: DateTime<Utc>,
     pub not_after: DateTime<Utc>,
 }
 
 /// A certificate that is still to be signed.
-pub(super) struct Draft {
+pub(super) struct UnsignedCertificate {
     pub subject: Name,
     pub public_key: SubjectPublicKeyInfoOwned,
-    pub dates: Dates,
+    pub dates: ValidityPeriod,
     /// Without the key identifiers, which every certificate gets.
     pub extensions: Vec<Extension>,
 }
 
-impl Draft {
+impl UnsignedCertificate {
     fn signed(self, (issuer, issuer_id, key): (&Name, &OctetString, &PrivateKey)) -> Result<Certificate, PkiError> {
         let mut extensions = self.extensions;
         extensions.push(encode::extension(&SubjectKeyIdentifier(encode::key_id(&self.public_key)?))?);

@@ -4,9 +4,9 @@ use x509_cert::ext::Extension;
 use x509_cert::ext::pkix::{BasicConstraints, ExtendedKeyUsage, KeyUsage, KeyUsages};
 
 use super::CertificateAuthority;
-use super::authority::Draft;
+use super::authority::UnsignedCertificate;
 use super::encode;
-use super::requested::Requested;
+use super::requested::RequestedContents;
 use crate::model::{CertificateProfile, Validity};
 use crate::pki::{Certificate, Csr, PkiError, ServerNames};
 
@@ -35,7 +35,7 @@ impl CertificateAuthority {
         if bits < shortest {
             return Err(PkiError::ShortKey(bits));
         }
-        let requested = Requested::read(csr, request.names.as_ref())?;
+        let requested = RequestedContents::read(csr, request.names.as_ref())?;
         if requested.subject == self.name {
             return Err(PkiError::CsrRefused("asks for the name of the CA"));
         }
@@ -44,7 +44,7 @@ impl CertificateAuthority {
         }
         let mut extensions = extensions(request.profile)?;
         extensions.push(encode::extension(&requested.names)?);
-        self.certify(Draft {
+        self.certify(UnsignedCertificate {
             subject: requested.subject,
             public_key: requested.public_key,
             dates: self.dates(request.validity.duration(), now)?,

@@ -14,14 +14,14 @@ use crate::pki::csr::requested_extensions;
 use crate::pki::{Csr, PkiError, ServerNames};
 
 /// What of a signing request goes into the certificate.
-pub(super) struct Requested {
+pub(super) struct RequestedContents {
     /// Order, repetitions and string types as they were asked for: a tool compares them with its own.
     pub subject: Name,
     pub public_key: SubjectPublicKeyInfoOwned,
     pub names: SubjectAltName,
 }
 
-impl Requested {
+impl RequestedContents {
     /// `instead` replaces the names of the request.
     pub fn read(csr: &Csr, instead: Option<&ServerNames>) -> Result<Self, PkiError> {
         let (_, parsed) = X509CertificationRequest::from_der(csr.der()).map_err(|_| PkiError::NotACsr)?;

@@ -8,7 +8,7 @@ use chrono::{DateTime, Utc};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::name::quoted;
-use super::{KeyUsage, RevocationReason, Role};
+use super::{KeyUsage, PeerRole, RevocationReason};
 use crate::model::CertificateStatus as Status;
 
 /// One thing that is wrong with a certificate.
@@ -157,7 +157,7 @@ pub enum CertificateFlaw {
     },
     /// Its extended key usages leave out what the application is.
     NotForRole {
-        role: Role,
+        role: PeerRole,
     },
     ExtendedKeyUsageMissing,
     /// It issued a certificate, but is not a CA.
@@ -166,7 +166,7 @@ pub enum CertificateFlaw {
     MayNotIssue,
     /// Its extended key usages leave out what it issued a certificate for.
     MayNotIssueFor {
-        role: Role,
+        role: PeerRole,
     },
     TooManyAuthoritiesBelow {
         most: u32,

@@ -4,26 +4,26 @@ use std::borrow::Cow;
 
 use zeroize::Zeroizing;
 
-use super::super::password_encryption::{self as encryption, DecryptError, Password};
+use super::super::password_encryption::{self as encryption, DecryptError, EncodedPassword};
 use super::super::tlv::{self, CONTEXT_0, OCTET_STRING, SEQUENCE, Tlv};
 use super::super::{PkiError, ber};
-use super::mac::Mac;
+use super::mac::MacData;
 
 /// Every key and every certificate of a PKCS#12, in the order of the file.
-pub(super) struct Archive {
+pub(super) struct Pkcs12Archive {
     /// In PKCS#8 without encryption, of whatever algorithm.
     pub keys: Vec<Zeroizing<Vec<u8>>>,
     pub certificates: Vec<Vec<u8>>,
 }
 
-impl Archive {
+impl Pkcs12Archive {
     /// Opens a PKCS#12 whose outside is in DER; what it wraps may be in BER. Hashes the password for each of its parts.
     pub fn open(der: &[u8], password: &str) -> Result<Self, PkiError> {
-        let forms = Password::forms(password);
+        let forms = EncodedPassword::forms(password);
         let parts = tlv::sole(der).and_then(|whole| tlv::all(whole.content)).ok_or(PkiError::Damaged)?;
         let (safe, mac) = match parts.as_slice() {
             [_version, safe] => (safe, None),
-            [_version, safe, mac] => (safe, Some(Mac::read(mac).map_err(|error| of_mac(&error))?)),
+            [_version, safe, mac] => (safe, Some(MacData::read(mac).map_err(|error| of_mac(&error))?)),
             _ => return Err(PkiError::Damaged),
         };
         let content = match content_info(safe).ok_or(PkiError::Damaged)? {
@@ -38,22 +38,22 @@ impl Archive {
         // With a right MAC, the password is right, and what fails later is damage.
         let otherwise = if mac.is_some() { PkiError::Damaged } else { PkiError::WrongPasswordOrDamaged };
         let mut reader =
-            Reader { forms, otherwise, hashed: 0, archive: Self { keys: Vec::new(), certificates: Vec::new() } };
+            ArchiveReader { forms, otherwise, hashed: 0, archive: Self { keys: Vec::new(), certificates: Vec::new() } };
         reader.safes(&content)?;
         Ok(reader.archive)
     }
 }
 
-struct Reader<'a> {
-    forms: Vec<Password<'a>>,
+struct ArchiveReader<'a> {
+    forms: Vec<EncodedPassword<'a>>,
     /// The error for what cannot be decrypted or understood.
     otherwise: PkiError,
     /// Things the password was hashed for.
     hashed: usize,
-    archive: Archive,
+    archive: Pkcs12Archive,
 }
 
-impl Reader<'_> {
+impl ArchiveReader<'_> {
     /// An AuthenticatedSafe.
     fn safes(&mut self, bytes: &[u8]) -> Result<(), PkiError> {
         let der = self.in_der(bytes)?;

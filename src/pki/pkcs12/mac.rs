@@ -5,11 +5,13 @@ use std::num::NonZeroU32;
 use aws_lc_rs::{digest, hmac, pbkdf2};
 use zeroize::Zeroizing;
 
-use super::super::password_encryption::{self as encryption, DecryptError, Password, algorithm_name, iterations_of};
+use super::super::password_encryption::{
+    self as encryption, DecryptError, EncodedPassword, algorithm_name, iterations_of,
+};
 use super::super::tlv::{self, Tlv};
 
 /// MacData, read and not yet checked.
-pub(super) struct Mac<'a> {
+pub(super) struct MacData<'a> {
     hmac: hmac::Algorithm,
     derivation: Derivation<'a>,
     value: &'a [u8],
@@ -20,7 +22,7 @@ enum Derivation<'a> {
     Pbkdf2 { hash: pbkdf2::Algorithm, salt: &'a [u8], iterations: u32, length: usize },
 }
 
-impl<'a> Mac<'a> {
+impl<'a> MacData<'a> {
     pub fn read(data: &Tlv<'a>) -> Result<Self, DecryptError> {
         let parts = tlv::all(data.content).ok_or(DecryptError::Failed)?;
         let (info, salt, iterations) = match parts.as_slice() {
@@ -77,7 +79,7 @@ impl<'a> Mac<'a> {
     }
 
     /// Whether this is the MAC of `content` under the password. Hashes the password.
-    pub fn is_of(&self, content: &[u8], password: &Password<'_>) -> bool {
+    pub fn is_of(&self, content: &[u8], password: &EncodedPassword<'_>) -> bool {
         let key = match self.derivation {
             Derivation::Pkcs12 { hash, salt, iterations } => {
                 password.derive(hash, encryption::MAC, salt, iterations, hash.output_len)

@@ -16,8 +16,8 @@ use p12_keystore::{EncryptionAlgorithm, KeyStore, KeyStoreEntry, MacAlgorithm, P
 use sha1::{Digest as _, Sha1};
 use zeroize::Zeroizing;
 
-use self::archive::Archive;
-use super::parts::{Part, parts};
+use self::archive::Pkcs12Archive;
+use super::parts::{FilePart, parts};
 use super::{Certificate, FileContent, PkiError, PrivateKey, Wanted};
 
 /// The largest PKCS#12 that is read.
@@ -104,34 +104,34 @@ pub fn pkcs12_read_key(bytes: &[u8], password: &str) -> Result<PrivateKey, PkiEr
 }
 
 /// Every key and every certificate of a PKCS#12, whether they belong together or not.
-pub(super) struct Contents {
+pub(super) struct Pkcs12Contents {
     /// Of whatever kind, in PKCS#8 without encryption.
     pub keys: Vec<Zeroizing<Vec<u8>>>,
     pub certificates: Vec<Certificate>,
 }
 
 /// Opens a PKCS#12 in DER.
-pub(super) fn contents(der: &[u8], password: &str) -> Result<Contents, PkiError> {
-    let Archive { keys, certificates } = Archive::open(der, password)?;
+pub(super) fn contents(der: &[u8], password: &str) -> Result<Pkcs12Contents, PkiError> {
+    let Pkcs12Archive { keys, certificates } = Pkcs12Archive::open(der, password)?;
     let certificates = certificates.iter().map(|der| Certificate::from_der(der)).collect::<Result<_, _>>()?;
-    Ok(Contents { keys, certificates })
+    Ok(Pkcs12Contents { keys, certificates })
 }
 
-fn open(bytes: &[u8], password: &str) -> Result<Archive, PkiError> {
+fn open(bytes: &[u8], password: &str) -> Result<Pkcs12Archive, PkiError> {
     if bytes.len() > MAX_PKCS12_BYTES {
         return Err(PkiError::TooLarge { bytes: bytes.len(), max: MAX_PKCS12_BYTES });
     }
     let part = parts(bytes)?.remove(0);
     match part {
-        Part { content: FileContent::Pkcs12, der } => Archive::open(&der, password),
+        FilePart { content: FileContent::Pkcs12, der } => Pkcs12Archive::open(&der, password),
         // It looks like one from outside, so that it is damaged.
-        Part { content: FileContent::Unknown, .. } if is_pkcs12(bytes) => Err(PkiError::Damaged),
-        Part { content: FileContent::Unknown, .. } => Err(PkiError::NotPkcs12),
-        Part { content: found, .. } => Err(PkiError::OtherContent { found, wanted: Wanted::Pkcs12 }),
+        FilePart { content: FileContent::Unknown, .. } if is_pkcs12(bytes) => Err(PkiError::Damaged),
+        FilePart { content: FileContent::Unknown, .. } => Err(PkiError::NotPkcs12),
+        FilePart { content: found, .. } => Err(PkiError::OtherContent { found, wanted: Wanted::Pkcs12 }),
     }
 }
 
-fn single_key(archive: &Archive) -> Result<PrivateKey, PkiError> {
+fn single_key(archive: &Pkcs12Archive) -> Result<PrivateKey, PkiError> {
     match archive.keys.as_slice() {
         [] => Err(PkiError::NoKey),
         [key] => PrivateKey::from_pkcs8_der(key),

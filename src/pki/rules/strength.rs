@@ -6,14 +6,14 @@ use crate::pki::signature::{Hash, PublicKey, SignatureAlgorithm};
 use crate::pki::{Certificate, CertificateFlaw};
 
 /// What a security policy (OPC 10000-7) requires of keys and signatures.
-struct Required {
+struct StrengthRequirements {
     min_rsa_bits: u16,
     /// Of the application's key; keys of authorities may be longer.
     max_rsa_bits: u16,
     sha1_allowed: bool,
 }
 
-impl Required {
+impl StrengthRequirements {
     /// `None`: what the policies that are not deprecated require.
     const fn by(policy: Option<SecurityPolicy>) -> Self {
         match policy {
@@ -50,7 +50,7 @@ pub(in crate::pki) fn key_length_flaw(
     security_policy: Option<SecurityPolicy>,
 ) -> Option<CertificateFlaw> {
     let PublicKey::Rsa { bits, .. } = certificate.facts().public_key else { return None };
-    let Required { min_rsa_bits, max_rsa_bits, .. } = Required::by(security_policy);
+    let StrengthRequirements { min_rsa_bits, max_rsa_bits, .. } = StrengthRequirements::by(security_policy);
     if bits < min_rsa_bits {
         Some(CertificateFlaw::KeyTooShort { bits, least: min_rsa_bits })
     } else if !is_issuer && bits > max_rsa_bits {
@@ -92,7 +92,7 @@ pub(in crate::pki) fn signature_hash_flaw(
             return Some(CertificateFlaw::SignatureUnverifiable { why });
         }
         Some(Hash::Md5) => false,
-        Some(Hash::Sha1) => allow_sha1 || Required::by(security_policy).sha1_allowed,
+        Some(Hash::Sha1) => allow_sha1 || StrengthRequirements::by(security_policy).sha1_allowed,
         Some(Hash::Sha256 | Hash::Sha384 | Hash::Sha512) => true,
     };
     (!is_strong).then(|| CertificateFlaw::WeakHash { algorithm: algorithm.name().to_owned() })

@@ -1,4 +1,4 @@
-use crate::pki::{Certificate, CertificateFlaw, ExtendedKeyUsage, KeyUsage, Role, is_authority};
+use crate::pki::{Certificate, CertificateFlaw, ExtendedKeyUsage, KeyUsage, PeerRole, is_authority};
 
 /// What an application's key is used for (OPC 10000-6 §6.2.2).
 const NEEDED: [KeyUsage; 4] =
@@ -41,7 +41,7 @@ pub(in crate::pki) fn key_usage_flaw(certificate: &Certificate) -> Option<Certif
 
 /// Extended key usages that do not contain what the application is (OPC 10000-6 §6.2.2). Without the extension every
 /// role is allowed (RFC 5280 §4.2.1.12).
-pub(in crate::pki) fn role_flaw(certificate: &Certificate, role: Role) -> Option<CertificateFlaw> {
+pub(in crate::pki) fn role_flaw(certificate: &Certificate, role: PeerRole) -> Option<CertificateFlaw> {
     excludes_role(certificate, role).then_some(CertificateFlaw::NotForRole { role })
 }
 
@@ -50,20 +50,20 @@ pub(in crate::pki) fn extended_key_usage_missing(certificate: &Certificate) -> O
     certificate.extended_key_usages().is_none().then_some(CertificateFlaw::ExtendedKeyUsageMissing)
 }
 
-fn excludes_role(certificate: &Certificate, role: Role) -> bool {
+fn excludes_role(certificate: &Certificate, role: PeerRole) -> bool {
     let Some(purposes) = certificate.extended_key_usages() else { return false };
     let allows = |purpose| purposes.contains(&purpose) || purposes.contains(&ExtendedKeyUsage::AnyExtendedKeyUsage);
     let (client, server) = (allows(ExtendedKeyUsage::ClientAuth), allows(ExtendedKeyUsage::ServerAuth));
     match role {
-        Role::Client => !client,
-        Role::Server => !server,
-        Role::Either => !client && !server,
+        PeerRole::Client => !client,
+        PeerRole::Server => !server,
+        PeerRole::Either => !client && !server,
     }
 }
 
 /// Whether an authority may issue certificates for that role (RFC 5280 §4.2.1.9, §4.2.1.3). The extended key usages of an
 /// authority apply to what it issues, as OpenSSL and Windows read them.
-pub(in crate::pki) fn issuer_usage_flaw(certificate: &Certificate, role: Role) -> Option<CertificateFlaw> {
+pub(in crate::pki) fn issuer_usage_flaw(certificate: &Certificate, role: PeerRole) -> Option<CertificateFlaw> {
     if !says_ca(certificate) {
         return Some(CertificateFlaw::NotAnAuthority);
     }

@@ -7,10 +7,10 @@ use crate::pki::samples::{self, now};
 
 const URI: &str = "urn:EpsonRC:SN0000123";
 
-fn checked(certificate: &Certificate, policies: &[SecurityPolicy], now: DateTime<Utc>) -> Vec<Finding> {
+fn checked(certificate: &Certificate, policies: &[SecurityPolicy], now: DateTime<Utc>) -> Vec<CertificateFinding> {
     let hosts = ["192.168.10.1".to_owned(), "robot-9".to_owned()];
     let policies = policies.iter().copied().collect();
-    check_import(certificate, &Expected { application_uri: URI, hosts: &hosts, policies: &policies, now })
+    check_import(certificate, &ExpectedServer { application_uri: URI, hosts: &hosts, policies: &policies, now })
 }
 
 /// Of a certificate with nothing to find.
@@ -37,15 +37,15 @@ fn made(change: impl FnOnce(&mut CertificateParams)) -> Certificate {
     Certificate::from_der(params.self_signed(samples::key()).unwrap().der()).unwrap()
 }
 
-fn error(flaw: CertificateFlaw) -> Finding {
-    Finding { flaw, severity: Severity::Error }
+fn error(flaw: CertificateFlaw) -> CertificateFinding {
+    CertificateFinding { flaw, severity: Severity::Error }
 }
 
-fn warning(flaw: CertificateFlaw) -> Finding {
-    Finding { flaw, severity: Severity::Warning }
+fn warning(flaw: CertificateFlaw) -> CertificateFinding {
+    CertificateFinding { flaw, severity: Severity::Warning }
 }
 
-fn found(change: impl FnOnce(&mut CertificateParams)) -> Vec<Finding> {
+fn found(change: impl FnOnce(&mut CertificateParams)) -> Vec<CertificateFinding> {
     checked(&made(change), &[SecurityPolicy::Basic256Sha256], now())
 }
 
@@ -96,7 +96,7 @@ fn usages_are_those_of_a_server() {
     assert_eq!(found(|p| p.key_usages.clear()), [warning(CertificateFlaw::KeyUsageMissing)]);
     assert_eq!(
         found(|p| p.extended_key_usages = vec![ExtendedKeyUsagePurpose::ClientAuth]),
-        [error(CertificateFlaw::NotForRole { role: Role::Server })]
+        [error(CertificateFlaw::NotForRole { role: PeerRole::Server })]
     );
     assert_eq!(found(|p| p.extended_key_usages.clear()), [warning(CertificateFlaw::ExtendedKeyUsageMissing)]);
     assert_eq!(found(|p| p.extended_key_usages = vec![ExtendedKeyUsagePurpose::Any]), []);
@@ -183,7 +183,7 @@ fn names_and_critical_extensions_are_judged_alike_by_a_client() {
     ] {
         let certificate = Certificate::from_der(der).unwrap();
         let hosts = ["127.0.0.1".to_owned()];
-        let wanted = Expected { application_uri: URI, hosts: &hosts, policies: &policies, now };
+        let wanted = ExpectedServer { application_uri: URI, hosts: &hosts, policies: &policies, now };
         assert_eq!(check_import(&certificate, &wanted), std::slice::from_ref(&expected));
         let refused = check_server(&certificate, Some(&certificate), &wanted, now).refused.map(|refused| refused.flaw);
         assert_eq!(refused, (expected.severity == Severity::Error).then_some(expected.flaw));
@@ -194,7 +194,7 @@ fn names_and_critical_extensions_are_judged_alike_by_a_client() {
 fn shown(certificate: &Certificate, policies: &[SecurityPolicy], now: DateTime<Utc>) -> ServerCheck {
     let hosts = ["192.168.10.1".to_owned()];
     let policies = policies.iter().copied().collect();
-    let expected = Expected { application_uri: URI, hosts: &hosts, policies: &policies, now };
+    let expected = ExpectedServer { application_uri: URI, hosts: &hosts, policies: &policies, now };
     check_server(certificate, Some(certificate), &expected, now)
 }
 
@@ -216,7 +216,7 @@ fn by_a_ca(serial: u8) -> Certificate {
 #[test]
 fn a_client_trusts_what_the_controller_names_and_nothing_else() {
     let (policies, hosts) = (BTreeSet::from([SecurityPolicy::Basic256Sha256]), ["192.168.10.1".to_owned()]);
-    let expected = Expected { application_uri: URI, hosts: &hosts, policies: &policies, now: now() };
+    let expected = ExpectedServer { application_uri: URI, hosts: &hosts, policies: &policies, now: now() };
     for (certificate, other) in
         [(by_a_ca(1), by_a_ca(2)), (made(|_| {}), made(|params| params.serial_number = Some(vec![7].into())))]
     {

@@ -1,8 +1,8 @@
 use std::collections::HashMap;
 
-use super::checks::{self, Step, StepFailure};
-use super::revocation::{OtherKeys, Revocation};
-use super::{Presented, Rejection, TrustLists, TrustPolicy};
+use super::checks::{self, StepFailure, ValidationStep};
+use super::revocation::{OtherKeys, RevocationCheck};
+use super::{CertificateRejection, PresentedCertificate, TrustLists, TrustPolicy};
 use crate::pki::name::quoted;
 use crate::pki::signature::SignatureCheck;
 use crate::pki::{Certificate, CertificateFlaw};
@@ -16,7 +16,7 @@ const MAX_STEPS: usize = 256;
 
 /// What may still be done for one peer, and what was found out so far.
 #[derive(Debug, Default)]
-pub(super) struct Budget {
+pub(super) struct SearchBudget {
     /// Who signed what, by SHA-256 of both.
     signatures: HashMap<([u8; 32], [u8; 32]), SignatureCheck>,
     steps: usize,
@@ -25,7 +25,7 @@ pub(super) struct Budget {
 
 /// What the chain is for.
 #[derive(Clone, Copy)]
-enum Purpose<'a> {
+enum ChainPurpose<'a> {
     /// An application connects.
     Application,
     /// An authority, about which nothing but its chain is asked.
@@ -35,55 +35,55 @@ enum Purpose<'a> {
 }
 
 /// The search for a chain without a flaw: depth first, and bounded.
-pub(super) struct Search<'a, 'b> {
+pub(super) struct ChainSearch<'a, 'b> {
     lists: &'a TrustLists,
-    presented: &'a Presented<'a>,
+    presented: &'a PresentedCertificate<'a>,
     policy: &'a TrustPolicy,
-    purpose: Purpose<'a>,
-    budget: &'b mut Budget,
-    best: Option<(Step, Rejection)>,
+    purpose: ChainPurpose<'a>,
+    budget: &'b mut SearchBudget,
+    best: Option<(ValidationStep, CertificateRejection)>,
 }
 
-impl<'a, 'b> Search<'a, 'b> {
+impl<'a, 'b> ChainSearch<'a, 'b> {
     /// For the certificate of an application.
     pub fn new(
         lists: &'a TrustLists,
-        presented: &'a Presented<'a>,
+        presented: &'a PresentedCertificate<'a>,
         policy: &'a TrustPolicy,
-        budget: &'b mut Budget,
+        budget: &'b mut SearchBudget,
     ) -> Self {
-        Self { lists, presented, policy, purpose: Purpose::Application, budget, best: None }
+        Self { lists, presented, policy, purpose: ChainPurpose::Application, budget, best: None }
     }
 
     /// For an authority; its revocation is not asked about.
     pub fn for_an_authority(
         lists: &'a TrustLists,
-        presented: &'a Presented<'a>,
+        presented: &'a PresentedCertificate<'a>,
         policy: &'a TrustPolicy,
-        budget: &'b mut Budget,
+        budget: &'b mut SearchBudget,
     ) -> Self {
-        Self { purpose: Purpose::Authority, ..Self::new(lists, presented, policy, budget) }
+        Self { purpose: ChainPurpose::Authority, ..Self::new(lists, presented, policy, budget) }
     }
 
     /// For the certificate whose key signed revocation lists of an authority whose chain ends in `root`.
     pub fn for_a_signer_of_lists(
         lists: &'a TrustLists,
-        presented: &'a Presented<'a>,
+        presented: &'a PresentedCertificate<'a>,
         policy: &'a TrustPolicy,
         root: &'a Certificate,
-        budget: &'b mut Budget,
+        budget: &'b mut SearchBudget,
     ) -> Self {
-        Self { purpose: Purpose::SignsLists { root }, ..Self::new(lists, presented, policy, budget) }
+        Self { purpose: ChainPurpose::SignsLists { root }, ..Self::new(lists, presented, policy, budget) }
     }
 
-    pub fn run(mut self) -> Result<Vec<Certificate>, Rejection> {
+    pub fn run(mut self) -> Result<Vec<Certificate>, CertificateRejection> {
         let leaf = self.presented.certificate;
         checks::structure(leaf, 0)?;
         let mut chain = vec![leaf];
         if self.extend(&mut chain) {
             return Ok(chain.into_iter().cloned().collect());
         }
-        let nothing = || Rejection::new(CertificateFlaw::TooManyIssuers, leaf, 0);
+        let nothing = || CertificateRejection::new(CertificateFlaw::TooManyIssuers, leaf, 0);
         Err(self.best.map_or_else(nothing, |(_, rejection)| rejection))
     }
 
@@ -101,7 +101,7 @@ impl<'a, 'b> Search<'a, 'b> {
             return self.check(chain);
         }
         if chain.len() == MAX_CHAIN {
-            self.fail(Step::Chain, last, depth, CertificateFlaw::ChainTooLong { most: MAX_CHAIN });
+            self.fail(ValidationStep::Chain, last, depth, CertificateFlaw::ChainTooLong { most: MAX_CHAIN });
             return false;
         }
         let mut has_issuer = false;
@@ -113,7 +113,7 @@ impl<'a, 'b> Search<'a, 'b> {
                 SignatureCheck::Valid => {
                     has_issuer = true;
                     if let Err(rejection) = checks::structure(issuer, depth + 1) {
-                        self.note(Step::Structure, rejection);
+                        self.note(ValidationStep::Structure, rejection);
                         continue;
                     }
                     chain.push(issuer);
@@ -124,23 +124,33 @@ impl<'a, 'b> Search<'a, 'b> {
                 }
                 SignatureCheck::Invalid => {
                     let issuer = quoted(issuer.subject());
-                    self.fail(Step::Signature, last, depth, CertificateFlaw::SignatureWrong { issuer });
+                    self.fail(ValidationStep::Signature, last, depth, CertificateFlaw::SignatureWrong { issuer });
                 }
                 SignatureCheck::CannotVerify(why) => {
-                    self.fail(Step::Policy, last, depth, CertificateFlaw::SignatureUnverifiable { why: quoted(&why) });
+                    self.fail(
+                        ValidationStep::Policy,
+                        last,
+                        depth,
+                        CertificateFlaw::SignatureUnverifiable { why: quoted(&why) },
+                    );
                 }
             }
         }
         match itself {
             _ if has_issuer => {}
             Some(SignatureCheck::CannotVerify(why)) => {
-                self.fail(Step::Policy, last, depth, CertificateFlaw::SignatureUnverifiable { why: quoted(&why) });
+                self.fail(
+                    ValidationStep::Policy,
+                    last,
+                    depth,
+                    CertificateFlaw::SignatureUnverifiable { why: quoted(&why) },
+                );
             }
-            Some(_) => self.fail(Step::Signature, last, depth, CertificateFlaw::SelfSignatureWrong),
+            Some(_) => self.fail(ValidationStep::Signature, last, depth, CertificateFlaw::SelfSignatureWrong),
             None if self.policy.allow_incomplete_chain && self.lists.is_trusted(last) => return self.check(chain),
             None => {
                 let flaw = self.why_no_issuer(last);
-                self.fail(Step::Chain, last, depth, flaw);
+                self.fail(ValidationStep::Chain, last, depth, flaw);
             }
         }
         false
@@ -165,12 +175,12 @@ impl<'a, 'b> Search<'a, 'b> {
     /// Whether the chain, which is complete, has no flaw.
     fn check(&mut self, chain: &[&'a Certificate]) -> bool {
         let checked = match self.purpose {
-            Purpose::Application => checks::chain(chain, self.lists, self.presented, self.policy),
-            Purpose::SignsLists { root } if chain.last() != Some(&root) => {
+            ChainPurpose::Application => checks::chain(chain, self.lists, self.presented, self.policy),
+            ChainPurpose::SignsLists { root } if chain.last() != Some(&root) => {
                 let flaw = CertificateFlaw::IssuerMissing { issuer: quoted(root.subject()) };
-                Err((Step::Chain, Rejection::new(flaw, self.presented.certificate, 0)))
+                Err((ValidationStep::Chain, CertificateRejection::new(flaw, self.presented.certificate, 0)))
             }
-            Purpose::Authority | Purpose::SignsLists { .. } => {
+            ChainPurpose::Authority | ChainPurpose::SignsLists { .. } => {
                 checks::authority(chain, self.lists, self.presented, self.policy)
             }
         };
@@ -185,12 +195,12 @@ impl<'a, 'b> Search<'a, 'b> {
 
     fn revocation(&mut self, chain: &[&'a Certificate]) -> Result<(), StepFailure> {
         let other_keys = match self.purpose {
-            Purpose::Authority => return Ok(()),
-            Purpose::Application => OtherKeys::WithAGoodChain(&mut *self.budget),
-            Purpose::SignsLists { .. } => OtherKeys::OfTheChain,
+            ChainPurpose::Authority => return Ok(()),
+            ChainPurpose::Application => OtherKeys::WithAGoodChain(&mut *self.budget),
+            ChainPurpose::SignsLists { .. } => OtherKeys::OfTheChain,
         };
         let (lists, presented, policy) = (self.lists, self.presented, self.policy);
-        Revocation { lists, presented, policy, other_keys }.check(chain)
+        RevocationCheck { lists, presented, policy, other_keys }.check(chain)
     }
 
     /// The certificates that may have issued this one, by name and key identifier: trusted ones first, those that the peer
@@ -234,14 +244,14 @@ impl<'a, 'b> Search<'a, 'b> {
         check
     }
 
-    fn fail(&mut self, step: Step, certificate: &Certificate, depth: usize, flaw: CertificateFlaw) {
+    fn fail(&mut self, step: ValidationStep, certificate: &Certificate, depth: usize, flaw: CertificateFlaw) {
         // Out of budget, nothing is known about the signature; the chain was not found, that is all.
         let (step, flaw) =
-            if self.budget.exhausted { (Step::Chain, CertificateFlaw::TooManyIssuers) } else { (step, flaw) };
-        self.note(step, Rejection::new(flaw, certificate, depth));
+            if self.budget.exhausted { (ValidationStep::Chain, CertificateFlaw::TooManyIssuers) } else { (step, flaw) };
+        self.note(step, CertificateRejection::new(flaw, certificate, depth));
     }
 
-    fn note(&mut self, step: Step, rejection: Rejection) {
+    fn note(&mut self, step: ValidationStep, rejection: CertificateRejection) {
         if self.best.as_ref().is_none_or(|(furthest, _)| step > *furthest) {
             self.best = Some((step, rejection));
         }

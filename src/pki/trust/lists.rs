@@ -5,8 +5,8 @@ use std::sync::Arc;
 use chrono::{DateTime, Utc};
 use parking_lot::Mutex;
 
-use super::chain::{Budget, Search};
-use super::{Presented, Rejection, Role, TrustPolicy};
+use super::chain::{ChainSearch, SearchBudget};
+use super::{CertificateRejection, PeerRole, PresentedCertificate, TrustPolicy};
 use crate::pki::signature::SignatureCheck;
 use crate::pki::{Certificate, Crl};
 
@@ -75,8 +75,12 @@ impl TrustLists {
     /// best reason not to trust it.
     ///
     /// Blocks for some signature checks, 64 at most; and the first time a revocation list is used, while it is read.
-    pub fn validate(&self, presented: &Presented<'_>, policy: &TrustPolicy) -> Result<Vec<Certificate>, Rejection> {
-        Search::new(self, presented, policy, &mut Budget::default()).run()
+    pub fn validate(
+        &self,
+        presented: &PresentedCertificate<'_>,
+        policy: &TrustPolicy,
+    ) -> Result<Vec<Certificate>, CertificateRejection> {
+        ChainSearch::new(self, presented, policy, &mut SearchBudget::default()).run()
     }
 
     /// Whether revocation lists that are signed with the key of `signer` count for what `authority` issued, which has
@@ -87,21 +91,21 @@ impl TrustLists {
         authority: &Certificate,
         now: DateTime<Utc>,
     ) -> bool {
-        let presented = |certificate, chain| Presented {
+        let presented = |certificate, chain| PresentedCertificate {
             certificate,
             chain,
-            role: Role::Either,
+            role: PeerRole::Either,
             now,
             application_uri: None,
             host: None,
             security_policy: None,
         };
-        let (policy, mut budget) = (TrustPolicy::default(), Budget::default());
+        let (policy, mut budget) = (TrustPolicy::default(), SearchBudget::default());
         let asked = presented(authority, &[]);
-        let Ok(chain) = Search::for_an_authority(self, &asked, &policy, &mut budget).run() else { return false };
+        let Ok(chain) = ChainSearch::for_an_authority(self, &asked, &policy, &mut budget).run() else { return false };
         let Some(root) = chain.last() else { return false };
         let asked = presented(signer, &chain);
-        Search::for_a_signer_of_lists(self, &asked, &policy, root, &mut budget).run().is_ok()
+        ChainSearch::for_a_signer_of_lists(self, &asked, &policy, root, &mut budget).run().is_ok()
     }
 
     /// Whether a trusted certificate has the same name and key.

@@ -1,4 +1,4 @@
-use super::Rejection;
+use super::CertificateRejection;
 use crate::pki::general_name::{GeneralName, NotAllowed};
 use crate::pki::name::quoted;
 use crate::pki::{Certificate, CertificateFlaw};
@@ -9,7 +9,7 @@ const MAX_COMPARISONS: usize = 1 << 20;
 /// RFC 5280 §6.1.3 (b), (c) and §6.1.4 (g): every name of every certificate, by the constraints of every authority above
 /// it. Those of a self-signed root count like any others: RFC 5280 §6.2 leaves that open, and whoever wrote them wanted
 /// them to hold.
-pub(super) fn check(chain: &[&Certificate]) -> Result<(), Rejection> {
+pub(super) fn check(chain: &[&Certificate]) -> Result<(), CertificateRejection> {
     for (depth, certificate) in chain.iter().enumerate() {
         let facts = certificate.facts();
         // An authority that issued itself a new certificate, unless it stands at the end of the path.
@@ -23,7 +23,7 @@ pub(super) fn check(chain: &[&Certificate]) -> Result<(), Rejection> {
         for authority in &chain[depth + 1..] {
             let Some(constraints) = &authority.facts().extensions.name_constraints else { continue };
             let by = quoted(authority.subject());
-            let refused = |flaw| Err(Rejection::new(flaw, certificate, depth));
+            let refused = |flaw| Err(CertificateRejection::new(flaw, certificate, depth));
             if names.len() * constraints.len() > MAX_COMPARISONS {
                 return refused(CertificateFlaw::TooManyNames { authority: by });
             }

@@ -1,4 +1,4 @@
-use super::Role;
+use super::PeerRole;
 use super::checks::lasting_flaw;
 use crate::pki::{Certificate, CertificateFlaw, rules};
 
@@ -7,7 +7,7 @@ use crate::pki::{Certificate, CertificateFlaw, rules};
 ///
 /// Keys and signatures that only the deprecated security policies take count as not taken.
 pub fn never_accepted(certificate: &Certificate, is_authority: bool) -> Option<CertificateFlaw> {
-    lasting_flaw(certificate, is_authority, Role::Client)
+    lasting_flaw(certificate, is_authority, PeerRole::Client)
         // The secure channel does not ask for the URI, but every session does.
         .or_else(|| (!is_authority).then(|| rules::application_uri_flaw(certificate, None)).flatten())
 }

@@ -1,7 +1,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::Rejection;
-use crate::pki::facts::Policies;
+use super::CertificateRejection;
+use crate::pki::certificate_fields::CertificatePolicies;
 use crate::pki::{Certificate, CertificateFlaw};
 
 const ANY_POLICY: &str = "2.5.29.32.0";
@@ -11,16 +11,16 @@ const ANY_POLICY: &str = "2.5.29.32.0";
 ///
 /// The uppermost certificate is the trust anchor and not part of the path (RFC 5280 §6.1): what it says about policies
 /// is not asked.
-pub(super) fn check(chain: &[&Certificate]) -> Result<(), Rejection> {
+pub(super) fn check(chain: &[&Certificate]) -> Result<(), CertificateRejection> {
     let length = chain.len().saturating_sub(1);
-    let mut state = State::new(length);
+    let mut state = PolicyState::new(length);
     for depth in (0..length).rev() {
         let certificate = chain[depth];
         let facts = certificate.facts();
         let policies = &facts.extensions.policies;
         let is_self_issued = facts.subject_folded == facts.issuer_folded;
         let is_last = depth == 0;
-        let refused = |flaw| Err(Rejection::new(flaw, certificate, depth));
+        let refused = |flaw| Err(CertificateRejection::new(flaw, certificate, depth));
         state.assert(policies, is_self_issued && !is_last);
         if !state.holds() {
             return refused(CertificateFlaw::PolicyMissing);
@@ -43,7 +43,7 @@ pub(super) fn check(chain: &[&Certificate]) -> Result<(), Rejection> {
 }
 
 /// The state variables of RFC 5280 §6.1.2.
-struct State {
+struct PolicyState {
     /// The lowest level of the valid policy tree: each policy that holds, with those a certificate may name for it. A
     /// policy that has several places in the tree has the same expected ones in all of them (RFC 9618), so that one place
     /// is enough. Empty is the tree that is null.
@@ -53,7 +53,7 @@ struct State {
     mapping: usize,
 }
 
-impl State {
+impl PolicyState {
     fn new(length: usize) -> Self {
         let any = ANY_POLICY.to_owned();
         let valid = BTreeMap::from([(any.clone(), BTreeSet::from([any]))]);
@@ -66,7 +66,7 @@ impl State {
     }
 
     /// §6.1.3 (d), (e).
-    fn assert(&mut self, policies: &Policies, any_counts: bool) {
+    fn assert(&mut self, policies: &CertificatePolicies, any_counts: bool) {
         let above = std::mem::take(&mut self.valid);
         let Some(asserted) = &policies.asserted else { return };
         let any_is_valid = above.contains_key(ANY_POLICY);
@@ -84,7 +84,7 @@ impl State {
     }
 
     /// §6.1.4 (b).
-    fn map(&mut self, policies: &Policies) {
+    fn map(&mut self, policies: &CertificatePolicies) {
         let mut mapped: BTreeMap<&String, BTreeSet<String>> = BTreeMap::new();
         for (issuer, subject) in &policies.mappings {
             mapped.entry(issuer).or_default().insert(subject.clone());
@@ -100,7 +100,7 @@ impl State {
     }
 
     /// §6.1.4 (h), (i), (j).
-    fn count_down(&mut self, policies: &Policies, is_self_issued: bool) {
+    fn count_down(&mut self, policies: &CertificatePolicies, is_self_issued: bool) {
         if !is_self_issued {
             for counter in [&mut self.explicit, &mut self.inhibit_any, &mut self.mapping] {
                 *counter = counter.saturating_sub(1);
@@ -118,7 +118,7 @@ impl State {
     }
 
     /// §6.1.5 (a), (b).
-    fn wrap_up(&mut self, policies: &Policies) {
+    fn wrap_up(&mut self, policies: &CertificatePolicies) {
         self.explicit = self.explicit.saturating_sub(1);
         if policies.require_explicit == Some(0) {
             self.explicit = 0;

@@ -1,16 +1,16 @@
 use chrono::{DateTime, Utc};
 
-use super::Role;
+use super::PeerRole;
 use crate::model::SecurityPolicy;
 use crate::pki::{Certificate, CertificateFlaw, KeyUsage};
 
 /// What a peer shows of itself, and what it is compared with.
 #[derive(Debug, Clone, Copy)]
-pub struct Presented<'a> {
+pub struct PresentedCertificate<'a> {
     pub certificate: &'a Certificate,
     /// What the peer sent besides, in any order.
     pub chain: &'a [Certificate],
-    pub role: Role,
+    pub role: PeerRole,
     pub now: DateTime<Utc>,
     /// The ApplicationUri of the peer's ApplicationDescription; `None` skips the check.
     pub application_uri: Option<&'a str>,

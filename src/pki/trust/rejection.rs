@@ -6,7 +6,7 @@ use crate::pki::{Certificate, CertificateFlaw, RefusalCause};
 
 /// Why a certificate is not trusted.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Rejection {
+pub struct CertificateRejection {
     pub flaw: CertificateFlaw,
     /// Of the certificate at fault, which may be an issuer. Without control characters.
     pub subject: String,
@@ -14,7 +14,7 @@ pub struct Rejection {
     pub depth: usize,
 }
 
-impl Rejection {
+impl CertificateRejection {
     pub(super) fn new(flaw: CertificateFlaw, certificate: &Certificate, depth: usize) -> Self {
         Self { flaw, subject: certificate.subject().to_owned(), depth }
     }
@@ -45,7 +45,7 @@ impl Rejection {
     }
 }
 
-impl fmt::Display for Rejection {
+impl fmt::Display for CertificateRejection {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.status(), self.reason())?;
         if self.depth > 0 {
@@ -56,4 +56,4 @@ impl fmt::Display for Rejection {
     }
 }
 
-impl std::error::Error for Rejection {}
+impl std::error::Error for CertificateRejection {}

@@ -1,8 +1,8 @@
-use super::chain::{Budget, Search};
-use super::checks::{Step, StepFailure};
-use super::{Presented, Rejection, TrustLists, TrustPolicy};
-use crate::pki::crl::Revoked;
-use crate::pki::distribution_point::Reasons;
+use super::chain::{ChainSearch, SearchBudget};
+use super::checks::{StepFailure, ValidationStep};
+use super::{CertificateRejection, PresentedCertificate, TrustLists, TrustPolicy};
+use crate::pki::crl::RevocationEntry;
+use crate::pki::distribution_point::RevocationReasons;
 use crate::pki::name::quoted;
 use crate::pki::signature::{PublicKey, SignatureCheck};
 use crate::pki::{Certificate, CertificateFlaw, Crl, CrlFlaw, rules};
@@ -11,9 +11,9 @@ use crate::pki::{Certificate, CertificateFlaw, Crl, CrlFlaw, rules};
 const MAX_SIGNERS: usize = 8;
 
 /// What the revocation lists say of one certificate.
-enum Answer {
+enum RevocationAnswer {
     NotRevoked,
-    Revoked(Revoked),
+    Revoked(RevocationEntry),
     /// No list is at hand that can be believed.
     Unknown(CrlFlaw),
 }
@@ -21,34 +21,37 @@ enum Answer {
 /// Which keys of an authority may have signed its lists, besides the one that signed the certificate asked about.
 pub(super) enum OtherKeys<'b> {
     /// Those of the same name whose own chain is good and ends in the same root (RFC 5280 §6.3.3 (f)).
-    WithAGoodChain(&'b mut Budget),
+    WithAGoodChain(&'b mut SearchBudget),
     /// Those of the chain itself. For the chain of such a signer, whose lists need no further chains.
     OfTheChain,
 }
 
 /// Steps 10 and 11 of OPC 10000-4 §6.1.3.
-pub(super) struct Revocation<'a, 'b> {
+pub(super) struct RevocationCheck<'a, 'b> {
     pub lists: &'a TrustLists,
-    pub presented: &'a Presented<'a>,
+    pub presented: &'a PresentedCertificate<'a>,
     pub policy: &'a TrustPolicy,
     pub other_keys: OtherKeys<'b>,
 }
 
-impl Revocation<'_, '_> {
+impl RevocationCheck<'_, '_> {
     /// Of a chain that is good so far. A root is not asked about: no certificate stands above it.
     pub fn check(mut self, chain: &[&Certificate]) -> Result<(), StepFailure> {
         let mut unknown = None;
         for (depth, pair) in chain.windows(2).enumerate() {
             let (certificate, issuer) = (pair[0], pair[1]);
             match self.ask(chain, depth) {
-                Answer::NotRevoked => {}
-                Answer::Revoked(revoked) => {
+                RevocationAnswer::NotRevoked => {}
+                RevocationAnswer::Revoked(revoked) => {
                     let flaw = CertificateFlaw::Revoked { on: revoked.date, because: revoked.reason };
-                    return Err((Step::Revocation, Rejection::new(flaw, certificate, depth)));
+                    return Err((ValidationStep::Revocation, CertificateRejection::new(flaw, certificate, depth)));
                 }
-                Answer::Unknown(crl) => {
+                RevocationAnswer::Unknown(crl) => {
                     let flaw = CertificateFlaw::RevocationUnknown { authority: quoted(issuer.subject()), crl };
-                    unknown.get_or_insert((Step::FindRevocationList, Rejection::new(flaw, certificate, depth)));
+                    unknown.get_or_insert((
+                        ValidationStep::FindRevocationList,
+                        CertificateRejection::new(flaw, certificate, depth),
+                    ));
                 }
             }
         }
@@ -59,12 +62,12 @@ impl Revocation<'_, '_> {
     }
 
     /// Asks the lists of the issuer about the certificate at that depth.
-    fn ask(&mut self, chain: &[&Certificate], depth: usize) -> Answer {
+    fn ask(&mut self, chain: &[&Certificate], depth: usize) -> RevocationAnswer {
         let (certificate, issuer) = (chain[depth], chain[depth + 1]);
         let lists = self.lists;
         let mut flaw = CrlFlaw::Missing;
         // By the key that signed the lists.
-        let mut covered: Vec<(PublicKey, Reasons)> = Vec::new();
+        let mut covered: Vec<(PublicKey, RevocationReasons)> = Vec::new();
         for (index, crl) in lists.crls_of(issuer) {
             let key = match self.signer(index, crl, chain, depth) {
                 Ok(signer) => signer.facts().public_key.clone(),
@@ -76,9 +79,10 @@ impl Revocation<'_, '_> {
             // Newer lists stand first. What the newest one does not say any more is not so any more, as far as it
             // covers the certificate and one key signed both: some authorities keep one list for each key. What a list
             // says that cannot be used for a full check is true all the same.
-            let newer = covered.iter().find(|(of, _)| *of == key).map_or(Reasons::NONE, |(_, reasons)| *reasons);
+            let newer =
+                covered.iter().find(|(of, _)| *of == key).map_or(RevocationReasons::NONE, |(_, reasons)| *reasons);
             if let Some(revoked) = crl.revoked(certificate).filter(|revoked| !newer.contains(revoked.reason)) {
-                return Answer::Revoked(revoked);
+                return RevocationAnswer::Revoked(revoked);
             }
             match self.covers(crl, certificate) {
                 Ok(reasons) => match covered.iter_mut().find(|(of, _)| *of == key) {
@@ -88,10 +92,10 @@ impl Revocation<'_, '_> {
                 Err(why) => flaw = flaw.or_nearer(why),
             }
         }
-        match covered.into_iter().fold(Reasons::NONE, |all, (_, reasons)| all.or(reasons)) {
-            Reasons::ALL => Answer::NotRevoked,
-            Reasons::NONE => Answer::Unknown(flaw),
-            _ => Answer::Unknown(flaw.or_nearer(CrlFlaw::SomeReasons)),
+        match covered.into_iter().fold(RevocationReasons::NONE, |all, (_, reasons)| all.or(reasons)) {
+            RevocationReasons::ALL => RevocationAnswer::NotRevoked,
+            RevocationReasons::NONE => RevocationAnswer::Unknown(flaw),
+            _ => RevocationAnswer::Unknown(flaw.or_nearer(CrlFlaw::SomeReasons)),
         }
     }
 
@@ -145,9 +149,14 @@ impl Revocation<'_, '_> {
         let OtherKeys::WithAGoodChain(budget) = &mut self.other_keys else { return Ok(()) };
         let Some(root) = chain.last() else { return Ok(()) };
         let above: Vec<Certificate> = chain[depth + 1..].iter().map(|member| (*member).clone()).collect();
-        let presented =
-            Presented { certificate: signer, chain: &above, application_uri: None, host: None, ..*self.presented };
-        match Search::for_a_signer_of_lists(self.lists, &presented, self.policy, root, budget).run() {
+        let presented = PresentedCertificate {
+            certificate: signer,
+            chain: &above,
+            application_uri: None,
+            host: None,
+            ..*self.presented
+        };
+        match ChainSearch::for_a_signer_of_lists(self.lists, &presented, self.policy, root, budget).run() {
             Ok(_) => Ok(()),
             Err(rejection) => {
                 Err(CrlFlaw::KeyNotAccepted { subject: quoted(&rejection.subject), because: Box::new(rejection.flaw) })
@@ -178,7 +187,7 @@ impl Revocation<'_, '_> {
     }
 
     /// The reasons for which the list would name the certificate.
-    fn covers(&self, crl: &Crl, certificate: &Certificate) -> Result<Reasons, CrlFlaw> {
+    fn covers(&self, crl: &Crl, certificate: &Certificate) -> Result<RevocationReasons, CrlFlaw> {
         if let Some(because) = crl.not_understood() {
             return Err(CrlFlaw::Unusable { because });
         }

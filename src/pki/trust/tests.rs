@@ -5,11 +5,11 @@ use crate::model::CertificateStatus as Status;
 use crate::pki::samples::{self, TestCa};
 use crate::pki::{Certificate, CertificateFlaw, Crl, CrlFlaw};
 
-fn presented(certificate: &Certificate) -> Presented<'_> {
-    Presented {
+fn presented(certificate: &Certificate) -> PresentedCertificate<'_> {
+    PresentedCertificate {
         certificate,
         chain: &[],
-        role: Role::Client,
+        role: PeerRole::Client,
         now: samples::now(),
         application_uri: None,
         host: None,
@@ -18,14 +18,14 @@ fn presented(certificate: &Certificate) -> Presented<'_> {
 }
 
 /// Why the lists do not say whether the certificate was revoked.
-fn flaw_of_lists(lists: &TrustLists, presented: &Presented<'_>) -> CrlFlaw {
+fn flaw_of_lists(lists: &TrustLists, presented: &PresentedCertificate<'_>) -> CrlFlaw {
     match lists.validate(presented, &TrustPolicy::default()).unwrap_err().flaw {
         CertificateFlaw::RevocationUnknown { crl, .. } => crl,
         flaw => panic!("{flaw:?}"),
     }
 }
 
-fn status(lists: &TrustLists, presented: &Presented<'_>) -> Option<Status> {
+fn status(lists: &TrustLists, presented: &PresentedCertificate<'_>) -> Option<Status> {
     lists.validate(presented, &TrustPolicy::default()).err().map(|rejection| rejection.status())
 }
 
@@ -39,9 +39,9 @@ fn a_self_signed_certificate_is_trusted_only_if_it_is_in_the_list_itself() {
     let lists = TrustLists::new(vec![certificate.clone()], vec![], vec![]);
     let chain = lists.validate(&presented(certificate), &TrustPolicy::default()).unwrap();
     assert_eq!(chain, std::slice::from_ref(certificate));
-    let later = Presented { now: samples::now() + Duration::days(3660), ..presented(certificate) };
+    let later = PresentedCertificate { now: samples::now() + Duration::days(3660), ..presented(certificate) };
     assert_eq!(status(&lists, &later), Some(Status::TimeInvalid));
-    let earlier = Presented { now: samples::now() - Duration::days(3660), ..presented(certificate) };
+    let earlier = PresentedCertificate { now: samples::now() - Duration::days(3660), ..presented(certificate) };
     assert_eq!(status(&lists, &earlier), Some(Status::TimeInvalid));
 }
 
@@ -53,7 +53,7 @@ fn a_rejection_names_the_certificate_at_fault_and_how_far_up_it_stands() {
     let crls = || [root.crl(1, [middle_certificate.facts().serial.clone()]), middle.crl(1, [])];
     let crls: Vec<Crl> = crls().iter().map(|der| Crl::from_der(der).unwrap()).collect();
     let sent = [middle_certificate];
-    let presented = Presented { chain: &sent, ..presented(&application) };
+    let presented = PresentedCertificate { chain: &sent, ..presented(&application) };
     let lists = TrustLists::new(vec![root.certificate.clone()], vec![], crls.clone());
     let rejection = lists.validate(&presented, &TrustPolicy::default()).unwrap_err();
     assert_eq!((rejection.status(), rejection.depth), (Status::IssuerRevoked, 1));
@@ -76,7 +76,7 @@ fn whoever_sends_a_maze_is_refused_soon() {
     };
     let sent: Vec<Certificate> = cas.iter().flat_map(crossed).collect();
     let application = cas[0].application(&[0x11]);
-    let presented = Presented { chain: &sent, ..presented(&application) };
+    let presented = PresentedCertificate { chain: &sent, ..presented(&application) };
     let start = std::time::Instant::now();
     assert_eq!(status(&TrustLists::default(), &presented), Some(Status::ChainIncomplete));
     assert!(start.elapsed() < std::time::Duration::from_secs(60), "{:?}", start.elapsed());
@@ -112,7 +112,12 @@ fn a_list_about_some_certificates_counts_where_it_covers_the_one_asked_about() {
         let lists = TrustLists::new(vec![Certificate::from_der(files.root).unwrap()], vec![], crls);
         let certificate = Certificate::from_der(files.certificate).unwrap();
         let now = "2026-11-27T12:00:00Z".parse().unwrap();
-        assert_eq!(status(&lists, &Presented { now, ..presented(&certificate) }), expected, "{:?}", lists.crls());
+        assert_eq!(
+            status(&lists, &PresentedCertificate { now, ..presented(&certificate) }),
+            expected,
+            "{:?}",
+            lists.crls()
+        );
     }
 }
 
@@ -126,7 +131,7 @@ fn a_list_that_is_of_no_use_says_why() {
         TrustLists::new(vec![ca.certificate.clone()], issuers, crls)
     };
     let now = samples::now();
-    let at = |day: i64| Presented { now: now + Duration::days(day), ..presented(&application) };
+    let at = |day: i64| PresentedCertificate { now: now + Duration::days(day), ..presented(&application) };
     assert_eq!(flaw_of_lists(&lists(&[], &[]), &at(0)), CrlFlaw::Missing);
 
     let good = ca.crl(1, []);

@@ -26,12 +26,12 @@ use self::pinned_tls::PinVerifier;
 use super::{Connector, ControllerSession};
 use crate::model::{Address, Credentials, ErrorCode, FirmwareVersion, Problem, RevisionToken};
 use crate::pki::Fingerprint;
-use crate::protocol::{self, Failure, GetHello, Login, Needs, Request, Response as _, WireSecret};
+use crate::protocol::{self, FailureBody, GetHello, Login, Request, RequestNeeds, Response as _, WireSecret};
 pub(super) use capabilities::capabilities;
 
 /// How long the driver waits.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Timeouts {
+pub struct ManagementTimeouts {
     /// For the TCP and TLS handshakes. Default 5 s.
     pub connect: Duration,
     /// For an answer that takes no work in the controller. Default 10 s.
@@ -40,7 +40,7 @@ pub struct Timeouts {
     pub change: Duration,
 }
 
-impl Default for Timeouts {
+impl Default for ManagementTimeouts {
     fn default() -> Self {
         Self { connect: Duration::from_secs(5), read: Duration::from_secs(10), change: Duration::from_secs(120) }
     }
@@ -55,13 +55,13 @@ const LOGOUT_TIMEOUT: Duration = Duration::from_secs(2);
 /// Opens sessions over HTTPS with a pinned certificate.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ManagementConnector {
-    pub timeouts: Timeouts,
+    pub timeouts: ManagementTimeouts,
 }
 
 #[async_trait]
 impl Connector for ManagementConnector {
     async fn probe(&self, address: &Address) -> Result<Fingerprint, Problem> {
-        let link = Link::new(address, None, self.timeouts)?;
+        let link = HttpsConnection::new(address, None, self.timeouts)?;
         let hello = link.send(&GetHello).await.map_err(|problem| match problem.code {
             // Every web server answers so; a controller has this path in every version.
             ErrorCode::ProtocolVersion => Problem::with_detail(ErrorCode::NotAController, StatusCode::NOT_FOUND),
@@ -82,7 +82,7 @@ impl Connector for ManagementConnector {
         fingerprint: Fingerprint,
         credentials: &Credentials,
     ) -> Result<Box<dyn ControllerSession>, Problem> {
-        let mut link = Link::new(address, Some(fingerprint), self.timeouts)?;
+        let mut link = HttpsConnection::new(address, Some(fingerprint), self.timeouts)?;
         let Credentials::ConnectionPassword(password) = credentials;
         let login = Login { password: WireSecret(password.clone()) };
         let session = link.send(&login).await?;
@@ -92,21 +92,21 @@ impl Connector for ManagementConnector {
 }
 
 /// One HTTPS connection that is kept open, and the token of the session on it.
-struct Link {
+struct HttpsConnection {
     client: reqwest::Client,
     verifier: Arc<PinVerifier>,
     base: String,
     pin: Option<Fingerprint>,
     token: Option<WireSecret>,
-    timeouts: Timeouts,
+    timeouts: ManagementTimeouts,
     /// See [`ControllerSession::unanswered`].
     unanswered: Mutex<Option<RevisionToken>>,
     /// Known once the information was read.
     firmware: Option<FirmwareVersion>,
 }
 
-impl Link {
-    fn new(address: &Address, pin: Option<Fingerprint>, timeouts: Timeouts) -> Result<Self, Problem> {
+impl HttpsConnection {
+    fn new(address: &Address, pin: Option<Fingerprint>, timeouts: ManagementTimeouts) -> Result<Self, Problem> {
         let internal = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::Internal, e);
         let verifier = PinVerifier::new(pin);
         let tls = verifier.client_config().map_err(|e| internal(&e))?;
@@ -127,7 +127,7 @@ impl Link {
     /// Sends a request, and checks the response.
     async fn send<R: Request>(&self, request: &R) -> Result<R::Response, Problem> {
         let timeout = match (R::METHOD, R::NEEDS) {
-            (protocol::Method::Get, _) | (_, Needs::Nothing) => self.timeouts.read,
+            (protocol::Method::Get, _) | (_, RequestNeeds::Nothing) => self.timeouts.read,
             _ => self.timeouts.change,
         };
         self.send_within(timeout, request).await
@@ -169,7 +169,7 @@ impl Link {
                     Problem::with_detail(ErrorCode::NotAController, e)
                 });
         }
-        if let Ok(failure) = serde_json::from_slice::<Failure>(&bytes) {
+        if let Ok(failure) = serde_json::from_slice::<FailureBody>(&bytes) {
             return Err(failure.into());
         }
         if let Ok(OtherFailure { code, message }) = serde_json::from_slice(&bytes) {

@@ -1,26 +1,26 @@
 use async_trait::async_trait;
 use secrecy::SecretString;
 
-use super::{LOGOUT_TIMEOUT, Link, capabilities};
+use super::{HttpsConnection, LOGOUT_TIMEOUT, capabilities};
 use crate::model::activation::ActivationKeys;
 use crate::model::{
-    Base64Bytes, Capabilities, CertificateType, Changed, ClientList, ControllerInfo, Credential, CsrRequest, ErrorCode,
-    HeldCertificates, ListedCertificate, ListedCrl, LogChunk, Problem, RevisionToken, Revisioned, SelfSignedRequest,
-    ServerSettings, TrustStamp, TrustStep, UserName,
+    Base64Bytes, Capabilities, CertificateType, Changed, ClientList, ControllerInfo, CsrRequest, ErrorCode,
+    ListedCertificate, ListedCrl, LogChunk, Problem, RevisionToken, Revisioned, SelfSignedRequest, ServerSettings,
+    StoredServerCertificates, TrustStamp, TrustStep, UserCredential, UserName,
 };
 use crate::pki::RejectedClient;
 use crate::protocol::{
-    Activate, AddUser, CsrMade, EditTrust, ExportSettings, GetCertificates, GetCrl, GetCrls, GetInfo, GetIssuers,
-    GetLog, GetRejected, GetSettings, GetTrustStamp, GetTrusted, GetUsers, ImportCaSigned, ImportCertificate,
-    ImportCsr, ImportSettings, Installed, Logout, MakeCsr, MakeSelfSigned, RemoveUsers, SelectCertificate, SetSettings,
-    SettingsExport, StartServer, StopServer, TrustChanged, WireSecret,
+    Activate, AddUser, CertificateInstalled, CsrMade, EditTrust, ExportSettings, GetCertificates, GetCrl, GetCrls,
+    GetInfo, GetIssuers, GetLog, GetRejected, GetSettings, GetTrustStamp, GetTrusted, GetUsers, ImportCaSigned,
+    ImportCertificate, ImportCsr, ImportSettings, Logout, MakeCsr, MakeSelfSigned, RemoveUsers, SelectCertificate,
+    SetSettings, SettingsExport, StartServer, StopServer, TrustChanged, WireSecret,
 };
 use crate::session::{
     ControllerSession, CsrImport, InstalledCertificate, SealedKey, SettingsUpdate, StoredCsr, TrustEdited,
 };
 
-impl From<Installed> for InstalledCertificate {
-    fn from(Installed { changed, certificate }: Installed) -> Self {
+impl From<CertificateInstalled> for InstalledCertificate {
+    fn from(CertificateInstalled { changed, certificate }: CertificateInstalled) -> Self {
         Self { changed, certificate: certificate.0 }
     }
 }
@@ -38,7 +38,7 @@ impl From<TrustChanged> for TrustEdited {
 }
 
 #[async_trait]
-impl ControllerSession for Link {
+impl ControllerSession for HttpsConnection {
     async fn info(&mut self) -> Result<ControllerInfo, Problem> {
         let info = self.send(&GetInfo).await?;
         self.firmware = Some(info.firmware);
@@ -73,7 +73,7 @@ impl ControllerSession for Link {
         self.send(&GetUsers).await
     }
 
-    async fn add_user(&mut self, revision: RevisionToken, user: Credential) -> Result<Changed, Problem> {
+    async fn add_user(&mut self, revision: RevisionToken, user: UserCredential) -> Result<Changed, Problem> {
         let password = WireSecret(user.password.secret().clone());
         self.send(&AddUser { revision, name: user.name, password }).await
     }
@@ -100,7 +100,7 @@ impl ControllerSession for Link {
         self.send(&ImportCertificate { revision, kind, pkcs12, password }).await.map(Into::into)
     }
 
-    async fn certificates(&mut self) -> Result<Revisioned<HeldCertificates>, Problem> {
+    async fn certificates(&mut self) -> Result<Revisioned<StoredServerCertificates>, Problem> {
         self.send(&GetCertificates).await
     }
 

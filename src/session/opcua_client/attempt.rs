@@ -2,23 +2,23 @@ use opcua::client::UARequest;
 use opcua::client::services::Read;
 use opcua::types::{NodeId, ReadValueId, StatusCode, VariableId, Variant};
 
-use super::Welcome;
+use super::ReadServerState;
 use super::connection::REQUEST;
-use super::failure::{Cause, Failure, Stage, status};
+use super::failure::{ConnectFailure, ConnectFailureCause, ConnectStage, status};
 use super::open_session::{OpenSession, SessionRequest};
 
 /// Opens a session, reads the server's state and says goodbye.
-pub(super) async fn attempt(request: SessionRequest) -> Result<Welcome, Failure> {
+pub(super) async fn attempt(request: SessionRequest) -> Result<ReadServerState, ConnectFailure> {
     let mut session = request.open().await?;
     let welcome = read_state(&mut session).await;
     session.close().await;
     welcome
 }
 
-async fn read_state(session: &mut OpenSession) -> Result<Welcome, Failure> {
+async fn read_state(session: &mut OpenSession) -> Result<ReadServerState, ConnectFailure> {
     let OpenSession { channel, token } = session;
     let read = channel
-        .drive(Stage::Read, async |secure| {
+        .drive(ConnectStage::Read, async |secure| {
             Read::new_manual(0, REQUEST, token.clone(), secure.request_handle())
                 .node(ReadValueId::from(NodeId::from(VariableId::Server_ServerStatus_State)))
                 .node(ReadValueId::from(NodeId::from(VariableId::Server_NamespaceArray)))
@@ -28,16 +28,19 @@ async fn read_state(session: &mut OpenSession) -> Result<Welcome, Failure> {
         .await?;
     let values = read.results.unwrap_or_default();
     let [state, namespaces] = &values[..] else {
-        return Err(Failure::of(Stage::Read, Cause::NotOpcUa("its answer is not what was asked for".to_owned())));
+        return Err(ConnectFailure::of(
+            ConnectStage::Read,
+            ConnectFailureCause::NotOpcUa("its answer is not what was asked for".to_owned()),
+        ));
     };
     for value in [state, namespaces] {
         if let Some(code) = value.status.filter(|code| code.is_bad()) {
-            return Err(Failure::of(Stage::Read, status(code, "")));
+            return Err(ConnectFailure::of(ConnectStage::Read, status(code, "")));
         }
     }
     match &state.value {
-        Some(Variant::Int32(state)) => Ok(Welcome { state: *state }),
-        _ => Err(Failure::of(Stage::Read, status(StatusCode::BadTypeMismatch, ""))),
+        Some(Variant::Int32(state)) => Ok(ReadServerState { state: *state }),
+        _ => Err(ConnectFailure::of(ConnectStage::Read, status(StatusCode::BadTypeMismatch, ""))),
     }
 }
 

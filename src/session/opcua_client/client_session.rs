@@ -14,12 +14,12 @@ use parking_lot::Mutex;
 use tokio::task::AbortHandle;
 use tokio_util::sync::CancellationToken;
 
-use super::connection::{Channel, ChannelEvents};
+use super::connection::{ChannelEvents, ClientChannel};
 use super::convert::{data_value, quality, reference, ua_node_id, ua_variant};
-use super::failure::{Cause, Failure, Stage, status};
+use super::failure::{ConnectFailure, ConnectFailureCause, ConnectStage, status};
 use super::open_session::{CLOSE, OpenSession};
 use super::subscription::{Subscription, SubscriptionIntervals};
-use super::watched_stream::Heard;
+use super::watched_stream::StreamObservations;
 use crate::model::opcua::{DataValue, NodeId, NodeReference, QualifiedName, Quality, Value};
 
 /// A session with an OPC UA server that stays open until it is closed or dropped, or the connection ends.
@@ -36,7 +36,7 @@ pub struct ClientSession {
 pub(super) struct Shared {
     secure: AsyncSecureChannel,
     token: UaNodeId,
-    heard: Arc<Mutex<Heard>>,
+    heard: Arc<Mutex<StreamObservations>>,
     /// Cancelled when the connection has ended.
     ended: CancellationToken,
     end_status: Arc<Mutex<Option<StatusCode>>>,
@@ -61,7 +61,7 @@ impl Drop for Shared {
 impl ClientSession {
     pub(super) fn new(session: OpenSession) -> Self {
         let OpenSession { channel, token } = session;
-        let Channel { secure, events, heard, .. } = channel;
+        let ClientChannel { secure, events, heard, .. } = channel;
         let ended = CancellationToken::new();
         let end_status = Arc::new(Mutex::new(None));
         // The guard also reports the end if the library panics over what the server sent.
@@ -81,17 +81,17 @@ impl ClientSession {
 
     /// Values of variables, in the order of `nodes`; at most 1,000 in one request, more in several. A node that cannot be
     /// read has a bad quality.
-    pub async fn read(&self, nodes: &[NodeId]) -> Result<Vec<DataValue>, Failure> {
+    pub async fn read(&self, nodes: &[NodeId]) -> Result<Vec<DataValue>, ConnectFailure> {
         self.read_attributes(nodes.iter().map(|node| (node, AttributeId::Value))).await
     }
 
     /// The value of one variable.
-    pub async fn read_one(&self, node: &NodeId) -> Result<DataValue, Failure> {
-        self.read(std::slice::from_ref(node)).await?.pop().ok_or_else(|| wrong_answer(Stage::Read))
+    pub async fn read_one(&self, node: &NodeId) -> Result<DataValue, ConnectFailure> {
+        self.read(std::slice::from_ref(node)).await?.pop().ok_or_else(|| wrong_answer(ConnectStage::Read))
     }
 
     /// All attributes of a node that it has, by name (OPC 10000-3 §5).
-    pub async fn attributes(&self, node: &NodeId) -> Result<Vec<(&'static str, DataValue)>, Failure> {
+    pub async fn attributes(&self, node: &NodeId) -> Result<Vec<(&'static str, DataValue)>, ConnectFailure> {
         let values = self.read_attributes(ATTRIBUTES.iter().map(|(attribute, _)| (node, *attribute))).await?;
         let named = ATTRIBUTES.iter().map(|(_, name)| *name).zip(values);
         Ok(named.filter(|(_, value)| value.quality.name() != "BadAttributeIdInvalid").collect())
@@ -100,7 +100,7 @@ impl ClientSession {
     async fn read_attributes(
         &self,
         attributes: impl Iterator<Item = (&NodeId, AttributeId)>,
-    ) -> Result<Vec<DataValue>, Failure> {
+    ) -> Result<Vec<DataValue>, ConnectFailure> {
         let attributes: Vec<ReadValueId> = attributes
             .map(|(node, attribute)| ReadValueId {
                 node_id: ua_node_id(node),
@@ -116,9 +116,9 @@ impl ClientSession {
                     .nodes_to_read(some.to_vec())
                     .send(&shared.secure)
             });
-            let results = self.shared.answered(Stage::Read, request).await?.results.unwrap_or_default();
+            let results = self.shared.answered(ConnectStage::Read, request).await?.results.unwrap_or_default();
             if results.len() != some.len() {
-                return Err(wrong_answer(Stage::Read));
+                return Err(wrong_answer(ConnectStage::Read));
             }
             values.extend(results.into_iter().map(data_value));
         }
@@ -126,7 +126,7 @@ impl ClientSession {
     }
 
     /// Writes values, all in one request; what became of each, in the same order. A value is written as the type it has.
-    pub async fn write(&self, values: &[(NodeId, Value)]) -> Result<Vec<Quality>, Failure> {
+    pub async fn write(&self, values: &[(NodeId, Value)]) -> Result<Vec<Quality>, ConnectFailure> {
         let nodes_to_write: Option<Vec<WriteValue>> = values
             .iter()
             .map(|(node, value)| {
@@ -138,25 +138,25 @@ impl ClientSession {
                 })
             })
             .collect();
-        let nodes_to_write =
-            nodes_to_write.ok_or_else(|| Failure::of(Stage::Write, status(StatusCode::BadTypeMismatch, "")))?;
+        let nodes_to_write = nodes_to_write
+            .ok_or_else(|| ConnectFailure::of(ConnectStage::Write, status(StatusCode::BadTypeMismatch, "")))?;
         let request = self.shared.header(|shared, token, handle| {
             Write::new_manual(0, REQUEST, token, handle).nodes_to_write(nodes_to_write).send(&shared.secure)
         });
-        let results = self.shared.answered(Stage::Write, request).await?.results.unwrap_or_default();
+        let results = self.shared.answered(ConnectStage::Write, request).await?.results.unwrap_or_default();
         if results.len() != values.len() {
-            return Err(wrong_answer(Stage::Write));
+            return Err(wrong_answer(ConnectStage::Write));
         }
         Ok(results.into_iter().map(quality).collect())
     }
 
     /// The nodes that a node refers to by hierarchical references: what a tree shows below it. At most 10,000.
-    pub async fn children(&self, node: &NodeId) -> Result<Vec<NodeReference>, Failure> {
+    pub async fn children(&self, node: &NodeId) -> Result<Vec<NodeReference>, ConnectFailure> {
         self.browse(node, ReferenceTypeId::HierarchicalReferences, BrowseDirection::Forward).await
     }
 
     /// All references of a node, in both directions. At most 10,000.
-    pub async fn references(&self, node: &NodeId) -> Result<Vec<NodeReference>, Failure> {
+    pub async fn references(&self, node: &NodeId) -> Result<Vec<NodeReference>, ConnectFailure> {
         self.browse(node, ReferenceTypeId::References, BrowseDirection::Both).await
     }
 
@@ -165,7 +165,7 @@ impl ClientSession {
         node: &NodeId,
         references: ReferenceTypeId,
         direction: BrowseDirection,
-    ) -> Result<Vec<NodeReference>, Failure> {
+    ) -> Result<Vec<NodeReference>, ConnectFailure> {
         let description = BrowseDescription {
             node_id: ua_node_id(node),
             browse_direction: direction,
@@ -180,12 +180,13 @@ impl ClientSession {
                 .browse_node(description)
                 .send(&shared.secure)
         });
-        let mut results = self.shared.answered(Stage::Browse, request).await?.results;
+        let mut results = self.shared.answered(ConnectStage::Browse, request).await?.results;
         let mut found: Vec<ReferenceDescription> = Vec::new();
         loop {
-            let page = results.and_then(|mut results| results.pop()).ok_or_else(|| wrong_answer(Stage::Browse))?;
+            let page =
+                results.and_then(|mut results| results.pop()).ok_or_else(|| wrong_answer(ConnectStage::Browse))?;
             if page.status_code.is_bad() {
-                return Err(Failure::of(Stage::Browse, status(page.status_code, "")));
+                return Err(ConnectFailure::of(ConnectStage::Browse, status(page.status_code, "")));
             }
             found.extend(page.references.unwrap_or_default());
             let point = page.continuation_point;
@@ -207,19 +208,19 @@ impl ClientSession {
         &self,
         point: ByteString,
         release: bool,
-    ) -> Result<Option<Vec<opcua::types::BrowseResult>>, Failure> {
+    ) -> Result<Option<Vec<opcua::types::BrowseResult>>, ConnectFailure> {
         let request = self.shared.header(|shared, token, handle| {
             BrowseNext::new_manual(0, REQUEST, token, handle)
                 .release_continuation_points(release)
                 .continuation_point(point)
                 .send(&shared.secure)
         });
-        Ok(self.shared.answered(Stage::Browse, request).await?.results)
+        Ok(self.shared.answered(ConnectStage::Browse, request).await?.results)
     }
 
     /// The node at the end of a path of browse names from `start`, along hierarchical references (OPC 10000-4 §5.9.4).
     /// `None` if there is none, or more than one.
-    pub async fn node_at(&self, start: &NodeId, path: &[QualifiedName]) -> Result<Option<NodeId>, Failure> {
+    pub async fn node_at(&self, start: &NodeId, path: &[QualifiedName]) -> Result<Option<NodeId>, ConnectFailure> {
         let elements = path.iter().map(|name| RelativePathElement {
             reference_type_id: ReferenceTypeId::HierarchicalReferences.into(),
             is_inverse: false,
@@ -233,32 +234,36 @@ impl ClientSession {
         let request = self.shared.header(|shared, token, handle| {
             TranslateBrowsePaths::new_manual(0, REQUEST, token, handle).browse_path(path).send(&shared.secure)
         });
-        let results = self.shared.answered(Stage::Browse, request).await?.results.unwrap_or_default();
-        let [result] = &results[..] else { return Err(wrong_answer(Stage::Browse)) };
+        let results = self.shared.answered(ConnectStage::Browse, request).await?.results.unwrap_or_default();
+        let [result] = &results[..] else { return Err(wrong_answer(ConnectStage::Browse)) };
         match (result.status_code, result.targets.as_deref().unwrap_or_default()) {
             (StatusCode::BadNoMatch, _) => Ok(None),
-            (code, _) if code.is_bad() => Err(Failure::of(Stage::Browse, status(code, ""))),
+            (code, _) if code.is_bad() => Err(ConnectFailure::of(ConnectStage::Browse, status(code, ""))),
             (_, [BrowsePathTarget { target_id, .. }]) => Ok(Some(super::convert::node_id(&target_id.node_id))),
             _ => Ok(None),
         }
     }
 
     /// The URIs of the server's namespaces: the index of each is the namespace of node ids (OPC 10000-5 §6.3.1).
-    pub async fn namespaces(&self) -> Result<Vec<String>, Failure> {
+    pub async fn namespaces(&self) -> Result<Vec<String>, ConnectFailure> {
         let array = self.read_one(&NodeId::numeric(0, NAMESPACE_ARRAY)).await?;
-        let Value::Array(uris) = array.value else { return Err(wrong_answer(Stage::Read)) };
+        let Value::Array(uris) = array.value else { return Err(wrong_answer(ConnectStage::Read)) };
         Ok(uris.iter().map(|uri| uri.as_text().unwrap_or_default().to_owned()).collect())
     }
 
     /// Values of variables as they change; the first of each at once.
-    pub async fn subscribe(&self, nodes: &[NodeId], intervals: SubscriptionIntervals) -> Result<Subscription, Failure> {
+    pub async fn subscribe(
+        &self,
+        nodes: &[NodeId],
+        intervals: SubscriptionIntervals,
+    ) -> Result<Subscription, ConnectFailure> {
         Subscription::create(self.shared.clone(), nodes, intervals).await
     }
 
     /// Returns when the connection has ended, with the reason.
-    pub async fn ended(&self) -> Failure {
+    pub async fn ended(&self) -> ConnectFailure {
         self.shared.ended.cancelled().await;
-        self.shared.end(Stage::Read)
+        self.shared.end(ConnectStage::Read)
     }
 
     /// Closes session and channel. A server that does not answer within 2 s is disconnected.
@@ -269,7 +274,7 @@ impl ClientSession {
                 .send(&shared.secure)
         });
         let closed = async {
-            if let Err(failure) = self.shared.answered(Stage::CreateSession, request).await {
+            if let Err(failure) = self.shared.answered(ConnectStage::CreateSession, request).await {
                 tracing::debug!(cause = %failure.cause, "session not closed");
             }
             self.shared.secure.close_channel().await;
@@ -292,19 +297,19 @@ impl Shared {
     /// The answer to a request, unless the connection ends first.
     pub(super) async fn answered<R>(
         &self,
-        stage: Stage,
+        stage: ConnectStage,
         request: impl Future<Output = Result<R, Error>>,
-    ) -> Result<R, Failure> {
+    ) -> Result<R, ConnectFailure> {
         tokio::select! {
             biased;
-            answer = request => answer.map_err(|error| Failure::from_library(stage, &error, &self.heard.lock())),
+            answer = request => answer.map_err(|error| ConnectFailure::from_library(stage, &error, &self.heard.lock())),
             () = self.ended.cancelled() => Err(self.end(stage)),
         }
     }
 
-    fn end(&self, stage: Stage) -> Failure {
+    fn end(&self, stage: ConnectStage) -> ConnectFailure {
         let code = self.end_status.lock().unwrap_or(StatusCode::BadConnectionClosed);
-        Failure::from_library(stage, &Error::new(code, "closed"), &self.heard.lock())
+        ConnectFailure::from_library(stage, &Error::new(code, "closed"), &self.heard.lock())
     }
 }
 
@@ -322,8 +327,8 @@ async fn serve(
     }
 }
 
-pub(super) fn wrong_answer(stage: Stage) -> Failure {
-    Failure::of(stage, Cause::NotOpcUa("its answer is not what was asked for".to_owned()))
+pub(super) fn wrong_answer(stage: ConnectStage) -> ConnectFailure {
+    ConnectFailure::of(stage, ConnectFailureCause::NotOpcUa("its answer is not what was asked for".to_owned()))
 }
 
 /// The attributes of a node that are worth showing, and their names.

@@ -19,17 +19,17 @@ use tokio::io::{ReadHalf, WriteHalf};
 use tokio::net::TcpStream;
 use tokio_util::codec::FramedRead;
 
-use super::failure::{Cause, Failure, Stage};
-use super::watched_stream::{Heard, MAX_BYTES, MAX_FRAME, Watched};
-use super::{Endpoint, Target};
+use super::failure::{ConnectFailure, ConnectFailureCause, ConnectStage};
+use super::watched_stream::{MAX_BYTES, MAX_FRAME, StreamObservations, WatchedStream};
+use super::{Endpoint, ServerLocation};
 
 /// How one connection is made.
-pub(super) struct Connection {
-    pub target: Target,
+pub(super) struct ConnectionSetup {
+    pub target: ServerLocation,
     pub store: Arc<RwLock<CertificateStore>>,
     pub connect: Duration,
     /// The step in progress, named in the error of a time-out.
-    pub stage: Arc<Mutex<Stage>>,
+    pub stage: Arc<Mutex<ConnectStage>>,
     pub limits: ReceiveLimits,
 }
 
@@ -52,26 +52,26 @@ impl ReceiveLimits {
 }
 
 /// An open secure channel.
-pub(super) struct Channel {
+pub(super) struct ClientChannel {
     pub secure: AsyncSecureChannel,
     pub events: ChannelEvents,
-    pub heard: Arc<Mutex<Heard>>,
-    stage: Arc<Mutex<Stage>>,
+    pub heard: Arc<Mutex<StreamObservations>>,
+    stage: Arc<Mutex<ConnectStage>>,
 }
 
 /// Must be polled for the channel to make progress.
 pub(super) type ChannelEvents = SecureChannelEventLoop<StreamTransport<Reader, WriteHalf<TcpStream>>>;
 
-type Reader = Watched<ReadHalf<TcpStream>>;
+type Reader = WatchedStream<ReadHalf<TcpStream>>;
 
-impl Connection {
+impl ConnectionSetup {
     /// Connects, and opens a secure channel as the description wants it.
-    pub async fn open(&self, endpoint: EndpointDescription) -> Result<Channel, Failure> {
+    pub async fn open(&self, endpoint: EndpointDescription) -> Result<ClientChannel, ConnectFailure> {
         let stream = self.tcp().await?;
-        *self.stage.lock() = Stage::Channel;
+        *self.stage.lock() = ConnectStage::Channel;
         let url = endpoint.endpoint_url.to_string();
         let (reader, writer) = tokio::io::split(stream);
-        let (reader, heard) = Watched::new(reader, self.limits.total_bytes);
+        let (reader, heard) = WatchedStream::new(reader, self.limits.total_bytes);
         let secure = AsyncSecureChannel::new(
             self.store.clone(),
             endpoint.into(),
@@ -99,21 +99,23 @@ impl Connection {
             url,
         );
         let events = secure.connect_no_retry(&connector).await;
-        let events = events.map_err(|e| Failure::from_library(Stage::Channel, &e, &heard.lock()))?;
-        Ok(Channel { secure, events, heard, stage: self.stage.clone() })
+        let events = events.map_err(|e| ConnectFailure::from_library(ConnectStage::Channel, &e, &heard.lock()))?;
+        Ok(ClientChannel { secure, events, heard, stage: self.stage.clone() })
     }
 
-    async fn tcp(&self) -> Result<TcpStream, Failure> {
+    async fn tcp(&self) -> Result<TcpStream, ConnectFailure> {
         let connect = TcpStream::connect(self.target.authority());
         match tokio::time::timeout(self.connect, connect).await {
             Ok(Ok(stream)) => Ok(stream),
-            Ok(Err(e)) => Err(Failure::of(Stage::Connect, Cause::NotReachable(e.to_string()))),
-            Err(_) => Err(Failure::of(Stage::Connect, Cause::TimedOut)),
+            Ok(Err(e)) => {
+                Err(ConnectFailure::of(ConnectStage::Connect, ConnectFailureCause::NotReachable(e.to_string())))
+            }
+            Err(_) => Err(ConnectFailure::of(ConnectStage::Connect, ConnectFailureCause::TimedOut)),
         }
     }
 
     /// GetEndpoints over a channel without security.
-    pub async fn endpoints(&self) -> Result<Vec<Endpoint>, Failure> {
+    pub async fn endpoints(&self) -> Result<Vec<Endpoint>, ConnectFailure> {
         let url = format!("{}/", self.target.url());
         let mut channel = self.open(EndpointDescription::from(url.as_str())).await?;
         let request = GetEndpointsRequest {
@@ -127,30 +129,36 @@ impl Connection {
             locale_ids: None,
             profile_uris: None,
         };
-        let response = channel.drive(Stage::Endpoints, async |secure| secure.send(request, REQUEST).await).await?;
+        let response =
+            channel.drive(ConnectStage::Endpoints, async |secure| secure.send(request, REQUEST).await).await?;
         channel.close().await;
         match response {
             ResponseMessage::GetEndpoints(response) if response.response_header.service_result.is_good() => {
                 Ok(response.endpoints.into_iter().flatten().filter_map(Endpoint::new).collect())
             }
-            ResponseMessage::GetEndpoints(response) => {
-                Err(Failure::of(Stage::Endpoints, super::failure::status(response.response_header.service_result, "")))
-            }
-            ResponseMessage::ServiceFault(fault) => {
-                Err(Failure::of(Stage::Endpoints, super::failure::status(fault.response_header.service_result, "")))
-            }
-            _ => Err(Failure::of(Stage::Endpoints, Cause::NotOpcUa("its answer is not what was asked for".to_owned()))),
+            ResponseMessage::GetEndpoints(response) => Err(ConnectFailure::of(
+                ConnectStage::Endpoints,
+                super::failure::status(response.response_header.service_result, ""),
+            )),
+            ResponseMessage::ServiceFault(fault) => Err(ConnectFailure::of(
+                ConnectStage::Endpoints,
+                super::failure::status(fault.response_header.service_result, ""),
+            )),
+            _ => Err(ConnectFailure::of(
+                ConnectStage::Endpoints,
+                ConnectFailureCause::NotOpcUa("its answer is not what was asked for".to_owned()),
+            )),
         }
     }
 }
 
-impl Channel {
+impl ClientChannel {
     /// Runs a request to its answer while the connection is served.
     pub async fn drive<R>(
         &mut self,
-        stage: Stage,
+        stage: ConnectStage,
         request: impl AsyncFnOnce(&AsyncSecureChannel) -> Result<R, Error>,
-    ) -> Result<R, Failure> {
+    ) -> Result<R, ConnectFailure> {
         let Self { secure, events, heard, stage: at } = self;
         *at.lock() = stage;
         let request = request(secure);
@@ -166,7 +174,7 @@ impl Channel {
                 },
             }
         };
-        Err(Failure::from_library(stage, &error, &heard.lock()))
+        Err(ConnectFailure::from_library(stage, &error, &heard.lock()))
     }
 
     /// Closes the session. A server that does not answer is disconnected.
@@ -175,7 +183,7 @@ impl Channel {
             self.secure.close_channel().await;
             while !matches!(self.events.poll().await, TransportPollResult::Closed(_)) {}
         };
-        let _late = tokio::time::timeout(GOODBYE, goodbye).await;
+        let _late = tokio::time::timeout(CLOSE_LIMIT, goodbye).await;
     }
 }
 
@@ -194,6 +202,6 @@ impl ReceiveLimits {
 
 /// Nothing takes a request longer than the whole try has time.
 pub(super) const REQUEST: Duration = Duration::from_secs(60);
-const GOODBYE: Duration = Duration::from_secs(1);
+const CLOSE_LIMIT: Duration = Duration::from_secs(1);
 const MAX_CHUNKS: usize = 64;
 const TOKEN_LIFETIME_MS: u32 = 60_000;

@@ -2,7 +2,9 @@
 
 use thiserror::Error;
 
-use super::{ClientSession, Endpoint, Failure, Login, MessageSecurity, OpcUaClient, Target, TokenKind};
+use super::{
+    ClientSession, ConnectFailure, Endpoint, MessageSecurity, OpcUaClient, ServerLocation, TokenKind, UserLogin,
+};
 use crate::model::{ErrorCode, Problem, SecurityPolicy, ServerStatus};
 use crate::pki::Certificate;
 use crate::session::ControllerSession;
@@ -11,7 +13,7 @@ use crate::session::ControllerSession;
 #[derive(Debug, Clone)]
 pub struct ControllerServer {
     /// Where it listens.
-    pub target: Target,
+    pub target: ServerLocation,
     /// The certificate that the controller has selected; the server must show this one.
     pub certificate: Certificate,
 }
@@ -36,7 +38,7 @@ pub enum ServerConnectError {
     LoginRefused(String),
     /// Nothing answers, or what answers breaks off.
     #[error("{} at stage {:?}", .0.cause, .0.stage)]
-    Failed(Failure),
+    Failed(ConnectFailure),
 }
 
 impl ControllerServer {
@@ -53,12 +55,12 @@ impl ControllerServer {
         let held = session.certificates().await?.value;
         let selected = held.of(held.selected).and_then(|der| Certificate::from_der(der).ok());
         let certificate = selected.ok_or(ServerConnectError::NoCertificate)?;
-        Ok(Self { target: Target { host: host.to_owned(), port: settings.port.get() }, certificate })
+        Ok(Self { target: ServerLocation { host: host.to_owned(), port: settings.port.get() }, certificate })
     }
 
     /// Opens a session over the best protected endpoint that takes this login. An endpoint without security is used only
     /// if the server offers no other, and never for a password that would not be encrypted.
-    pub async fn connect(&self, client: &OpcUaClient, login: &Login) -> Result<ClientSession, ServerConnectError> {
+    pub async fn connect(&self, client: &OpcUaClient, login: &UserLogin) -> Result<ClientSession, ServerConnectError> {
         let endpoints = client.endpoints(&self.target).await.map_err(ServerConnectError::Failed)?;
         let endpoint = self.choose(&endpoints, login)?;
         client.session(&self.target, endpoint, &self.certificate, login).await.map_err(|failure| {
@@ -73,10 +75,10 @@ impl ControllerServer {
         })
     }
 
-    fn choose<'a>(&self, endpoints: &'a [Endpoint], login: &Login) -> Result<&'a Endpoint, ServerConnectError> {
+    fn choose<'a>(&self, endpoints: &'a [Endpoint], login: &UserLogin) -> Result<&'a Endpoint, ServerConnectError> {
         let kind = match login {
-            Login::Anonymous => TokenKind::Anonymous,
-            Login::User { .. } => TokenKind::UserName,
+            UserLogin::Anonymous => TokenKind::Anonymous,
+            UserLogin::User { .. } => TokenKind::UserName,
         };
         let is_consistent = |endpoint: &&Endpoint| match (&endpoint.policy, endpoint.mode) {
             (Ok(SecurityPolicy::None), mode) => mode == Some(MessageSecurity::None),

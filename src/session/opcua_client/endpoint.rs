@@ -2,7 +2,7 @@ use opcua::types::{EndpointDescription, MessageSecurityMode, UserTokenType};
 use serde::Serialize;
 use x509_parser::prelude::{FromDer as _, X509Certificate};
 
-use super::Target;
+use super::ServerLocation;
 use super::failure::printable;
 use crate::model::{SecurityPolicy, UserTokenPolicy};
 use crate::pki::{Certificate, PkiError};
@@ -147,15 +147,15 @@ impl Endpoint {
     }
 
     /// Host and port of its URL.
-    pub fn target(&self) -> Option<Target> {
+    pub fn target(&self) -> Option<ServerLocation> {
         let (host, port, _) = self.parts();
         let port = if port.is_empty() { Ok(DEFAULT_PORT) } else { port.parse() };
         (!host.is_empty()).then_some(())?;
-        Some(Target { host: host.to_owned(), port: port.ok()? })
+        Some(ServerLocation { host: host.to_owned(), port: port.ok()? })
     }
 
     /// The description, to be reached where this computer reaches it.
-    pub(super) fn at(&self, target: &Target) -> EndpointDescription {
+    pub(super) fn at(&self, target: &ServerLocation) -> EndpointDescription {
         let mut description = self.description.clone();
         description.endpoint_url = format!("{}/{}", target.url(), self.parts().2).into();
         description
@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn a_url_is_taken_apart_and_led_to_where_the_server_is_reached() {
-        let target = Target { host: "fe80::1".into(), port: 4841 };
+        let target = ServerLocation { host: "fe80::1".into(), port: 4841 };
         for (url, host, port, reached) in [
             ("opc.tcp://robot:4840/a/b", "robot", Some(4840), "opc.tcp://[fe80::1]:4841/a/b"),
             ("opc.tcp://10.0.0.1", "10.0.0.1", Some(4840), "opc.tcp://[fe80::1]:4841/"),

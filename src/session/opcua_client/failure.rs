@@ -2,12 +2,12 @@ use std::fmt;
 
 use opcua::types::{Error, StatusCode};
 
-use super::watched_stream::Heard;
-use crate::model::foreign_text::one_line;
+use super::watched_stream::StreamObservations;
+use crate::model::untrusted_text::one_line;
 
 /// How far a try came: what was being done when it failed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Stage {
+pub enum ConnectStage {
     /// Opening the TCP connection.
     Connect,
     /// Hello, and opening the secure channel.
@@ -27,14 +27,14 @@ pub enum Stage {
 
 /// A try that did not succeed.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Failure {
-    pub stage: Stage,
-    pub cause: Cause,
+pub struct ConnectFailure {
+    pub stage: ConnectStage,
+    pub cause: ConnectFailureCause,
 }
 
 /// Why it went no further.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Cause {
+pub enum ConnectFailureCause {
     /// No TCP connection came about; the operating system's words.
     NotReachable(String),
     TimedOut,
@@ -56,22 +56,22 @@ pub enum Cause {
     Internal(String),
 }
 
-impl Failure {
-    pub(super) fn of(stage: Stage, cause: Cause) -> Self {
+impl ConnectFailure {
+    pub(super) fn of(stage: ConnectStage, cause: ConnectFailureCause) -> Self {
         Self { stage, cause }
     }
 
     /// What the library says, put right by what was heard on the wire.
-    pub(super) fn from_library(stage: Stage, error: &Error, heard: &Heard) -> Self {
+    pub(super) fn from_library(stage: ConnectStage, error: &Error, heard: &StreamObservations) -> Self {
         let cause = match (&heard.fault, &heard.last_word) {
-            (Some(fault), _) => Cause::NotOpcUa(fault.clone()),
+            (Some(fault), _) => ConnectFailureCause::NotOpcUa(fault.clone()),
             (None, Some((code, reason))) => status(StatusCode::from(*code), reason),
             (None, None) => match error.status() {
-                StatusCode::BadTimeout => Cause::TimedOut,
+                StatusCode::BadTimeout => ConnectFailureCause::TimedOut,
                 StatusCode::BadDecodingError | StatusCode::BadEncodingLimitsExceeded => {
-                    Cause::NotOpcUa("its answer cannot be read".to_owned())
+                    ConnectFailureCause::NotOpcUa("its answer cannot be read".to_owned())
                 }
-                StatusCode::BadCommunicationError | StatusCode::BadConnectionClosed => Cause::Closed,
+                StatusCode::BadCommunicationError | StatusCode::BadConnectionClosed => ConnectFailureCause::Closed,
                 code => status(code, ""),
             },
         };
@@ -81,19 +81,20 @@ impl Failure {
     /// The name of the OPC UA status, if it ended with one.
     pub fn status(&self) -> Option<&str> {
         match &self.cause {
-            Cause::Status { name, .. } => Some(name),
+            ConnectFailureCause::Status { name, .. } => Some(name),
             _ => None,
         }
     }
 
     /// Whether it reads as if the server does not take the certificate of this program.
     pub fn is_about_own_certificate(&self) -> bool {
-        matches!(self.stage, Stage::Channel | Stage::CreateSession) && self.status().is_some_and(is_about_a_certificate)
+        matches!(self.stage, ConnectStage::Channel | ConnectStage::CreateSession)
+            && self.status().is_some_and(is_about_a_certificate)
     }
 
     /// Whether the server does not let this user in.
     pub fn is_about_the_login(&self) -> bool {
-        self.stage == Stage::Login && self.status().is_some_and(is_about_a_user)
+        self.stage == ConnectStage::Login && self.status().is_some_and(is_about_a_user)
     }
 }
 
@@ -107,8 +108,8 @@ pub fn is_about_a_user(status: &str) -> bool {
     ["BadUserAccessDenied", "BadIdentityTokenRejected", "BadIdentityTokenInvalid"].contains(&status)
 }
 
-pub(super) fn status(code: StatusCode, reason: &str) -> Cause {
-    Cause::Status { code: code.bits(), name: code.sub_code().to_string(), reason: printable(reason) }
+pub(super) fn status(code: StatusCode, reason: &str) -> ConnectFailureCause {
+    ConnectFailureCause::Status { code: code.bits(), name: code.sub_code().to_string(), reason: printable(reason) }
 }
 
 /// What a server wrote, as one line of at most 300 characters.
@@ -118,7 +119,7 @@ pub fn printable(text: &str) -> String {
 
 const MAX_CHARS: usize = 300;
 
-impl fmt::Display for Cause {
+impl fmt::Display for ConnectFailureCause {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotReachable(why) | Self::NotOpcUa(why) | Self::Internal(why) => f.write_str(why),
@@ -138,12 +139,21 @@ mod tests {
     #[test]
     fn what_the_server_said_last_counts_more_than_that_the_connection_closed() {
         let error = Error::new(StatusCode::BadConnectionClosed, "closed");
-        let heard = Heard { last_word: Some((0x8013_0000, "\u{1b}[2Jno\r\n".into())), ..Heard::default() };
-        let failure = Failure::from_library(Stage::Channel, &error, &heard);
+        let heard = StreamObservations {
+            last_word: Some((0x8013_0000, "\u{1b}[2Jno\r\n".into())),
+            ..StreamObservations::default()
+        };
+        let failure = ConnectFailure::from_library(ConnectStage::Channel, &error, &heard);
         assert_eq!(failure.status(), Some("BadSecurityChecksFailed"));
         assert_eq!(failure.cause.to_string(), "BadSecurityChecksFailed: �[2Jno");
-        assert_eq!(Failure::from_library(Stage::Channel, &error, &Heard::default()).cause, Cause::Closed);
-        let heard = Heard { fault: Some("a web server".into()), ..heard };
-        assert_eq!(Failure::from_library(Stage::Channel, &error, &heard).cause, Cause::NotOpcUa("a web server".into()));
+        assert_eq!(
+            ConnectFailure::from_library(ConnectStage::Channel, &error, &StreamObservations::default()).cause,
+            ConnectFailureCause::Closed
+        );
+        let heard = StreamObservations { fault: Some("a web server".into()), ..heard };
+        assert_eq!(
+            ConnectFailure::from_library(ConnectStage::Channel, &error, &heard).cause,
+            ConnectFailureCause::NotOpcUa("a web server".into())
+        );
     }
 }

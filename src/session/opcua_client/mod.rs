@@ -12,7 +12,7 @@
 //! | `client_session` | [`ClientSession`]: a session that stays open |
 //! | `subscription` | [`Subscription`]: values as they change |
 //! | `convert` | the library's values as [`Value`](crate::model::opcua::Value)s, and back |
-//! | `failure` | [`Failure`]: how far it came, and why no further |
+//! | `failure` | [`ConnectFailure`]: how far it came, and why no further |
 //!
 //! A try is one connection, bounded in time and in what it takes in. A session is bounded in time for each request, and
 //! in the size of each message. Nothing is tried again by itself. Whatever the peer sends gives a result: the
@@ -46,12 +46,14 @@ use tokio::task::JoinSet;
 pub use client_session::ClientSession;
 pub use controller_server::{ControllerServer, ServerConnectError};
 pub use endpoint::{Endpoint, MessageSecurity, OfferedToken, TokenKind};
-pub use failure::{Cause, Failure, Stage, is_about_a_certificate, is_about_a_user, printable};
+pub use failure::{
+    ConnectFailure, ConnectFailureCause, ConnectStage, is_about_a_certificate, is_about_a_user, printable,
+};
 pub use subscription::{Changes, Subscription, SubscriptionIntervals};
 
 use crate::model::{ErrorCode, Problem};
 use crate::pki::Certificate;
-use crate::workspace::{KeyFile, OwnIdentity};
+use crate::workspace::{ConfiguratorIdentity, KeyFile};
 use connection::ReceiveLimits;
 use open_session::SessionRequest;
 
@@ -73,13 +75,13 @@ impl Default for ConnectTimeouts {
 
 /// Where a server is reached.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Target {
+pub struct ServerLocation {
     /// A name or an address, without brackets.
     pub host: String,
     pub port: u16,
 }
 
-impl Target {
+impl ServerLocation {
     /// `host:port`, as `getaddrinfo` and URLs want it.
     pub fn authority(&self) -> String {
         if self.host.contains(':') {
@@ -97,14 +99,14 @@ impl Target {
 
 /// Who logs in.
 #[derive(Debug, Clone)]
-pub enum Login {
+pub enum UserLogin {
     Anonymous,
     User { name: String, password: SecretString },
 }
 
 /// What a client that was let in has read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Welcome {
+pub struct ReadServerState {
     /// `ServerStatus.State`; 0 is Running (OPC 10000-5 §12.6).
     pub state: i32,
 }
@@ -114,7 +116,7 @@ pub struct OpcUaClient {
     application_uri: String,
     store: Arc<RwLock<CertificateStore>>,
     own: Option<(X509, PrivateKey)>,
-    patience: ConnectTimeouts,
+    timeouts: ConnectTimeouts,
     /// Dropped before its folder.
     _key_file: KeyFile,
     /// Where the library writes the certificates of servers; removed in the end.
@@ -129,7 +131,7 @@ impl std::fmt::Debug for OpcUaClient {
 
 impl OpcUaClient {
     /// Blocks while it reads key and certificate.
-    pub fn new(identity: &OwnIdentity, patience: ConnectTimeouts) -> Result<Self, Problem> {
+    pub fn new(identity: &ConfiguratorIdentity, timeouts: ConnectTimeouts) -> Result<Self, Problem> {
         let folder = tempfile::tempdir().map_err(|e| Problem::with_detail(ErrorCode::WorkspaceReadOnly, e))?;
         // The library reads both again for every connection; absolute paths keep it from copying the key.
         let certificate = std::path::absolute(&identity.certificate_path)
@@ -153,14 +155,14 @@ impl OpcUaClient {
             application_uri: identity.application_uri(),
             store: Arc::new(RwLock::new(store)),
             own,
-            patience,
+            timeouts,
             _key_file: key_file,
             _folder: folder,
         })
     }
 
     /// The endpoints that the server offers, over a channel without security (OPC 10000-4 §5.5.4).
-    pub async fn endpoints(&self, target: &Target) -> Result<Vec<Endpoint>, Failure> {
+    pub async fn endpoints(&self, target: &ServerLocation) -> Result<Vec<Endpoint>, ConnectFailure> {
         let connection = self.connection(target, ReceiveLimits::ONE_TRY);
         self.bounded(connection.stage.clone(), async move { connection.endpoints().await }).await
     }
@@ -170,11 +172,11 @@ impl OpcUaClient {
     /// password is sent.
     pub async fn attempt(
         &self,
-        target: &Target,
+        target: &ServerLocation,
         endpoint: &Endpoint,
         expected: &Certificate,
-        login: &Login,
-    ) -> Result<Welcome, Failure> {
+        login: &UserLogin,
+    ) -> Result<ReadServerState, ConnectFailure> {
         let request = self.session_request(target, endpoint, expected, login, ReceiveLimits::ONE_TRY)?;
         let request = SessionRequest { session_timeout_ms: attempt::SESSION_TIMEOUT_MS, ..request };
         self.bounded(request.connection.stage.clone(), attempt::attempt(request)).await
@@ -184,11 +186,11 @@ impl OpcUaClient {
     /// must have, as for [`OpcUaClient::attempt`].
     pub async fn session(
         &self,
-        target: &Target,
+        target: &ServerLocation,
         endpoint: &Endpoint,
         expected: &Certificate,
-        login: &Login,
-    ) -> Result<ClientSession, Failure> {
+        login: &UserLogin,
+    ) -> Result<ClientSession, ConnectFailure> {
         let request = self.session_request(target, endpoint, expected, login, ReceiveLimits::SESSION)?;
         let session = self.bounded(request.connection.stage.clone(), request.open()).await?;
         Ok(ClientSession::new(session))
@@ -196,14 +198,17 @@ impl OpcUaClient {
 
     fn session_request(
         &self,
-        target: &Target,
+        target: &ServerLocation,
         endpoint: &Endpoint,
         expected: &Certificate,
-        login: &Login,
+        login: &UserLogin,
         limits: ReceiveLimits,
-    ) -> Result<SessionRequest, Failure> {
+    ) -> Result<SessionRequest, ConnectFailure> {
         let Some((own_certificate, own_key)) = self.own.clone() else {
-            return Err(Failure::of(Stage::Channel, Cause::Internal("the client has no key".to_owned())));
+            return Err(ConnectFailure::of(
+                ConnectStage::Channel,
+                ConnectFailureCause::Internal("the client has no key".to_owned()),
+            ));
         };
         Ok(SessionRequest {
             connection: self.connection(target, limits),
@@ -217,12 +222,12 @@ impl OpcUaClient {
         })
     }
 
-    fn connection(&self, target: &Target, limits: ReceiveLimits) -> connection::Connection {
-        connection::Connection {
+    fn connection(&self, target: &ServerLocation, limits: ReceiveLimits) -> connection::ConnectionSetup {
+        connection::ConnectionSetup {
             target: target.clone(),
             store: self.store.clone(),
-            connect: self.patience.connect,
-            stage: Arc::new(Mutex::new(Stage::Connect)),
+            connect: self.timeouts.connect,
+            stage: Arc::new(Mutex::new(ConnectStage::Connect)),
             limits,
         }
     }
@@ -230,23 +235,24 @@ impl OpcUaClient {
     /// In a task of its own, which ends with this call: what the peer sends may trip the library up.
     async fn bounded<R: Send + 'static>(
         &self,
-        stage: Arc<Mutex<Stage>>,
-        work: impl Future<Output = Result<R, Failure>> + Send + 'static,
-    ) -> Result<R, Failure> {
+        stage: Arc<Mutex<ConnectStage>>,
+        work: impl Future<Output = Result<R, ConnectFailure>> + Send + 'static,
+    ) -> Result<R, ConnectFailure> {
         let mut task = JoinSet::new();
         task.spawn(work);
-        match tokio::time::timeout(self.patience.attempt, task.join_next()).await {
+        match tokio::time::timeout(self.timeouts.attempt, task.join_next()).await {
             Ok(Some(Ok(result))) => result,
-            Ok(Some(Err(_)) | None) => {
-                Err(Failure::of(*stage.lock(), Cause::NotOpcUa("its answer cannot be read".to_owned())))
-            }
-            Err(_) => Err(Failure::of(*stage.lock(), Cause::TimedOut)),
+            Ok(Some(Err(_)) | None) => Err(ConnectFailure::of(
+                *stage.lock(),
+                ConnectFailureCause::NotOpcUa("its answer cannot be read".to_owned()),
+            )),
+            Err(_) => Err(ConnectFailure::of(*stage.lock(), ConnectFailureCause::TimedOut)),
         }
     }
 }
 
 /// Whether anybody listens there, found out by connecting and hanging up.
-pub async fn is_reachable(target: &Target, patience: Duration) -> bool {
+pub async fn is_reachable(target: &ServerLocation, timeouts: Duration) -> bool {
     let connect = tokio::net::TcpStream::connect(target.authority());
-    matches!(tokio::time::timeout(patience, connect).await, Ok(Ok(_)))
+    matches!(tokio::time::timeout(timeouts, connect).await, Ok(Ok(_)))
 }

@@ -4,18 +4,18 @@ use opcua::crypto::{PrivateKey, X509};
 use opcua::types::{ApplicationDescription, ApplicationType, NodeId};
 use secrecy::ExposeSecret as _;
 
-use super::connection::{Channel, Connection, REQUEST};
-use super::failure::{Cause, Failure, Stage};
-use super::{Endpoint, Login};
+use super::connection::{ClientChannel, ConnectionSetup, REQUEST};
+use super::failure::{ConnectFailure, ConnectFailureCause, ConnectStage};
+use super::{Endpoint, UserLogin};
 use crate::model::SecurityPolicy;
 
 /// What is needed to open a session: the server, the endpoint, who logs in.
 pub(super) struct SessionRequest {
-    pub connection: Connection,
+    pub connection: ConnectionSetup,
     pub endpoint: Endpoint,
     /// The certificate that the server must show. DER.
     pub expected: Vec<u8>,
-    pub login: Login,
+    pub login: UserLogin,
     pub application_uri: String,
     pub own_certificate: X509,
     pub own_key: PrivateKey,
@@ -25,17 +25,17 @@ pub(super) struct SessionRequest {
 
 /// A session in which a user is logged in, with its channel.
 pub(super) struct OpenSession {
-    pub channel: Channel,
+    pub channel: ClientChannel,
     /// Names the session in every request.
     pub token: NodeId,
 }
 
 impl SessionRequest {
     /// Opens a channel as the endpoint wants it, creates a session and logs in. Nothing is left open after an error.
-    pub async fn open(self) -> Result<OpenSession, Failure> {
+    pub async fn open(self) -> Result<OpenSession, ConnectFailure> {
         let secured = self.endpoint.policy != Ok(SecurityPolicy::None);
         if secured && self.endpoint.certificate != self.expected {
-            return Err(Failure::of(Stage::Channel, Cause::OtherCertificate));
+            return Err(ConnectFailure::of(ConnectStage::Channel, ConnectFailureCause::OtherCertificate));
         }
         let description = self.endpoint.at(&self.connection.target);
         let mut channel = self.connection.open(description.clone()).await?;
@@ -59,12 +59,12 @@ impl SessionRequest {
     /// The authentication token of the new session.
     async fn create_session(
         &self,
-        channel: &mut Channel,
+        channel: &mut ClientChannel,
         description: &opcua::types::EndpointDescription,
-    ) -> Result<NodeId, Failure> {
+    ) -> Result<NodeId, ConnectFailure> {
         let store = &self.connection.store;
         let created = channel
-            .drive(Stage::CreateSession, async |secure| {
+            .drive(ConnectStage::CreateSession, async |secure| {
                 let application = ApplicationDescription {
                     application_uri: self.application_uri.as_str().into(),
                     product_uri: "urn:opcua-configurator".into(),
@@ -82,10 +82,10 @@ impl SessionRequest {
                     .await
             })
             .await?;
-        let login_needs_it = matches!(self.login, Login::User { .. });
+        let login_needs_it = matches!(self.login, UserLogin::User { .. });
         // A password is encrypted for whatever certificate is in this answer, which nothing signs without security.
         if login_needs_it && created.server_certificate.as_ref() != self.expected {
-            return Err(Failure::of(Stage::CreateSession, Cause::OtherCertificate));
+            return Err(ConnectFailure::of(ConnectStage::CreateSession, ConnectFailureCause::OtherCertificate));
         }
         Ok(created.authentication_token)
     }
@@ -94,14 +94,14 @@ impl SessionRequest {
         &self,
         session: &mut OpenSession,
         description: opcua::types::EndpointDescription,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), ConnectFailure> {
         let user = match &self.login {
-            Login::Anonymous => IdentityToken::Anonymous,
-            Login::User { name, password } => IdentityToken::new_user_name(name.clone(), password.expose_secret()),
+            UserLogin::Anonymous => IdentityToken::Anonymous,
+            UserLogin::User { name, password } => IdentityToken::new_user_name(name.clone(), password.expose_secret()),
         };
         let OpenSession { channel, token } = session;
         channel
-            .drive(Stage::Login, async |secure| {
+            .drive(ConnectStage::Login, async |secure| {
                 let handle = secure.request_handle();
                 ActivateSession::new_manual(description, 0, REQUEST, token.clone(), handle)
                     .identity_token(user)
@@ -121,7 +121,9 @@ impl OpenSession {
         let close = async |secure: &_| {
             CloseSession::new_manual(0, REQUEST, self.token.clone(), 0).delete_subscriptions(true).send(secure).await
         };
-        if let Ok(Err(failure)) = tokio::time::timeout(CLOSE, self.channel.drive(Stage::CreateSession, close)).await {
+        if let Ok(Err(failure)) =
+            tokio::time::timeout(CLOSE, self.channel.drive(ConnectStage::CreateSession, close)).await
+        {
             tracing::debug!(cause = %failure.cause, "session not closed");
         }
         self.channel.close().await;

@@ -12,7 +12,7 @@ use tokio_util::sync::{CancellationToken, DropGuard};
 
 use super::client_session::{MAX_OPERATIONS, Shared, wrong_answer};
 use super::convert::{data_value, quality, ua_node_id};
-use super::failure::{Failure, Stage, status};
+use super::failure::{ConnectFailure, ConnectStage, status};
 use crate::model::opcua::{DataValue, NodeId, Quality};
 
 /// How often a server looks at variables, and how often it tells what has changed.
@@ -41,7 +41,7 @@ pub type Changes = Vec<(usize, DataValue)>;
 /// when its lifetime is over.
 #[derive(Debug)]
 pub struct Subscription {
-    changes: mpsc::Receiver<Result<Changes, Failure>>,
+    changes: mpsc::Receiver<Result<Changes, ConnectFailure>>,
     /// In the order of the nodes: whether the server watches each.
     accepted: Vec<Quality>,
     _stop: DropGuard,
@@ -52,7 +52,7 @@ impl Subscription {
         shared: Arc<Shared>,
         nodes: &[NodeId],
         intervals: SubscriptionIntervals,
-    ) -> Result<Self, Failure> {
+    ) -> Result<Self, ConnectFailure> {
         let request = shared.header(|shared, token, handle| {
             CreateSubscription::new_manual(0, REQUEST, token, handle)
                 .publishing_interval(intervals.publishing)
@@ -61,7 +61,7 @@ impl Subscription {
                 .max_notifications_per_publish(MAX_NOTIFICATIONS)
                 .send(shared.channel())
         });
-        let created = shared.answered(Stage::Subscribe, request).await?;
+        let created = shared.answered(ConnectStage::Subscribe, request).await?;
         let subscription = created.subscription_id;
         let mut accepted = Vec::with_capacity(nodes.len());
         for (page, some) in nodes.chunks(MAX_OPERATIONS).enumerate() {
@@ -91,10 +91,10 @@ impl Subscription {
 
     /// Waits for the next changes. An empty list is the server's sign of life. After an error the subscription has ended.
     /// Cancel safe.
-    pub async fn next(&mut self) -> Result<Changes, Failure> {
+    pub async fn next(&mut self) -> Result<Changes, ConnectFailure> {
         match self.changes.recv().await {
             Some(changes) => changes,
-            None => Err(Failure::of(Stage::Subscribe, status(StatusCode::BadNoSubscription, ""))),
+            None => Err(ConnectFailure::of(ConnectStage::Subscribe, status(StatusCode::BadNoSubscription, ""))),
         }
     }
 }
@@ -106,7 +106,7 @@ async fn watch(
     first: usize,
     nodes: &[NodeId],
     intervals: SubscriptionIntervals,
-) -> Result<Vec<Quality>, Failure> {
+) -> Result<Vec<Quality>, ConnectFailure> {
     let items = nodes.iter().enumerate().map(|(at, node)| MonitoredItemCreateRequest {
         item_to_monitor: ReadValueId {
             node_id: ua_node_id(node),
@@ -129,7 +129,7 @@ async fn watch(
             .items_to_create(items)
             .send(shared.channel())
     });
-    let created = shared.answered(Stage::Subscribe, request).await?.results;
+    let created = shared.answered(ConnectStage::Subscribe, request).await?.results;
     Ok(created.into_iter().map(|item| quality(item.result.status_code)).collect())
 }
 
@@ -139,7 +139,7 @@ struct Publishing {
     subscription: u32,
     timeout: Duration,
     nodes: usize,
-    changes: mpsc::Sender<Result<Changes, Failure>>,
+    changes: mpsc::Sender<Result<Changes, ConnectFailure>>,
 }
 
 impl Publishing {
@@ -154,7 +154,7 @@ impl Publishing {
         }
     }
 
-    async fn publish(&self, acknowledged: &mut Option<u32>) -> Result<Changes, Failure> {
+    async fn publish(&self, acknowledged: &mut Option<u32>) -> Result<Changes, ConnectFailure> {
         let request = self.shared.header(|shared, token, handle| {
             let mut publish = Publish::new_manual(0, self.timeout, token, handle);
             if let Some(sequence_number) = acknowledged.take() {
@@ -162,7 +162,7 @@ impl Publishing {
             }
             publish.send(shared.channel())
         });
-        let response = self.shared.answered(Stage::Subscribe, request).await?;
+        let response = self.shared.answered(ConnectStage::Subscribe, request).await?;
         let NotificationMessage { sequence_number, notification_data, .. } = response.notification_message;
         let notifications = notification_data.unwrap_or_default();
         if !notifications.is_empty() {
@@ -175,16 +175,16 @@ impl Publishing {
         Ok(changes)
     }
 
-    fn take_in(&self, notification: ExtensionObject, changes: &mut Changes) -> Result<(), Failure> {
+    fn take_in(&self, notification: ExtensionObject, changes: &mut Changes) -> Result<(), ConnectFailure> {
         if let Some(change) = notification.inner_as::<StatusChangeNotification>() {
-            return Err(Failure::of(Stage::Subscribe, status(change.status, "")));
+            return Err(ConnectFailure::of(ConnectStage::Subscribe, status(change.status, "")));
         }
         // Events are not subscribed.
         let Some(data) = notification.into_inner_as::<DataChangeNotification>() else { return Ok(()) };
         for item in data.monitored_items.unwrap_or_default() {
             let index = (item.client_handle as usize).wrapping_sub(1);
             if index >= self.nodes {
-                return Err(wrong_answer(Stage::Subscribe));
+                return Err(wrong_answer(ConnectStage::Subscribe));
             }
             changes.push((index, data_value(item.value)));
         }

@@ -8,12 +8,13 @@ use tokio::net::TcpListener;
 use super::*;
 use crate::workspace::Workspace;
 
-const PATIENCE: ConnectTimeouts = ConnectTimeouts { connect: Duration::from_secs(1), attempt: Duration::from_secs(2) };
+const WAIT_LIMIT: ConnectTimeouts =
+    ConnectTimeouts { connect: Duration::from_secs(1), attempt: Duration::from_secs(2) };
 
 /// Accepts, reads something, then answers; a client that is left waiting finds the connection open.
-async fn server(answers: impl Fn(usize) -> Option<Vec<u8>> + Send + 'static) -> Target {
+async fn server(answers: impl Fn(usize) -> Option<Vec<u8>> + Send + 'static) -> ServerLocation {
     let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
-    let target = Target { host: "127.0.0.1".into(), port: listener.local_addr().unwrap().port() };
+    let target = ServerLocation { host: "127.0.0.1".into(), port: listener.local_addr().unwrap().port() };
     tokio::spawn(async move {
         while let Ok((mut stream, _)) = listener.accept().await {
             for round in 0.. {
@@ -41,10 +42,10 @@ fn acknowledge() -> Vec<u8> {
     frame(b"ACKF", &body)
 }
 
-async fn ask(target: &Target) -> Failure {
+async fn ask(target: &ServerLocation) -> ConnectFailure {
     let folder = tempfile::tempdir().unwrap();
     let identity = Workspace::new(folder.path()).own_identity().load_or_make(chrono::Utc::now()).unwrap();
-    let client = OpcUaClient::new(&identity, PATIENCE).unwrap();
+    let client = OpcUaClient::new(&identity, WAIT_LIMIT).unwrap();
     let asked = Instant::now();
     let failure = client.endpoints(target).await.expect_err("not an OPC UA server");
     assert!(asked.elapsed() < Duration::from_secs(20), "took {:?}", asked.elapsed());
@@ -54,13 +55,16 @@ async fn ask(target: &Target) -> Failure {
 #[tokio::test(flavor = "multi_thread")]
 async fn nobody_listens_and_no_such_host() {
     let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
-    let target = Target { host: "127.0.0.1".into(), port: listener.local_addr().unwrap().port() };
+    let target = ServerLocation { host: "127.0.0.1".into(), port: listener.local_addr().unwrap().port() };
     drop(listener);
     let failure = ask(&target).await;
-    assert!(matches!(failure, Failure { stage: Stage::Connect, cause: Cause::NotReachable(_) }), "{failure:?}");
-    assert!(!is_reachable(&target, PATIENCE.connect).await);
-    let failure = ask(&Target { host: "robot.invalid".into(), port: 4840 }).await;
-    assert_eq!(failure.stage, Stage::Connect);
+    assert!(
+        matches!(failure, ConnectFailure { stage: ConnectStage::Connect, cause: ConnectFailureCause::NotReachable(_) }),
+        "{failure:?}"
+    );
+    assert!(!is_reachable(&target, WAIT_LIMIT.connect).await);
+    let failure = ask(&ServerLocation { host: "robot.invalid".into(), port: 4840 }).await;
+    assert_eq!(failure.stage, ConnectStage::Connect);
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -68,30 +72,39 @@ async fn what_answers_is_something_else() {
     for answer in [b"HTTP/1.1 400 Bad Request\r\n\r\n".to_vec(), vec![0; 5000], frame(b"ACKF", &[0xff; 20])] {
         let target = server(move |_| Some(answer.clone())).await;
         let failure = ask(&target).await;
-        assert!(matches!(failure.cause, Cause::NotOpcUa(_) | Cause::Closed | Cause::Status { .. }), "{failure:?}");
+        assert!(
+            matches!(
+                failure.cause,
+                ConnectFailureCause::NotOpcUa(_) | ConnectFailureCause::Closed | ConnectFailureCause::Status { .. }
+            ),
+            "{failure:?}"
+        );
     }
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn what_answers_hangs_or_hangs_up() {
     let target = server(|_| Some(Vec::new())).await;
-    assert_eq!(ask(&target).await.cause, Cause::TimedOut);
+    assert_eq!(ask(&target).await.cause, ConnectFailureCause::TimedOut);
     let target = server(|_| None).await;
-    assert_eq!(ask(&target).await.cause, Cause::Closed);
+    assert_eq!(ask(&target).await.cause, ConnectFailureCause::Closed);
     let target = server(|round| Some(if round == 0 { acknowledge() } else { Vec::new() })).await;
-    assert_eq!(ask(&target).await.cause, Cause::TimedOut);
+    assert_eq!(ask(&target).await.cause, ConnectFailureCause::TimedOut);
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn what_answers_sends_without_end() {
     let target = server(|_| Some(frame(b"ACKF", &[0; 60_000]).repeat(100))).await;
     let failure = ask(&target).await;
-    assert!(!matches!(failure.cause, Cause::Internal(_)), "{failure:?}");
+    assert!(!matches!(failure.cause, ConnectFailureCause::Internal(_)), "{failure:?}");
     let target =
         server(|round| Some(if round == 0 { acknowledge() } else { frame(b"MSGC", &[0; 60_000]).repeat(100) })).await;
-    assert!(matches!(ask(&target).await.cause, Cause::NotOpcUa(_) | Cause::Status { .. } | Cause::Closed));
+    assert!(matches!(
+        ask(&target).await.cause,
+        ConnectFailureCause::NotOpcUa(_) | ConnectFailureCause::Status { .. } | ConnectFailureCause::Closed
+    ));
     let target = server(|_| Some([&b"ACKF"[..], &0xffff_ffff_u32.to_le_bytes()].concat())).await;
-    let Cause::NotOpcUa(why) = ask(&target).await.cause else { panic!("taken for a server") };
+    let ConnectFailureCause::NotOpcUa(why) = ask(&target).await.cause else { panic!("taken for a server") };
     assert!(why.contains("4294967295"), "{why}");
 }
 
@@ -115,6 +128,6 @@ async fn a_damaged_channel_answer_is_a_clear_failure() {
     for body in [vec![], vec![0xff; 12], vec![0x7f; 200], [&[1, 0, 0, 0][..], &named].concat()] {
         let target = server(move |round| Some(if round == 0 { acknowledge() } else { frame(b"OPNF", &body) })).await;
         let failure = ask(&target).await;
-        assert_eq!(failure.stage, Stage::Channel, "{failure:?}");
+        assert_eq!(failure.stage, ConnectStage::Channel, "{failure:?}");
     }
 }

@@ -8,7 +8,7 @@ use tokio::io::{AsyncRead, ReadBuf};
 
 /// What was heard from a server besides what the library was told.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(super) struct Heard {
+pub(super) struct StreamObservations {
     /// Why no more is read: what comes is not OPC UA, or more of it than any honest answer.
     pub fault: Option<String>,
     /// The status and the words of an error message, the last thing a server sends (OPC 10000-6 §7.1.2.5). The library
@@ -22,21 +22,21 @@ pub(super) struct Heard {
 ///
 /// The library waits for a frame however long it is said to be; here a frame is at most what the Hello allowed, and all
 /// of them together at most `total_bytes`.
-pub(super) struct Watched<R> {
+pub(super) struct WatchedStream<R> {
     inner: R,
     total_bytes: Option<usize>,
-    frame: Frame,
-    heard: Arc<Mutex<Heard>>,
+    frame: FramePosition,
+    heard: Arc<Mutex<StreamObservations>>,
 }
 
-impl<R> Watched<R> {
-    pub fn new(inner: R, total_bytes: Option<usize>) -> (Self, Arc<Mutex<Heard>>) {
-        let heard = Arc::new(Mutex::new(Heard::default()));
-        (Self { inner, total_bytes, frame: Frame::default(), heard: heard.clone() }, heard)
+impl<R> WatchedStream<R> {
+    pub fn new(inner: R, total_bytes: Option<usize>) -> (Self, Arc<Mutex<StreamObservations>>) {
+        let heard = Arc::new(Mutex::new(StreamObservations::default()));
+        (Self { inner, total_bytes, frame: FramePosition::default(), heard: heard.clone() }, heard)
     }
 }
 
-impl<R: AsyncRead + Unpin> AsyncRead for Watched<R> {
+impl<R: AsyncRead + Unpin> AsyncRead for WatchedStream<R> {
     fn poll_read(self: Pin<&mut Self>, cx: &mut Context<'_>, buf: &mut ReadBuf<'_>) -> Poll<io::Result<()>> {
         let this = self.get_mut();
         let before = buf.filled().len();
@@ -62,7 +62,7 @@ impl<R: AsyncRead + Unpin> AsyncRead for Watched<R> {
 
 /// Where in a frame the stream is.
 #[derive(Debug, Default)]
-struct Frame {
+struct FramePosition {
     header: Vec<u8>,
     /// Bytes still to come, once the header is whole.
     rest: usize,
@@ -70,7 +70,7 @@ struct Frame {
     body: Option<Vec<u8>>,
 }
 
-impl Frame {
+impl FramePosition {
     fn look(&mut self, mut new: &[u8], last_word: &mut Option<(u32, String)>) -> Result<(), String> {
         while !new.is_empty() {
             if self.header.len() < HEADER {
@@ -142,14 +142,14 @@ mod tests {
         frame(b"ERRF", &body)
     }
 
-    async fn hear(bytes: &[u8], piece: usize) -> (io::Result<usize>, Heard) {
+    async fn hear(bytes: &[u8], piece: usize) -> (io::Result<usize>, StreamObservations) {
         let (mut far, near) = tokio::io::duplex(piece);
         let bytes = bytes.to_vec();
         tokio::spawn(async move {
             use tokio::io::AsyncWriteExt as _;
             let _ = far.write_all(&bytes).await;
         });
-        let (mut watched, heard) = Watched::new(near, Some(MAX_BYTES));
+        let (mut watched, heard) = WatchedStream::new(near, Some(MAX_BYTES));
         let mut all = Vec::new();
         let result = watched.read_to_end(&mut all).await;
         let heard = heard.lock().clone();

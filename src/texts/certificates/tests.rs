@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use super::*;
 use crate::model::CertificateStatus as Status;
-use crate::pki::{RevocationReason, Role};
+use crate::pki::{PeerRole, RevocationReason};
 
 fn all() -> Vec<CertificateFlaw> {
     use CertificateFlaw as F;
@@ -49,13 +49,13 @@ fn all() -> Vec<CertificateFlaw> {
         F::ClaimsToBeAuthority,
         F::KeyUsageMissing,
         F::KeyUsageLacks { missing: vec![KeyUsage::DigitalSignature] },
-        F::NotForRole { role: Role::Client },
-        F::NotForRole { role: Role::Server },
-        F::NotForRole { role: Role::Either },
+        F::NotForRole { role: PeerRole::Client },
+        F::NotForRole { role: PeerRole::Server },
+        F::NotForRole { role: PeerRole::Either },
         F::ExtendedKeyUsageMissing,
         F::NotAnAuthority,
         F::MayNotIssue,
-        F::MayNotIssueFor { role: Role::Client },
+        F::MayNotIssueFor { role: PeerRole::Client },
         F::TooManyAuthoritiesBelow { most: 0, found: 2 },
         F::Revoked { on: when(), because: RevocationReason::KeyCompromise },
         F::NotThatOfTheChannel,

@@ -2,7 +2,7 @@
 
 use super::revocation_lists;
 use crate::model::CertificateStatus as S;
-use crate::pki::{CertificateFlaw as F, Role};
+use crate::pki::{CertificateFlaw as F, PeerRole};
 use crate::texts::{
     capital,
     certificates::{date, usages},
@@ -150,9 +150,9 @@ pub fn flaw_remedy(flaw: &F) -> String {
             "make a certificate with the key usages digitalSignature, nonRepudiation, keyEncipherment and \
          dataEncipherment"
         }
-        F::NotForRole { role: Role::Client } => "make a certificate with the extended key usage clientAuth",
-        F::NotForRole { role: Role::Server } => "make a certificate with the extended key usage serverAuth",
-        F::NotForRole { role: Role::Either } | F::ExtendedKeyUsageMissing => {
+        F::NotForRole { role: PeerRole::Client } => "make a certificate with the extended key usage clientAuth",
+        F::NotForRole { role: PeerRole::Server } => "make a certificate with the extended key usage serverAuth",
+        F::NotForRole { role: PeerRole::Either } | F::ExtendedKeyUsageMissing => {
             "make a certificate with the extended key usages clientAuth and serverAuth"
         }
         F::NotAnAuthority | F::MayNotIssue | F::MayNotIssueFor { .. } | F::TooManyAuthoritiesBelow { .. } => {
@@ -210,10 +210,10 @@ pub fn joined(reason: &str, remedy: &str) -> String {
     format!("{reason}; {remedy}.")
 }
 
-const fn who(role: Role) -> &'static str {
+const fn who(role: PeerRole) -> &'static str {
     match role {
-        Role::Client => "clients",
-        Role::Server => "servers",
-        Role::Either => "clients or servers",
+        PeerRole::Client => "clients",
+        PeerRole::Server => "servers",
+        PeerRole::Either => "clients or servers",
     }
 }

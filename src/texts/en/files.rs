@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::sentences::controllers;
-use crate::model::activation::{KeyError, LineMistake, Mistake};
-use crate::workspace::Skipped;
+use crate::model::activation::{ActivationMistake, KeyError, LineMistake};
+use crate::workspace::SkippedLine;
 
 english_texts! { files:
     // choosing a file
@@ -69,8 +69,8 @@ pub fn keys_found(ready: usize, all: usize) -> String {
 
 pub fn line_mistake(mistake: &LineMistake) -> String {
     let what = match &mistake.mistake {
-        Mistake::Licence(error) => format!("licence key: {}", key_error(*error)),
-        Mistake::Activation(error) => format!("activation key: {}", key_error(*error)),
+        ActivationMistake::Licence(error) => format!("licence key: {}", key_error(*error)),
+        ActivationMistake::Activation(error) => format!("activation key: {}", key_error(*error)),
         other => other.to_string(),
     };
     format!("{}: {what}", line(mistake.line))
@@ -84,7 +84,7 @@ pub fn imported(count: usize) -> String {
     format!("{} added, not confirmed yet", controllers(count))
 }
 
-pub fn skipped(why: &Skipped) -> String {
+pub fn skipped(why: &SkippedLine) -> String {
     why.to_string()
 }
 

@@ -1,7 +1,7 @@
 //! Sentences with values filled in, in English.
 
 use super::LANGUAGE;
-use crate::jobs::Summary;
+use crate::jobs::JobSummary;
 use crate::model::{CertificateSummary, FirmwareVersion};
 use crate::texts::{TextKey as T, Zone, byte_count};
 
@@ -63,8 +63,8 @@ fn lower_first(text: &str) -> String {
     }
 }
 
-pub fn summary(summary: Summary) -> String {
-    let Summary { done, failed, not_started } = summary;
+pub fn summary(summary: JobSummary) -> String {
+    let JobSummary { done, failed, not_started } = summary;
     let parts = [
         (done, format!("{done} done")),
         (failed, format!("{failed} failed")),

@@ -5,15 +5,15 @@ use std::borrow::Cow;
 use chrono::Duration;
 
 use super::LANGUAGE;
-use crate::jobs::Note;
+use crate::jobs::TrustNote;
 use crate::model::{CertificateStatus, ErrorCode};
 use crate::pki::CertificateFlaw;
 use crate::texts::TextKey as T;
 use crate::texts::certificates::date;
 
 english_texts! { trust:
-    ClientLists: "Client certificates…";
-    ClientListsTip: "Trusted, rejected and issuers: which clients may connect";
+    ClientCertificates: "Client certificates…";
+    ClientCertificatesTip: "Trusted, rejected and issuers: which clients may connect";
     Crl: "CRL…";
     CrlTip: "Certificate revocation lists of the authorities that issued client certificates";
     ActMoveClients: "Move certificates";
@@ -240,18 +240,18 @@ pub fn covers(health: T, authority: &str) -> String {
     format!("{} (covers {authority})", health.text(LANGUAGE))
 }
 
-pub fn note(note: &Note) -> Cow<'static, str> {
+pub fn note(note: &TrustNote) -> Cow<'static, str> {
     match note {
-        Note::NeverAccepted { authority, flaw } => never_accepted(*authority, flaw).into(),
-        Note::NumberStartsAgain { number, date: on, before, date_before } => {
+        TrustNote::NeverAccepted { authority, flaw } => never_accepted(*authority, flaw).into(),
+        TrustNote::NumberStartsAgain { number, date: on, before, date_before } => {
             starts_again((number, &date(on)), (before, &date(date_before))).into()
         }
-        Note::TrustsAllItIssues => "lets in every client with a certificate from it".into(),
-        Note::OnlyCompletesAChain => "only completes the chain".into(),
-        Note::CrlAmongCertificates => "CRL among certificates".into(),
-        Note::ReplacesOlder => "replaces the older one".into(),
-        Note::Expired => "expired".into(),
-        Note::NotYetValid => "not valid yet".into(),
+        TrustNote::TrustsAllItIssues => "lets in every client with a certificate from it".into(),
+        TrustNote::OnlyCompletesAChain => "only completes the chain".into(),
+        TrustNote::CrlAmongCertificates => "CRL among certificates".into(),
+        TrustNote::ReplacesOlder => "replaces the older one".into(),
+        TrustNote::Expired => "expired".into(),
+        TrustNote::NotYetValid => "not valid yet".into(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What came of connecting to a server as a client, in English.
 
 use super::LANGUAGE;
-use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, VerifyFinding};
+use crate::jobs::{ConnectRefusal, NotTried, RefusalDetails, VerifyCounts, VerifyFinding};
 use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 use crate::texts::without_stop;
@@ -29,40 +29,40 @@ english_texts! { verify:
     VerifyAfterChangesOn: "Verify when the server has started again";
 }
 
-pub fn refusal(refusal: &Refusal) -> String {
+pub fn refusal(refusal: &ConnectRefusal) -> String {
     match refusal {
-        Refusal::NotReachable(why) => {
+        ConnectRefusal::NotReachable(why) => {
             format!("Nothing answers there ({why}); check the port, the firewall and the cable")
         }
-        Refusal::TimedOut => "The server does not answer in time; check the network, or start the server again".to_owned(),
-        Refusal::NotOpcUa(why) => format!("The answer is not that of an OPC UA server: {why}"),
-        Refusal::Closed => "The server closes the connection without a reason; look into its log. After many refusals it gives no reason for a minute"
+        ConnectRefusal::TimedOut => "The server does not answer in time; check the network, or start the server again".to_owned(),
+        ConnectRefusal::NotOpcUa(why) => format!("The answer is not that of an OPC UA server: {why}"),
+        ConnectRefusal::Closed => "The server closes the connection without a reason; look into its log. After many refusals it gives no reason for a minute"
             .to_owned(),
-        Refusal::OwnCertificate(None) => "The server refuses the certificate of this configurator and does not say \
+        ConnectRefusal::OwnCertificate(None) => "The server refuses the certificate of this configurator and does not say \
                                    why; most often it is not trusted yet"
             .to_owned(),
-        Refusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
+        ConnectRefusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
             "The server does not trust the certificate of this configurator; add it to Trusted and verify again"
                 .to_owned()
         }
-        Refusal::OwnCertificate(Some(told)) => format!(
+        ConnectRefusal::OwnCertificate(Some(told)) => format!(
             "The server refuses the certificate of this configurator ({}): {}",
             told.status,
             without_stop(&told.explain(LANGUAGE))
         ),
-        Refusal::OtherCertificate => {
+        ConnectRefusal::OtherCertificate => {
             "The server answers with another certificate than the one of the endpoint; no password was sent".to_owned()
         }
-        Refusal::Password => "User name or password is wrong, or the user is locked out for a minute".to_owned(),
-        Refusal::Anonymous => "The server offers login without a user name, but refuses it".to_owned(),
-        Refusal::Busy(name) => {
+        ConnectRefusal::Password => "User name or password is wrong, or the user is locked out for a minute".to_owned(),
+        ConnectRefusal::Anonymous => "The server offers login without a user name, but refuses it".to_owned(),
+        ConnectRefusal::Busy(name) => {
             format!("The server has no room for another client ({name}); close some, then verify again")
         }
-        Refusal::State(state) => {
+        ConnectRefusal::State(state) => {
             format!("A client can log in, but the server reports the state {state} instead of Running")
         }
-        Refusal::Status { name, reason } if reason.is_empty() => format!("The server refuses it: {name}"),
-        Refusal::Status { name, reason } => format!("The server refuses it: {name}, {reason}"),
+        ConnectRefusal::Status { name, reason } if reason.is_empty() => format!("The server refuses it: {name}"),
+        ConnectRefusal::Status { name, reason } => format!("The server refuses it: {name}, {reason}"),
     }
 }
 
@@ -144,8 +144,8 @@ pub const fn token_kind(kind: TokenKind) -> &'static str {
     }
 }
 
-pub fn verify_counts(counts: Counts) -> String {
-    let Counts { work, fail, not_tried } = counts;
+pub fn verify_counts(counts: VerifyCounts) -> String {
+    let VerifyCounts { work, fail, not_tried } = counts;
     format!("{work} work, {fail} do not, {not_tried} not tried")
 }
 

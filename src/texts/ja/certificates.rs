@@ -2,7 +2,7 @@
 
 use super::revocation_lists;
 use crate::model::CertificateStatus as S;
-use crate::pki::{CertificateFlaw as F, Role};
+use crate::pki::{CertificateFlaw as F, PeerRole};
 use crate::texts::certificates::{date, usages};
 
 pub fn flaw_reason(flaw: &F) -> String {
@@ -164,9 +164,9 @@ pub fn flaw_remedy(flaw: &F) -> String {
             "鍵用途にdigitalSignature、nonRepudiation、keyEncipherment、\
              dataEnciphermentを含む証明書を作成してください"
         }
-        F::NotForRole { role: Role::Client } => "拡張鍵用途にclientAuthを含む証明書を作成してください",
-        F::NotForRole { role: Role::Server } => "拡張鍵用途にserverAuthを含む証明書を作成してください",
-        F::NotForRole { role: Role::Either } | F::ExtendedKeyUsageMissing => {
+        F::NotForRole { role: PeerRole::Client } => "拡張鍵用途にclientAuthを含む証明書を作成してください",
+        F::NotForRole { role: PeerRole::Server } => "拡張鍵用途にserverAuthを含む証明書を作成してください",
+        F::NotForRole { role: PeerRole::Either } | F::ExtendedKeyUsageMissing => {
             "拡張鍵用途にclientAuthとserverAuthを含む証明書を作成してください"
         }
         F::NotAnAuthority | F::MayNotIssue | F::MayNotIssueFor { .. } | F::TooManyAuthoritiesBelow { .. } => {
@@ -235,10 +235,10 @@ pub fn joined(reason: &str, remedy: &str) -> String {
     format!("{reason}。{remedy}。")
 }
 
-const fn who(role: Role) -> &'static str {
+const fn who(role: PeerRole) -> &'static str {
     match role {
-        Role::Client => "クライアント",
-        Role::Server => "サーバー",
-        Role::Either => "クライアントまたはサーバー",
+        PeerRole::Client => "クライアント",
+        PeerRole::Server => "サーバー",
+        PeerRole::Either => "クライアントまたはサーバー",
     }
 }

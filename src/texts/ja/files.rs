@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::LANGUAGE;
 use crate::model::AddressError;
-use crate::model::activation::{KeyError, LineMistake, Mistake};
+use crate::model::activation::{ActivationMistake, KeyError, LineMistake};
 use crate::texts::TextKey as T;
-use crate::workspace::Skipped;
+use crate::workspace::SkippedLine;
 
 fixed_texts! {
     // choosing a file
@@ -69,17 +69,19 @@ pub fn keys_found(ready: usize, all: usize) -> String {
 
 pub fn line_mistake(mistake: &LineMistake) -> String {
     let what = match &mistake.mistake {
-        Mistake::Fields(count) => format!("項目数が{count}個です。シリアル番号とキー2つの3個にしてください。"),
-        Mistake::Separator { found, expected } => {
+        ActivationMistake::Fields(count) => {
+            format!("項目数が{count}個です。シリアル番号とキー2つの3個にしてください。")
+        }
+        ActivationMistake::Separator { found, expected } => {
             format!("区切り文字「{found}」が、前の行の「{expected}」と異なります")
         }
-        Mistake::Quotes => "引用符が閉じていないか、項目に改行が含まれています".to_owned(),
-        Mistake::Serial => {
+        ActivationMistake::Quotes => "引用符が閉じていないか、項目に改行が含まれています".to_owned(),
+        ActivationMistake::Serial => {
             "シリアル番号が正しくありません。半角英数字、「-」、「_」の1～32文字にしてください。".to_owned()
         }
-        Mistake::Licence(error) => format!("ライセンスキー：{}", key_error(*error)),
-        Mistake::Activation(error) => format!("アクティベーションキー：{}", key_error(*error)),
-        Mistake::Duplicate(line) => format!("シリアル番号が{line}行目と重複しています"),
+        ActivationMistake::Licence(error) => format!("ライセンスキー：{}", key_error(*error)),
+        ActivationMistake::Activation(error) => format!("アクティベーションキー：{}", key_error(*error)),
+        ActivationMistake::Duplicate(line) => format!("シリアル番号が{line}行目と重複しています"),
     };
     format!("{}：{what}", line(mistake.line))
 }
@@ -92,19 +94,19 @@ pub fn imported(count: usize) -> String {
     format!("コントローラー{count}台を追加しました (未確認)")
 }
 
-pub fn skipped(why: &Skipped) -> String {
+pub fn skipped(why: &SkippedLine) -> String {
     match why {
-        Skipped::Usb => "USB接続のため、ネットワークから接続できません".to_owned(),
-        Skipped::Virtual => "開発環境の仮想コントローラーです".to_owned(),
-        Skipped::NameRegistered => "名前は登録済みです".to_owned(),
-        Skipped::AddressRegistered(name) => format!("アドレスは登録済みです ({name})"),
-        Skipped::Fields(count) => format!("項目数が{count}個です。名前、タイプ、アドレスの3個にしてください。"),
-        Skipped::Type(kind) => format!("「{kind}」は、接続の種類 (Ethernet、USB、Virtual) ではありません"),
-        Skipped::Name(_) => format!("名前が正しくありません：{}", T::NameRule.text(LANGUAGE)),
-        Skipped::Quotes => "引用符が閉じていないか、項目に改行が含まれています".to_owned(),
-        Skipped::Address(error) => format!("アドレスが正しくありません：{}", address_error(error)),
-        Skipped::NameTwice(line) => format!("名前が{line}行目と重複しています"),
-        Skipped::AddressTwice(line) => format!("アドレスが{line}行目と重複しています"),
+        SkippedLine::Usb => "USB接続のため、ネットワークから接続できません".to_owned(),
+        SkippedLine::Virtual => "開発環境の仮想コントローラーです".to_owned(),
+        SkippedLine::NameRegistered => "名前は登録済みです".to_owned(),
+        SkippedLine::AddressRegistered(name) => format!("アドレスは登録済みです ({name})"),
+        SkippedLine::Fields(count) => format!("項目数が{count}個です。名前、タイプ、アドレスの3個にしてください。"),
+        SkippedLine::Type(kind) => format!("「{kind}」は、接続の種類 (Ethernet、USB、Virtual) ではありません"),
+        SkippedLine::Name(_) => format!("名前が正しくありません：{}", T::NameRule.text(LANGUAGE)),
+        SkippedLine::Quotes => "引用符が閉じていないか、項目に改行が含まれています".to_owned(),
+        SkippedLine::Address(error) => format!("アドレスが正しくありません：{}", address_error(error)),
+        SkippedLine::NameTwice(line) => format!("名前が{line}行目と重複しています"),
+        SkippedLine::AddressTwice(line) => format!("アドレスが{line}行目と重複しています"),
     }
 }
 

@@ -5,15 +5,15 @@ use std::borrow::Cow;
 use chrono::Duration;
 
 use super::LANGUAGE;
-use crate::jobs::Note;
+use crate::jobs::TrustNote;
 use crate::model::{CertificateStatus, ErrorCode};
 use crate::pki::CertificateFlaw;
 use crate::texts::TextKey as T;
 use crate::texts::certificates::date;
 
 fixed_texts! {
-    ClientLists: "クライアント証明書…";
-    ClientListsTip: "接続を許可するクライアントを、信頼リスト、拒否リスト、発行者リストで管理します";
+    ClientCertificates: "クライアント証明書…";
+    ClientCertificatesTip: "接続を許可するクライアントを、信頼リスト、拒否リスト、発行者リストで管理します";
     Crl: "CRL…";
     CrlTip: "クライアント証明書を発行した認証局の証明書失効リストを管理します";
     ActMoveClients: "証明書を移動";
@@ -237,18 +237,18 @@ pub fn covers(health: T, authority: &str) -> String {
     format!("{} (対象：{authority})", health.text(LANGUAGE))
 }
 
-pub fn note(note: &Note) -> Cow<'static, str> {
+pub fn note(note: &TrustNote) -> Cow<'static, str> {
     match note {
-        Note::NeverAccepted { authority, flaw } => never_accepted(*authority, flaw).into(),
-        Note::NumberStartsAgain { number, date: on, before, date_before } => {
+        TrustNote::NeverAccepted { authority, flaw } => never_accepted(*authority, flaw).into(),
+        TrustNote::NumberStartsAgain { number, date: on, before, date_before } => {
             starts_again((number, &date(on)), (before, &date(date_before))).into()
         }
-        Note::TrustsAllItIssues => "発行した証明書を持つすべてのクライアントに接続を許可".into(),
-        Note::OnlyCompletesAChain => "証明書チェーンの補完にのみ使用".into(),
-        Note::CrlAmongCertificates => "証明書に含まれるCRL".into(),
-        Note::ReplacesOlder => "古いCRLを置き換え".into(),
-        Note::Expired => "期限切れ".into(),
-        Note::NotYetValid => "有効期間前".into(),
+        TrustNote::TrustsAllItIssues => "発行した証明書を持つすべてのクライアントに接続を許可".into(),
+        TrustNote::OnlyCompletesAChain => "証明書チェーンの補完にのみ使用".into(),
+        TrustNote::CrlAmongCertificates => "証明書に含まれるCRL".into(),
+        TrustNote::ReplacesOlder => "古いCRLを置き換え".into(),
+        TrustNote::Expired => "期限切れ".into(),
+        TrustNote::NotYetValid => "有効期間前".into(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What came of connecting to a server as a client, in Japanese.
 
 use super::LANGUAGE;
-use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, VerifyFinding};
+use crate::jobs::{ConnectRefusal, NotTried, RefusalDetails, VerifyCounts, VerifyFinding};
 use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 
@@ -28,43 +28,51 @@ fixed_texts! {
     VerifyAfterChangesOn: "サーバーの再開後に接続検証を実行";
 }
 
-pub fn refusal(refusal: &Refusal) -> String {
+pub fn refusal(refusal: &ConnectRefusal) -> String {
     match refusal {
-        Refusal::NotReachable(why) => format!(
+        ConnectRefusal::NotReachable(why) => format!(
             "このアドレスから応答がありません ({why})。ポート、\
              ファイアウォール、ケーブルを確認してください。"
         ),
-        Refusal::TimedOut => {
+        ConnectRefusal::TimedOut => {
             "時間内に応答がありません。ネットワークを確認するか、サーバーを再度開始してください。".to_owned()
         }
-        Refusal::NotOpcUa(why) => format!("応答した相手は、正常なOPC UAサーバーではありません：{why}"),
-        Refusal::Closed => "サーバーが、理由を通知せずに接続を切断しました。サーバーログで理由を確認してください。\
+        ConnectRefusal::NotOpcUa(why) => format!("応答した相手は、正常なOPC UAサーバーではありません：{why}"),
+        ConnectRefusal::Closed => {
+            "サーバーが、理由を通知せずに接続を切断しました。サーバーログで理由を確認してください。\
                             拒否が続くと、サーバーは1分間理由を通知しません。"
-            .to_owned(),
-        Refusal::OwnCertificate(None) => "サーバーが本ツールの証明書を拒否しましたが、理由は通知されていません。\
+                .to_owned()
+        }
+        ConnectRefusal::OwnCertificate(None) => {
+            "サーバーが本ツールの証明書を拒否しましたが、理由は通知されていません。\
                                           多くの場合、本ツールの証明書が信頼リストにないことが原因です。"
-            .to_owned(),
-        Refusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
+                .to_owned()
+        }
+        ConnectRefusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
             "サーバーが本ツールの証明書を信頼していません。\
              証明書を信頼リストに追加してから、再検証してください。"
                 .to_owned()
         }
-        Refusal::OwnCertificate(Some(told)) => {
+        ConnectRefusal::OwnCertificate(Some(told)) => {
             let said = told.explain(LANGUAGE);
             format!("サーバーが本ツールの証明書を拒否しました ({})：{said}", told.status)
         }
-        Refusal::OtherCertificate => "サーバーが、エンドポイントの証明書とは別の証明書で応答しました。\
+        ConnectRefusal::OtherCertificate => "サーバーが、エンドポイントの証明書とは別の証明書で応答しました。\
                                       パスワードは送信されていません。"
             .to_owned(),
-        Refusal::Password => "ユーザー名またはパスワードが間違っているか、ユーザーが1分間ロックされています".to_owned(),
-        Refusal::Anonymous => "匿名接続が提供されていますが、ユーザー名なしの接続は拒否されました".to_owned(),
-        Refusal::Busy(name) => format!(
+        ConnectRefusal::Password => {
+            "ユーザー名またはパスワードが間違っているか、ユーザーが1分間ロックされています".to_owned()
+        }
+        ConnectRefusal::Anonymous => "匿名接続が提供されていますが、ユーザー名なしの接続は拒否されました".to_owned(),
+        ConnectRefusal::Busy(name) => format!(
             "サーバーに接続できるクライアント数の上限に達しています ({name})。\
              不要なクライアントを終了してから、再検証してください。"
         ),
-        Refusal::State(state) => format!("クライアントは接続できますが、サーバーの状態がRunningではなく{state}です"),
-        Refusal::Status { name, reason } if reason.is_empty() => format!("サーバーが拒否しました：{name}"),
-        Refusal::Status { name, reason } => format!("サーバーが拒否しました：{name}、{reason}"),
+        ConnectRefusal::State(state) => {
+            format!("クライアントは接続できますが、サーバーの状態がRunningではなく{state}です")
+        }
+        ConnectRefusal::Status { name, reason } if reason.is_empty() => format!("サーバーが拒否しました：{name}"),
+        ConnectRefusal::Status { name, reason } => format!("サーバーが拒否しました：{name}、{reason}"),
     }
 }
 
@@ -163,8 +171,8 @@ pub const fn token_kind(kind: TokenKind) -> &'static str {
     }
 }
 
-pub fn verify_counts(counts: Counts) -> String {
-    let Counts { work, fail, not_tried } = counts;
+pub fn verify_counts(counts: VerifyCounts) -> String {
+    let VerifyCounts { work, fail, not_tried } = counts;
     format!("正常{work}件、失敗{fail}件、未試行{not_tried}件")
 }
 

@@ -2,7 +2,7 @@
 
 use super::revocation_lists;
 use crate::model::CertificateStatus as S;
-use crate::pki::{CertificateFlaw as F, Role};
+use crate::pki::{CertificateFlaw as F, PeerRole};
 use crate::texts::certificates::{date, usages};
 
 pub fn flaw_reason(flaw: &F) -> String {
@@ -116,9 +116,9 @@ pub fn flaw_remedy(flaw: &F) -> String {
         F::KeyUsageMissing | F::KeyUsageLacks { .. } => {
             "请创建密钥用法包含 digitalSignature、nonRepudiation、keyEncipherment 和 dataEncipherment 的证书"
         }
-        F::NotForRole { role: Role::Client } => "请创建扩展密钥用法包含 clientAuth 的证书",
-        F::NotForRole { role: Role::Server } => "请创建扩展密钥用法包含 serverAuth 的证书",
-        F::NotForRole { role: Role::Either } | F::ExtendedKeyUsageMissing => {
+        F::NotForRole { role: PeerRole::Client } => "请创建扩展密钥用法包含 clientAuth 的证书",
+        F::NotForRole { role: PeerRole::Server } => "请创建扩展密钥用法包含 serverAuth 的证书",
+        F::NotForRole { role: PeerRole::Either } | F::ExtendedKeyUsageMissing => {
             "请创建扩展密钥用法包含 clientAuth 和 serverAuth 的证书"
         }
         F::NotAnAuthority | F::MayNotIssue | F::MayNotIssueFor { .. } | F::TooManyAuthoritiesBelow { .. } => {
@@ -164,10 +164,10 @@ pub fn joined(reason: &str, remedy: &str) -> String {
     format!("{reason}，{remedy}。")
 }
 
-const fn who(role: Role) -> &'static str {
+const fn who(role: PeerRole) -> &'static str {
     match role {
-        Role::Client => "客户端",
-        Role::Server => "服务器",
-        Role::Either => "客户端或服务器",
+        PeerRole::Client => "客户端",
+        PeerRole::Server => "服务器",
+        PeerRole::Either => "客户端或服务器",
     }
 }

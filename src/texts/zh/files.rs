@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::LANGUAGE;
 use crate::model::AddressError;
-use crate::model::activation::{KeyError, LineMistake, Mistake};
+use crate::model::activation::{ActivationMistake, KeyError, LineMistake};
 use crate::texts::TextKey as T;
-use crate::workspace::Skipped;
+use crate::workspace::SkippedLine;
 
 fixed_texts! {
     // choosing a file
@@ -69,15 +69,15 @@ pub fn keys_found(ready: usize, all: usize) -> String {
 
 pub fn line_mistake(mistake: &LineMistake) -> String {
     let what = match &mistake.mistake {
-        Mistake::Fields(count) => format!("有 {count} 个字段，应为序列号、许可密钥和激活密钥 3 个"),
-        Mistake::Separator { found, expected } => {
+        ActivationMistake::Fields(count) => format!("有 {count} 个字段，应为序列号、许可密钥和激活密钥 3 个"),
+        ActivationMistake::Separator { found, expected } => {
             format!("分隔符为“{found}”，与前面各行的“{expected}”不一致")
         }
-        Mistake::Quotes => "引号未闭合，或字段中有换行".to_owned(),
-        Mistake::Serial => "序列号无效：应为 1 至 32 个字母、数字、“-”或“_”".to_owned(),
-        Mistake::Licence(error) => format!("许可密钥：{}", key_error(*error)),
-        Mistake::Activation(error) => format!("激活密钥：{}", key_error(*error)),
-        Mistake::Duplicate(line) => format!("序列号与第 {line} 行重复"),
+        ActivationMistake::Quotes => "引号未闭合，或字段中有换行".to_owned(),
+        ActivationMistake::Serial => "序列号无效：应为 1 至 32 个字母、数字、“-”或“_”".to_owned(),
+        ActivationMistake::Licence(error) => format!("许可密钥：{}", key_error(*error)),
+        ActivationMistake::Activation(error) => format!("激活密钥：{}", key_error(*error)),
+        ActivationMistake::Duplicate(line) => format!("序列号与第 {line} 行重复"),
     };
     format!("{}：{what}", line(mistake.line))
 }
@@ -90,19 +90,19 @@ pub fn imported(count: usize) -> String {
     format!("已添加 {count} 台控制器，尚未确认")
 }
 
-pub fn skipped(why: &Skipped) -> String {
+pub fn skipped(why: &SkippedLine) -> String {
     match why {
-        Skipped::Usb => "USB 连接，无法通过网络访问".to_owned(),
-        Skipped::Virtual => "编程环境中的虚拟控制器".to_owned(),
-        Skipped::NameRegistered => "名称已注册".to_owned(),
-        Skipped::AddressRegistered(name) => format!("地址已注册（{name}）"),
-        Skipped::Fields(count) => format!("有 {count} 个字段，应为名称、类型和地址 3 个"),
-        Skipped::Type(kind) => format!("“{kind}”不是已知的连接类型（Ethernet、USB、Virtual）"),
-        Skipped::Name(_) => format!("名称无效：{}", T::NameRule.text(LANGUAGE)),
-        Skipped::Quotes => "引号未闭合，或字段中有换行".to_owned(),
-        Skipped::Address(error) => format!("地址无效：{}", address_error(error)),
-        Skipped::NameTwice(line) => format!("名称与第 {line} 行重复"),
-        Skipped::AddressTwice(line) => format!("地址与第 {line} 行重复"),
+        SkippedLine::Usb => "USB 连接，无法通过网络访问".to_owned(),
+        SkippedLine::Virtual => "编程环境中的虚拟控制器".to_owned(),
+        SkippedLine::NameRegistered => "名称已注册".to_owned(),
+        SkippedLine::AddressRegistered(name) => format!("地址已注册（{name}）"),
+        SkippedLine::Fields(count) => format!("有 {count} 个字段，应为名称、类型和地址 3 个"),
+        SkippedLine::Type(kind) => format!("“{kind}”不是已知的连接类型（Ethernet、USB、Virtual）"),
+        SkippedLine::Name(_) => format!("名称无效：{}", T::NameRule.text(LANGUAGE)),
+        SkippedLine::Quotes => "引号未闭合，或字段中有换行".to_owned(),
+        SkippedLine::Address(error) => format!("地址无效：{}", address_error(error)),
+        SkippedLine::NameTwice(line) => format!("名称与第 {line} 行重复"),
+        SkippedLine::AddressTwice(line) => format!("地址与第 {line} 行重复"),
     }
 }
 

@@ -1,7 +1,7 @@
 //! Sentences with values filled in, in Chinese.
 
 use super::LANGUAGE;
-use crate::jobs::Summary;
+use crate::jobs::JobSummary;
 use crate::model::{CertificateSummary, FirmwareVersion};
 use crate::texts::{TextKey as T, Zone, byte_count};
 
@@ -48,8 +48,8 @@ pub fn sort_by(column: T) -> String {
     format!("按{}排序", column.text(LANGUAGE))
 }
 
-pub fn summary(summary: Summary) -> String {
-    let Summary { done, failed, not_started } = summary;
+pub fn summary(summary: JobSummary) -> String {
+    let JobSummary { done, failed, not_started } = summary;
     let parts = [
         (done, format!("完成 {done} 台")),
         (failed, format!("失败 {failed} 台")),

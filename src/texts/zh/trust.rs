@@ -5,15 +5,15 @@ use std::borrow::Cow;
 use chrono::Duration;
 
 use super::LANGUAGE;
-use crate::jobs::Note;
+use crate::jobs::TrustNote;
 use crate::model::{CertificateStatus, ErrorCode};
 use crate::pki::CertificateFlaw;
 use crate::texts::TextKey as T;
 use crate::texts::certificates::date;
 
 fixed_texts! {
-    ClientLists: "客户端证书…";
-    ClientListsTip: "信任、拒绝、发行人：允许哪些客户端连接";
+    ClientCertificates: "客户端证书…";
+    ClientCertificatesTip: "信任、拒绝、发行人：允许哪些客户端连接";
     Crl: "CRL…";
     CrlTip: "签发客户端证书的机构的证书吊销列表";
     ActMoveClients: "移动证书";
@@ -231,18 +231,18 @@ pub fn covers(health: T, authority: &str) -> String {
     format!("{}（适用于 {authority}）", health.text(LANGUAGE))
 }
 
-pub fn note(note: &Note) -> Cow<'static, str> {
+pub fn note(note: &TrustNote) -> Cow<'static, str> {
     match note {
-        Note::NeverAccepted { authority, flaw } => never_accepted(*authority, flaw).into(),
-        Note::NumberStartsAgain { number, date: on, before, date_before } => {
+        TrustNote::NeverAccepted { authority, flaw } => never_accepted(*authority, flaw).into(),
+        TrustNote::NumberStartsAgain { number, date: on, before, date_before } => {
             starts_again((number, &date(on)), (before, &date(date_before))).into()
         }
-        Note::TrustsAllItIssues => "允许其签发的所有客户端连接".into(),
-        Note::OnlyCompletesAChain => "仅用于补全证书链".into(),
-        Note::CrlAmongCertificates => "证书中包含的 CRL".into(),
-        Note::ReplacesOlder => "替换旧的 CRL".into(),
-        Note::Expired => "已过期".into(),
-        Note::NotYetValid => "尚未生效".into(),
+        TrustNote::TrustsAllItIssues => "允许其签发的所有客户端连接".into(),
+        TrustNote::OnlyCompletesAChain => "仅用于补全证书链".into(),
+        TrustNote::CrlAmongCertificates => "证书中包含的 CRL".into(),
+        TrustNote::ReplacesOlder => "替换旧的 CRL".into(),
+        TrustNote::Expired => "已过期".into(),
+        TrustNote::NotYetValid => "尚未生效".into(),
     }
 }
 

@@ -1,7 +1,7 @@
 //! What came of connecting to a server as a client, in Chinese.
 
 use super::LANGUAGE;
-use crate::jobs::{Counts, NotTried, Refusal, RefusalDetails, VerifyFinding};
+use crate::jobs::{ConnectRefusal, NotTried, RefusalDetails, VerifyCounts, VerifyFinding};
 use crate::model::CertificateStatus;
 use crate::session::opcua_client::TokenKind;
 use crate::texts::without_stop;
@@ -29,27 +29,31 @@ fixed_texts! {
     VerifyAfterChangesOn: "服务器重新启动后进行验证";
 }
 
-pub fn refusal(refusal: &Refusal) -> String {
+pub fn refusal(refusal: &ConnectRefusal) -> String {
     match refusal {
-        Refusal::NotReachable(why) => format!("该地址无应答（{why}），请检查端口、防火墙和网线"),
-        Refusal::TimedOut => "未在规定时间内应答，请检查网络或重新启动服务器".to_owned(),
-        Refusal::NotOpcUa(why) => format!("应答方不是正常的 OPC UA 服务器：{why}"),
-        Refusal::Closed => "服务器未说明原因即断开连接，请查看服务器日志；多次拒绝后一分钟内不再说明原因".to_owned(),
-        Refusal::OwnCertificate(None) => "服务器拒绝本配置工具的证书且未说明原因，通常是尚未信任该证书".to_owned(),
-        Refusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
+        ConnectRefusal::NotReachable(why) => format!("该地址无应答（{why}），请检查端口、防火墙和网线"),
+        ConnectRefusal::TimedOut => "未在规定时间内应答，请检查网络或重新启动服务器".to_owned(),
+        ConnectRefusal::NotOpcUa(why) => format!("应答方不是正常的 OPC UA 服务器：{why}"),
+        ConnectRefusal::Closed => {
+            "服务器未说明原因即断开连接，请查看服务器日志；多次拒绝后一分钟内不再说明原因".to_owned()
+        }
+        ConnectRefusal::OwnCertificate(None) => {
+            "服务器拒绝本配置工具的证书且未说明原因，通常是尚未信任该证书".to_owned()
+        }
+        ConnectRefusal::OwnCertificate(Some(RefusalDetails { status: CertificateStatus::Untrusted, .. })) => {
             "服务器尚未信任本配置工具的证书，请将其添加到[信任]后重新验证".to_owned()
         }
-        Refusal::OwnCertificate(Some(told)) => {
+        ConnectRefusal::OwnCertificate(Some(told)) => {
             let said = told.explain(LANGUAGE);
             format!("服务器拒绝本配置工具的证书 ({})：{}", told.status, without_stop(&said))
         }
-        Refusal::OtherCertificate => "服务器应答中的证书与端点的证书不同，未发送密码".to_owned(),
-        Refusal::Password => "用户名或密码错误，或该用户被锁定一分钟".to_owned(),
-        Refusal::Anonymous => "虽然提供匿名登录，但拒绝匿名用户".to_owned(),
-        Refusal::Busy(name) => format!("服务器无法接受更多客户端 ({name})，请关闭部分客户端后重新验证"),
-        Refusal::State(state) => format!("客户端可以连接，但服务器状态为 {state}，而不是运行"),
-        Refusal::Status { name, reason } if reason.is_empty() => format!("服务器拒绝：{name}"),
-        Refusal::Status { name, reason } => format!("服务器拒绝：{name}，{reason}"),
+        ConnectRefusal::OtherCertificate => "服务器应答中的证书与端点的证书不同，未发送密码".to_owned(),
+        ConnectRefusal::Password => "用户名或密码错误，或该用户被锁定一分钟".to_owned(),
+        ConnectRefusal::Anonymous => "虽然提供匿名登录，但拒绝匿名用户".to_owned(),
+        ConnectRefusal::Busy(name) => format!("服务器无法接受更多客户端 ({name})，请关闭部分客户端后重新验证"),
+        ConnectRefusal::State(state) => format!("客户端可以连接，但服务器状态为 {state}，而不是运行"),
+        ConnectRefusal::Status { name, reason } if reason.is_empty() => format!("服务器拒绝：{name}"),
+        ConnectRefusal::Status { name, reason } => format!("服务器拒绝：{name}，{reason}"),
     }
 }
 
@@ -119,8 +123,8 @@ pub const fn token_kind(kind: TokenKind) -> &'static str {
     }
 }
 
-pub fn verify_counts(counts: Counts) -> String {
-    let Counts { work, fail, not_tried } = counts;
+pub fn verify_counts(counts: VerifyCounts) -> String {
+    let VerifyCounts { work, fail, not_tried } = counts;
     format!("{work} 个正常，{fail} 个失败，{not_tried} 个未尝试")
 }
 

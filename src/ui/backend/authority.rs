@@ -1,12 +1,12 @@
 //! The work of the small CA.
 
 use crate::model::{Problem, clock};
-use crate::ui::model::{AuthorityDone, AuthorityWork};
+use crate::ui::model::{AuthorityResult, AuthorityWork};
 use crate::workspace::authority::{AuthorityError, AuthorityFiles};
 
 impl AuthorityWork {
     /// Blocks for as long as it takes.
-    pub(super) fn run(self, files: &AuthorityFiles) -> Result<AuthorityDone, Problem> {
+    pub(super) fn run(self, files: &AuthorityFiles) -> Result<AuthorityResult, Problem> {
         let now = clock::now();
         let mut saved = None;
         match self {
@@ -31,6 +31,6 @@ impl AuthorityWork {
             Err(AuthorityError::Missing(_)) => None,
             Err(error) => return Err(error.into()),
         };
-        Ok(AuthorityDone { overview, saved })
+        Ok(AuthorityResult { overview, saved })
     }
 }

@@ -16,19 +16,19 @@ use crate::workspace::ControllerEntry;
 
 pub use tokio_backend::{BackendOptions, TokioBackend};
 
-pub use super::model::{AuthorityDone, AuthorityWork, Command, Event, FileContents, VaultWork};
+pub use super::model::{AuthorityResult, AuthorityWork, BackendCommand, BackendEvent, FileContents, VaultWork};
 
-/// Does [`Command`]s in the background. Neither call may block.
+/// Does [`BackendCommand`]s in the background. Neither call may block.
 pub trait Backend {
-    fn send(&mut self, command: Command);
-    fn poll(&mut self) -> Option<Event>;
+    fn send(&mut self, command: BackendCommand);
+    fn poll(&mut self) -> Option<BackendEvent>;
     /// Whether work goes on that would leave a controller or a file half changed if the program ended now.
     fn has_unfinished_work(&self) -> bool;
 }
 
 /// A virtual controller to be added to the list.
 #[derive(Debug, Clone)]
-pub struct NewVirtual {
+pub struct NewVirtualController {
     pub entry: ControllerEntry,
     pub password: SecretString,
 }
@@ -36,23 +36,23 @@ pub struct NewVirtual {
 /// Starts the simulated controllers the welcome page offers.
 #[async_trait]
 pub trait VirtualFleetStarter: Send + Sync {
-    async fn start(&self) -> Result<Vec<NewVirtual>, Problem>;
+    async fn start(&self) -> Result<Vec<NewVirtualController>, Problem>;
 }
 
 /// For tests: keeps what was sent and plays back what it is given.
 #[derive(Debug, Default)]
 pub struct RecordingBackend {
-    pub sent: Vec<Command>,
-    pub events: VecDeque<Event>,
+    pub sent: Vec<BackendCommand>,
+    pub events: VecDeque<BackendEvent>,
     pub unfinished_work: bool,
 }
 
 impl Backend for RecordingBackend {
-    fn send(&mut self, command: Command) {
+    fn send(&mut self, command: BackendCommand) {
         self.sent.push(command);
     }
 
-    fn poll(&mut self) -> Option<Event> {
+    fn poll(&mut self) -> Option<BackendEvent> {
         self.events.pop_front()
     }
 

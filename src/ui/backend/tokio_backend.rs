@@ -9,7 +9,7 @@ use secrecy::SecretString;
 use tokio::runtime::Runtime;
 use tokio_util::sync::CancellationToken;
 
-use super::unfinished::{Unfinished, UnfinishedWork};
+use super::unfinished::{UnfinishedWork, WorkGuard};
 use super::vault::StoreReporter;
 use super::{Backend, VirtualFleetStarter, trust_files};
 use crate::jobs::{self, JobContext, JobController};
@@ -17,15 +17,17 @@ use crate::model::{ControllerInfo, Credentials, ErrorCode, Problem};
 use crate::platform::display;
 use crate::platform::stop_signal::StopSignals;
 use crate::session::Connectors;
-use crate::ui::model::{Command, DroppedFile, Event, ExportFound, FileContents, JobId, Task};
+use crate::ui::model::{BackendCommand, BackendEvent, DroppedFile, ExportFound, FileContents, JobId, Task};
 use crate::ui::picker::FilePicker;
-use crate::workspace::{self, Configuration, Passwords, SettingsFiles, Shown, StartRequests, Workspace, WorkspaceLock};
+use crate::workspace::{
+    self, Configuration, Passwords, SettingsFiles, ShowWindowOutcome, StartRequests, Workspace, WorkspaceLock,
+};
 
 /// How long dropping the backend waits for tasks that change nothing.
 const SHUTDOWN: Duration = Duration::from_millis(500);
 
 /// How long dropping the backend waits for the step in hand of a change: longer than a controller may take to answer
-/// ([`Timeouts::change`](crate::session::Timeouts)). Reached only if the window went without asking.
+/// ([`ManagementTimeouts::change`](crate::session::ManagementTimeouts)). Reached only if the window went without asking.
 const FINISH: Duration = Duration::from_secs(150);
 
 /// What the backend works with.
@@ -53,7 +55,7 @@ pub struct TokioBackend {
     picker: Arc<dyn FilePicker>,
     emit: Emit,
     store: Arc<StoreReporter>,
-    events: mpsc::Receiver<Event>,
+    events: mpsc::Receiver<BackendEvent>,
     running: HashMap<JobId, CancellationToken>,
     unfinished: UnfinishedWork,
     runtime: Option<Runtime>,
@@ -61,7 +63,7 @@ pub struct TokioBackend {
     requests: Option<StartRequests>,
 }
 
-type Emit = Arc<dyn Fn(Event) + Send + Sync>;
+type Emit = Arc<dyn Fn(BackendEvent) + Send + Sync>;
 
 struct Saver {
     queue: mpsc::Sender<Box<Configuration>>,
@@ -112,10 +114,10 @@ impl TokioBackend {
         })
     }
 
-    /// From now on the system's requests to end arrive as [`Event::StopRequested`]; the second ends the program at once.
+    /// From now on the system's requests to end arrive as [`BackendEvent::StopRequested`]; the second ends the program at once.
     pub fn receive_stop_signals(&self) {
         let emit = self.emit.clone();
-        self.spawn(async move { StopSignals::listen().end_at_second(|| emit(Event::StopRequested)).await });
+        self.spawn(async move { StopSignals::listen().end_at_second(|| emit(BackendEvent::StopRequested)).await });
     }
 
     fn spawn(&self, work: impl Future<Output = ()> + Send + 'static) {
@@ -126,7 +128,7 @@ impl TokioBackend {
 
     /// Blocking work that writes files.
     fn spawn_unfinished(&self, work: impl FnOnce() + Send + 'static) {
-        let unfinished: Unfinished = self.unfinished.begin();
+        let unfinished: WorkGuard = self.unfinished.begin();
         if let Some(runtime) = &self.runtime {
             runtime.spawn_blocking(move || {
                 work();
@@ -160,16 +162,16 @@ impl TokioBackend {
             if let Some(password) = password {
                 let of = controllers.iter().filter_map(|c| c.fingerprint).collect();
                 if let Err(problem) = remember(context.passwords.clone(), of, password).await {
-                    emit(Event::PasswordNotKept(problem));
+                    emit(BackendEvent::PasswordNotKept(problem));
                 }
             }
             let on_event = {
                 let emit = emit.clone();
-                move |event| emit(Event::Job { job, event })
+                move |event| emit(BackendEvent::Job { job, event })
             };
             let summary = task.run(controllers, context, cancel, Arc::new(on_event)).await;
             report(store).await;
-            emit(Event::JobEnded { job, summary });
+            emit(BackendEvent::JobEnded { job, summary });
             drop(unfinished);
         });
     }
@@ -189,7 +191,7 @@ impl TokioBackend {
                 }
                 Ok(entries)
             };
-            emit(Event::VirtualStarted(result.await));
+            emit(BackendEvent::VirtualStarted(result.await));
         });
     }
 }
@@ -199,9 +201,9 @@ fn listen_for_starts(options: &BackendOptions, runtime: &Runtime, emit: &Emit) -
     let requests = StartRequests::listen(options.workspace.root(), &options.lock);
     let requests =
         requests.inspect_err(|error| tracing::info!(%error, "a second start cannot show this window")).ok()?;
-    let shown = if display::is_wayland() { Shown::Marked } else { Shown::InFront };
+    let shown = if display::is_wayland() { ShowWindowOutcome::Marked } else { ShowWindowOutcome::InFront };
     let emit = emit.clone();
-    runtime.spawn(requests.serve(shown, move || emit(Event::StartedAgain)));
+    runtime.spawn(requests.serve(shown, move || emit(BackendEvent::StartedAgain)));
     Some(requests)
 }
 
@@ -232,140 +234,150 @@ fn look_at_export(files: &SettingsFiles, of: &ControllerInfo) -> Result<ExportFo
 }
 
 impl Backend for TokioBackend {
-    fn send(&mut self, command: Command) {
+    fn send(&mut self, command: BackendCommand) {
         let emit = self.emit.clone();
         let context = self.context.clone();
         match command {
-            Command::Run { job, controllers, task, parallelism, password } => {
+            BackendCommand::Run { job, controllers, task, parallelism, password } => {
                 self.run(job, controllers, &task, parallelism, password);
             }
-            Command::Probe { job, connection, address } => {
+            BackendCommand::Probe { job, connection, address } => {
                 let cancel = self.token(job);
                 self.spawn(async move {
                     let probed = cancel.run_until_cancelled(jobs::probe(connection, &address, &context)).await;
                     if let Some(result) = probed {
-                        emit(Event::Probed { job, result });
+                        emit(BackendEvent::Probed { job, result });
                     }
                 });
             }
-            Command::Enroll { job, connection, address, fingerprint, credentials } => {
+            BackendCommand::Enroll { job, connection, address, fingerprint, credentials } => {
                 let (cancel, store) = (self.token(job), self.store.clone());
                 let unfinished = self.unfinished.begin();
                 self.spawn(async move {
                     let enrolling = jobs::enroll(connection, &address, fingerprint, credentials, &context);
                     if let Some(result) = cancel.run_until_cancelled(enrolling).await {
                         report(store).await;
-                        emit(Event::Enrolled { job, result: result.map(Box::new) });
+                        emit(BackendEvent::Enrolled { job, result: result.map(Box::new) });
                     }
                     drop(unfinished);
                 });
             }
-            Command::LookAtExport { job, of, file } => {
+            BackendCommand::LookAtExport { job, of, file } => {
                 let files = self.workspace.settings_files();
                 let files = file.map_or(files.clone(), |file| files.of_file(file));
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
-                        emit(Event::ExportSeen { job, result: look_at_export(&files, &of) });
+                        emit(BackendEvent::ExportSeen { job, result: look_at_export(&files, &of) });
                     });
                 }
             }
-            Command::Authority { job, work } => {
+            BackendCommand::Authority { job, work } => {
                 let files = self.workspace.authority();
-                self.spawn_unfinished(move || emit(Event::AuthorityDone { job, result: work.run(&files) }));
+                self.spawn_unfinished(move || emit(BackendEvent::AuthorityDone { job, result: work.run(&files) }));
             }
-            Command::Cancel(job) => {
+            BackendCommand::Cancel(job) => {
                 if let Some(token) = self.running.get(&job) {
                     token.cancel();
                 }
             }
-            Command::Vault(work) => {
+            BackendCommand::Vault(work) => {
                 let store = self.store.clone();
                 self.spawn_unfinished(move || {
                     let result = work.run(context.passwords.store());
                     store.report();
                     if let Some(result) = result {
-                        emit(Event::VaultDone(result));
+                        emit(BackendEvent::VaultDone(result));
                     }
                 });
             }
-            Command::Forget(fingerprints) => {
+            BackendCommand::Forget(fingerprints) => {
                 let store = self.store.clone();
                 self.spawn_unfinished(move || {
                     fingerprints.into_iter().for_each(|f| context.passwords.forget(f));
                     store.report();
                 });
             }
-            Command::PickFile { job, kind, title } => {
-                self.picker.pick(kind, title, Box::new(move |result| emit(Event::FilePicked { job, result })));
+            BackendCommand::PickFile { job, kind, title } => {
+                self.picker.pick(kind, title, Box::new(move |result| emit(BackendEvent::FilePicked { job, result })));
             }
-            Command::PickTarget { job, kind, title, begin } => {
-                let done = Box::new(move |result| emit(Event::FilePicked { job, result }));
+            BackendCommand::PickTarget { job, kind, title, begin } => {
+                let done = Box::new(move |result| emit(BackendEvent::FilePicked { job, result }));
                 self.picker.pick_target(kind, title, begin, done);
             }
-            Command::ReadFile { job, path, most } => {
+            BackendCommand::ReadFile { job, path, most } => {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
                         let result = workspace::read_import_file(&path, most).map_err(Problem::from);
-                        emit(Event::FileRead { job, result: result.map(|bytes| (path, FileContents(bytes))) });
+                        emit(BackendEvent::FileRead { job, result: result.map(|bytes| (path, FileContents(bytes))) });
                     });
                 }
             }
-            Command::PickFiles { job, kind, title } => {
-                self.picker.pick_several(kind, title, Box::new(move |result| emit(Event::FilesPicked { job, result })));
+            BackendCommand::PickFiles { job, kind, title } => {
+                self.picker.pick_several(
+                    kind,
+                    title,
+                    Box::new(move |result| emit(BackendEvent::FilesPicked { job, result })),
+                );
             }
-            Command::ReadTrustFiles { job, paths } => {
+            BackendCommand::ReadTrustFiles { job, paths } => {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
                         let files = paths.into_iter().map(trust_files::read).collect();
-                        emit(Event::TrustFilesRead { job, files });
+                        emit(BackendEvent::TrustFilesRead { job, files });
                     });
                 }
             }
-            Command::WatchTrust { job, controller } => {
+            BackendCommand::WatchTrust { job, controller } => {
                 let cancel = self.token(job);
                 self.spawn(async move {
-                    let on_event = move |event| emit(Event::TrustSeen { job, event });
+                    let on_event = move |event| emit(BackendEvent::TrustSeen { job, event });
                     jobs::watch_trust(*controller, context, cancel, on_event).await;
                 });
             }
-            Command::Recognise { job, paths } => {
+            BackendCommand::Recognise { job, paths } => {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
                         let files = paths.into_iter().map(|path| {
                             let found = workspace::recognise_file(&path).map_err(Problem::from);
                             DroppedFile { path, found }
                         });
-                        emit(Event::Recognised { job, files: files.collect() });
+                        emit(BackendEvent::Recognised { job, files: files.collect() });
                     });
                 }
             }
-            Command::OpenFolder(folder) => {
+            BackendCommand::OpenFolder(folder) => {
                 let (picker, workspace) = (self.picker.clone(), self.workspace.clone());
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
                         let made = workspace.make_folder(&folder).map_err(Problem::from);
                         if let Err(problem) = made.and_then(|()| picker.open_folder(&folder)) {
-                            emit(Event::FolderNotOpened(problem));
+                            emit(BackendEvent::FolderNotOpened(problem));
                         }
                     });
                 }
             }
-            Command::StartVirtualControllers => self.start_virtual(),
-            Command::Save(configuration) => {
+            BackendCommand::StartVirtualControllers => self.start_virtual(),
+            BackendCommand::Save(configuration) => {
                 if let Some(saver) = &self.saver
                     && saver.queue.send(configuration).is_err()
                 {
-                    emit(Event::SaveFailed(Problem::with_detail(ErrorCode::Internal, "the saving thread ended")));
+                    emit(BackendEvent::SaveFailed(Problem::with_detail(
+                        ErrorCode::Internal,
+                        "the saving thread ended",
+                    )));
                 }
             }
             // The window's own business.
-            Command::Quit | Command::ShowWindow => {}
+            BackendCommand::Quit | BackendCommand::ShowWindow => {}
         }
     }
 
-    fn poll(&mut self) -> Option<Event> {
+    fn poll(&mut self) -> Option<BackendEvent> {
         let event = self.events.try_recv().ok()?;
-        if let Event::JobEnded { job, .. } | Event::Probed { job, .. } | Event::Enrolled { job, .. } = &event {
+        if let BackendEvent::JobEnded { job, .. }
+        | BackendEvent::Probed { job, .. }
+        | BackendEvent::Enrolled { job, .. } = &event
+        {
             self.running.remove(job);
         }
         Some(event)
@@ -410,7 +422,7 @@ impl Saver {
                     configuration = newer;
                 }
                 if let Err(error) = workspace.save(&configuration, &lock) {
-                    emit(Event::SaveFailed(error.into()));
+                    emit(BackendEvent::SaveFailed(error.into()));
                 }
             }
         })?;

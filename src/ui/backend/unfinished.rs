@@ -17,16 +17,16 @@ struct Shared {
 }
 
 /// One piece of work that is counted until this is dropped.
-pub(super) struct Unfinished(UnfinishedWork);
+pub(super) struct WorkGuard(UnfinishedWork);
 
 impl UnfinishedWork {
     pub(super) fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
         Self(Arc::new(Shared { count: Mutex::new(0), changed: Condvar::new(), wake: Box::new(wake) }))
     }
 
-    pub(super) fn begin(&self) -> Unfinished {
+    pub(super) fn begin(&self) -> WorkGuard {
         *self.0.count.lock() += 1;
-        Unfinished(self.clone())
+        WorkGuard(self.clone())
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -46,7 +46,7 @@ impl UnfinishedWork {
     }
 }
 
-impl Drop for Unfinished {
+impl Drop for WorkGuard {
     fn drop(&mut self) {
         let shared = &self.0.0;
         let mut count = shared.count.lock();

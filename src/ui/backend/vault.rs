@@ -5,7 +5,7 @@ use std::sync::Arc;
 use parking_lot::Mutex;
 
 use crate::model::{ErrorCode, Problem};
-use crate::ui::model::{Event, VaultWork};
+use crate::ui::model::{BackendEvent, VaultWork};
 use crate::workspace::{PasswordStore, Passwords, StoreStatus};
 
 impl VaultWork {
@@ -39,7 +39,7 @@ impl VaultWork {
 /// Reports what the store is like whenever that has changed.
 pub(super) struct StoreReporter {
     pub passwords: Arc<dyn Passwords>,
-    pub emit: Arc<dyn Fn(Event) + Send + Sync>,
+    pub emit: Arc<dyn Fn(BackendEvent) + Send + Sync>,
     pub last: Mutex<Option<StoreStatus>>,
 }
 
@@ -51,7 +51,7 @@ impl StoreReporter {
         let mut last = self.last.lock();
         let status = store.status();
         if last.replace(status) != Some(status) {
-            (self.emit)(Event::PasswordStore(status));
+            (self.emit)(BackendEvent::PasswordStore(status));
         }
     }
 }

@@ -4,9 +4,9 @@ use egui::{Grid, Key, Label, Modifiers, RichText, Ui, vec2};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::COMMANDS;
-use crate::ui::model::{Answer, Dialog, Message, Model, Place, UiCommand};
+use crate::ui::model::{Dialog, DialogAnswer, DialogPlace, Message, Model, UiCommand};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, command_button, dialog, fine_print};
+use crate::ui::widgets::{Buttons, command_button, dialog, small_note};
 
 /// The version of the program, its workspace and its licence.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ impl UiCommand {
 }
 
 impl Dialog for AboutDialog {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         about(ui, model, messages)
     }
 }
@@ -40,12 +40,12 @@ impl Dialog for AboutDialog {
 pub struct ShortcutsDialog;
 
 impl Dialog for ShortcutsDialog {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         shortcuts(ui, model)
     }
 }
 
-fn about(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
+fn about(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
     dialog(ui, "about", text(T::AppName), theme::DIALOG, buttons, |ui| {
@@ -59,13 +59,13 @@ fn about(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
             Label::new(RichText::new(model.workspace.root().display().to_string()).monospace()).wrap().selectable(true),
         );
         ui.add_space(theme::SPACE);
-        fine_print(ui, text(T::AboutLicence));
+        small_note(ui, text(T::AboutLicence));
         ui.add_space(theme::SPACE);
         command_button(ui, UiCommand::LICENCES, false, model, messages);
     })
 }
 
-fn shortcuts(ui: &Ui, model: &Model) -> Answer {
+fn shortcuts(ui: &Ui, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
     dialog(ui, "shortcuts", text(T::Shortcuts), theme::DIALOG, buttons, |ui| {
@@ -92,7 +92,7 @@ fn shortcuts(ui: &Ui, model: &Model) -> Answer {
                 (T::KeyEnter, T::KeyConfirm),
                 (T::KeyEscape, T::KeyCancel),
             ];
-            line(ui, &ui.ctx().format_shortcut(&super::trust::UNDO), text(T::KeyUndo));
+            line(ui, &ui.ctx().format_shortcut(&super::client_certificates::UNDO), text(T::KeyUndo));
             for (key, what) in fixed {
                 line(ui, text(key), text(what));
             }

@@ -3,9 +3,9 @@
 use egui::{Label, RichText, Ui};
 
 use crate::texts::TextKey as T;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, UiCommand};
+use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, UiCommand};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print};
+use crate::ui::widgets::{Buttons, dialog, small_note};
 
 /// Whether backups are kept.
 #[derive(Debug)]
@@ -23,17 +23,17 @@ impl UiCommand {
 }
 
 impl Dialog for BackupDialog {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         backup(ui, &mut self.on, model)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.options.backup = self.on;
         model.save()
     }
 }
 
-fn backup(ui: &Ui, on: &mut bool, model: &Model) -> Answer {
+fn backup(ui: &Ui, on: &mut bool, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Apply), None)), close: Some(text(T::Cancel)) };
     dialog(ui, "backup", text(T::BackupTitle), theme::DIALOG, buttons, |ui| {
@@ -43,7 +43,7 @@ fn backup(ui: &Ui, on: &mut bool, model: &Model) -> Answer {
         let folder = model.workspace.root().display().to_string();
         ui.add(Label::new(RichText::new(folder).monospace().color(palette(ui).weak)).wrap().selectable(true));
         ui.add_space(theme::SPACE);
-        fine_print(ui, text(T::BackupKeys));
-        fine_print(ui, text(T::BackupRestore));
+        small_note(ui, text(T::BackupKeys));
+        small_note(ui, text(T::BackupRestore));
     })
 }

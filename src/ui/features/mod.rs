@@ -9,9 +9,9 @@
 //! |---|---|
 //! | `add_controller`, `delete_controllers`, `connection_list` | the list of controllers |
 //! | `server_control` | information, start and stop |
-//! | `settings`, `users`, `server_log`, `activation`, `settings_transfer` | the server's settings |
-//! | `self_signed`, `certificate_import`, `export_self_signed`, `select_certificate` | the server's certificates |
-//! | [`trust`] | client certificates and CRLs |
+//! | `basic_settings`, `users`, `server_log`, `activation`, `settings_transfer` | the server's settings |
+//! | `self_signed`, `certificate_import`, `export_self_signed`, `type_select` | the server's certificates |
+//! | [`client_certificates`] | client certificates and CRLs |
 //! | `certificate_authority`, `verify` | tools |
 //! | `backup`, `options`, [`vault`] | how this program works |
 //! | `licences`, `about` | help |
@@ -22,21 +22,21 @@ mod about;
 pub mod activation;
 pub mod add_controller;
 pub mod backup;
+pub mod basic_settings;
 pub mod certificate_authority;
 pub mod certificate_import;
+pub mod client_certificates;
 pub mod connection_list;
 pub mod delete_controllers;
 mod dropped_files;
 pub mod export_self_signed;
 pub mod licences;
 mod options;
-pub mod select_certificate;
 pub mod self_signed;
 mod server_control;
 pub mod server_log;
-pub mod settings;
 pub mod settings_transfer;
-pub mod trust;
+pub mod type_select;
 pub mod users;
 pub mod vault;
 pub mod verify;
@@ -66,7 +66,7 @@ pub const COMMANDS: &[C] = &[
     C::EXPORT_SELF_SIGNED,
     C::TYPE_SELECT,
     C::RESTORE_BACKUP,
-    C::CLIENT_LISTS,
+    C::CLIENT_CERTIFICATES,
     C::CRL,
     C::BACKUP,
     C::OPTIONS,
@@ -95,7 +95,7 @@ pub const CONTROLLER_MENU: MenuEntries = &[
 pub const CREATE_MENU: MenuEntries = &[&[C::SELF_SIGNED, C::USER_SPECIFIED, C::CA_SIGNED]];
 /// The menu "Certificate" below that.
 pub const CERTIFICATE_MENU: MenuEntries =
-    &[&[C::EXPORT_SELF_SIGNED, C::TYPE_SELECT, C::RESTORE_BACKUP], &[C::CLIENT_LISTS, C::CRL]];
+    &[&[C::EXPORT_SELF_SIGNED, C::TYPE_SELECT, C::RESTORE_BACKUP], &[C::CLIENT_CERTIFICATES, C::CRL]];
 /// The menu "Server settings".
 pub const SERVER_MENU: MenuEntries =
     &[&[C::BASIC_SETTINGS, C::USERS, C::SERVER_LOG, C::ACTIVATION], &[C::EXPORT_SETTINGS, C::IMPORT_SETTINGS]];

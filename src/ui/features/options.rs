@@ -4,9 +4,9 @@ use egui::{DragValue, Ui};
 
 use crate::model::Language;
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Answer, Dialog, Message, Model, Place, UiCommand};
+use crate::ui::model::{Dialog, DialogAnswer, DialogPlace, Message, Model, UiCommand};
 use crate::ui::theme::{self};
-use crate::ui::widgets::{Buttons, choices, dialog, fine_print, form, labelled};
+use crate::ui::widgets::{Buttons, choices, dialog, form, labelled, small_note};
 use crate::workspace::{MAX_PARALLELISM, ThemeChoice};
 
 /// The options. Everything takes effect at once.
@@ -23,12 +23,12 @@ impl UiCommand {
 }
 
 impl Dialog for OptionsDialog {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         options(ui, model, messages)
     }
 }
 
-fn options(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
+fn options(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
     dialog(ui, "options", text(T::OptionsTitle), theme::DIALOG, buttons, |ui| {
@@ -59,7 +59,7 @@ fn options(ui: &Ui, model: &Model, messages: &mut Vec<Message>) -> Answer {
                 if response.changed() {
                     messages.push(Message::SetParallelism(count));
                 }
-                fine_print(ui, text(T::ParallelismTip));
+                small_note(ui, text(T::ParallelismTip));
                 Some(response)
             });
             labelled(ui, text(T::VerifyAfterChanges), |ui| {

@@ -5,7 +5,7 @@ use egui::{Key, Modifiers};
 use crate::jobs;
 use crate::model::Problem;
 use crate::texts::TextKey as T;
-use crate::ui::model::{Command, Model, Task, UiCommand};
+use crate::ui::model::{BackendCommand, Model, Task, UiCommand};
 use crate::workspace::ControllerEntry;
 
 /// Reads all information of controllers.
@@ -36,7 +36,10 @@ impl UiCommand {
 }
 
 impl Model {
-    pub(in crate::ui) fn virtual_started(&mut self, result: Result<Vec<ControllerEntry>, Problem>) -> Vec<Command> {
+    pub(in crate::ui) fn virtual_started(
+        &mut self,
+        result: Result<Vec<ControllerEntry>, Problem>,
+    ) -> Vec<BackendCommand> {
         self.virtual_starting = false;
         let entries = match result {
             Ok(entries) => entries,

@@ -3,11 +3,11 @@
 use egui::{Key, Modifiers};
 
 use crate::texts::TextKey as T;
-use crate::ui::model::{Command, UiCommand};
+use crate::ui::model::{BackendCommand, UiCommand};
 
 impl UiCommand {
     /// Closes the window.
-    pub const QUIT: Self = Self::new(T::Quit, T::QuitTip, |_, _| vec![Command::Quit])
+    pub const QUIT: Self = Self::new(T::Quit, T::QuitTip, |_, _| vec![BackendCommand::Quit])
         .in_menu(T::MenuController)
         .key(Modifiers::COMMAND, Key::Q);
 

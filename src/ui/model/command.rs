@@ -6,7 +6,7 @@ use chrono::{DateTime, Utc};
 use secrecy::SecretString;
 
 use super::{DroppedFile, JobId, Task, TaskEvent};
-use crate::jobs::{Enrolled, JobController, Summary, TrustFile, WatchEvent};
+use crate::jobs::{Enrolled, JobController, JobSummary, TrustFile, WatchEvent};
 use crate::model::{Address, ConnectionKind, ControllerInfo, Credentials, FirmwareVersion, Problem};
 use crate::pki::{Csr, Fingerprint, IssueRequest, RevocationReason};
 use crate::ui::picker::FileKind;
@@ -15,8 +15,8 @@ use crate::workspace::{Configuration, ControllerEntry, PasswordPlace, StoreStatu
 
 /// Work to be done.
 #[derive(Debug, Clone)]
-pub enum Command {
-    /// Ends with [`Event::JobEnded`].
+pub enum BackendCommand {
+    /// Ends with [`BackendEvent::JobEnded`].
     Run {
         job: JobId,
         controllers: Vec<JobController>,
@@ -44,24 +44,24 @@ pub enum Command {
         /// Instead of the one in the workspace.
         file: Option<PathBuf>,
     },
-    /// Ends with [`Event::AuthorityDone`]. Cannot be cancelled.
+    /// Ends with [`BackendEvent::AuthorityDone`]. Cannot be cancelled.
     Authority {
         job: JobId,
         work: AuthorityWork,
     },
     /// Stops a job after the step in hand.
     Cancel(JobId),
-    /// Creating, opening and changing the passphrase end with [`Event::VaultDone`].
+    /// Creating, opening and changing the passphrase end with [`BackendEvent::VaultDone`].
     Vault(VaultWork),
     /// Forgets the passwords of deleted controllers.
     Forget(Vec<Fingerprint>),
-    /// Lets a person choose a file; ends with [`Event::FilePicked`].
+    /// Lets a person choose a file; ends with [`BackendEvent::FilePicked`].
     PickFile {
         job: JobId,
         kind: FileKind,
         title: String,
     },
-    /// Lets a person choose where a file is saved; ends with [`Event::FilePicked`].
+    /// Lets a person choose where a file is saved; ends with [`BackendEvent::FilePicked`].
     PickTarget {
         job: JobId,
         kind: FileKind,
@@ -69,29 +69,29 @@ pub enum Command {
         /// The path to begin with.
         begin: PathBuf,
     },
-    /// Ends with [`Event::FileRead`]. A file of more than `most` bytes is refused.
+    /// Ends with [`BackendEvent::FileRead`]. A file of more than `most` bytes is refused.
     ReadFile {
         job: JobId,
         path: PathBuf,
         most: usize,
     },
-    /// Lets a person choose files; ends with [`Event::FilesPicked`].
+    /// Lets a person choose files; ends with [`BackendEvent::FilesPicked`].
     PickFiles {
         job: JobId,
         kind: FileKind,
         title: String,
     },
-    /// Reads files with certificates and CRLs; ends with [`Event::TrustFilesRead`].
+    /// Reads files with certificates and CRLs; ends with [`BackendEvent::TrustFilesRead`].
     ReadTrustFiles {
         job: JobId,
         paths: Vec<PathBuf>,
     },
-    /// Reports the lists of a controller with [`Event::TrustSeen`] until it is cancelled.
+    /// Reports the lists of a controller with [`BackendEvent::TrustSeen`] until it is cancelled.
     WatchTrust {
         job: JobId,
         controller: Box<JobController>,
     },
-    /// Finds out what files are, by their content; ends with [`Event::Recognised`].
+    /// Finds out what files are, by their content; ends with [`BackendEvent::Recognised`].
     Recognise {
         job: JobId,
         paths: Vec<PathBuf>,
@@ -107,14 +107,14 @@ pub enum Command {
 
 /// What the backend reports.
 #[derive(Debug)]
-pub enum Event {
+pub enum BackendEvent {
     Job {
         job: JobId,
         event: TaskEvent,
     },
     JobEnded {
         job: JobId,
-        summary: Summary,
+        summary: JobSummary,
     },
     Probed {
         job: JobId,
@@ -158,7 +158,7 @@ pub enum Event {
     },
     AuthorityDone {
         job: JobId,
-        result: Result<AuthorityDone, Problem>,
+        result: Result<AuthorityResult, Problem>,
     },
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
     VaultDone(Result<(), Problem>),
@@ -222,7 +222,7 @@ pub enum AuthorityWork {
 
 /// What the CA is like afterwards.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct AuthorityDone {
+pub struct AuthorityResult {
     /// `None`: there is none.
     pub overview: Option<Box<AuthorityOverview>>,
     /// The file that was written for the engineer.

@@ -1,6 +1,6 @@
 //! What the details pane knows about a controller beyond its row.
 
-use super::{Command, Model, OverviewRead, RowId, Task};
+use super::{BackendCommand, Model, OverviewRead, RowId, Task};
 use crate::jobs::ReadOverview;
 use crate::texts::TextKey;
 
@@ -13,7 +13,7 @@ impl Model {
     }
 
     /// Reads settings and lists of one controller for the pane.
-    pub(in crate::ui) fn read_overview(&mut self, row: RowId) -> Vec<Command> {
+    pub(in crate::ui) fn read_overview(&mut self, row: RowId) -> Vec<BackendCommand> {
         if self.job.is_some() {
             return vec![];
         }

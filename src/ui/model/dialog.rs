@@ -11,7 +11,7 @@ use crate::model::Problem;
 
 /// What the engineer decided in a dialog, if anything.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Answer {
+pub enum DialogAnswer {
     None,
     /// The main button.
     Submit,
@@ -21,7 +21,7 @@ pub enum Answer {
 
 /// Where a dialog is among the open ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Place {
+pub struct DialogPlace {
     pub on_top: bool,
     /// It has just been opened and takes the keyboard.
     pub focus: bool,
@@ -33,7 +33,7 @@ pub struct Place {
 /// calls.
 pub trait Dialog: Any + Debug {
     /// Draws it, and says what was pressed. Further actions go into `messages`.
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer;
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer;
 
     /// The main button was pressed. The dialog is taken out of the list of open ones and puts itself back with
     /// [`Model::put_back`] where it stays open. Default: the main button is Close.

@@ -26,7 +26,7 @@ impl DroppedFile {
 
 /// A dialog that some of the files are for.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Choice {
+pub struct DropChoice {
     pub command: UiCommand,
     pub title: TextKey,
     /// Which of the files it takes.
@@ -41,7 +41,7 @@ pub struct Choice {
 #[derive(Debug)]
 pub struct DropForm {
     pub files: Vec<DroppedFile>,
-    pub choices: Vec<Choice>,
+    pub choices: Vec<DropChoice>,
     /// Of the choices.
     pub selected: Option<usize>,
     /// Why none of them is looked at.
@@ -70,7 +70,7 @@ impl DropForm {
 
 /// Files held over the window.
 #[derive(Debug)]
-pub struct Hover {
+pub struct HoveringFiles {
     pub job: JobId,
     pub paths: Vec<PathBuf>,
     /// `None` while they are looked at.

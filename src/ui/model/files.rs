@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{BrowseField, Command, FileContents, FileForm, JobId, Model};
+use super::{BackendCommand, BrowseField, FileContents, FileForm, JobId, Model};
 use crate::model::{ErrorCode, Problem};
 use crate::texts::TextKey;
 
@@ -12,7 +12,7 @@ pub fn first_path(paths: &[PathBuf]) -> String {
 }
 
 impl Model {
-    pub(in crate::ui) fn choose_file(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn choose_file(&mut self) -> Vec<BackendCommand> {
         let job = self.next_job();
         let title = TextKey::ChooseFileTitle.text(self.language).to_owned();
         let Some(file) = self.dialogs.last_mut().and_then(|dialog| dialog.file()) else { return vec![] };
@@ -21,10 +21,10 @@ impl Model {
             return vec![];
         }
         file.picking = Some(job);
-        vec![Command::PickFile { job, kind: file.kind, title }]
+        vec![BackendCommand::PickFile { job, kind: file.kind, title }]
     }
 
-    pub(in crate::ui) fn browse(&mut self, field: BrowseField) -> Vec<Command> {
+    pub(in crate::ui) fn browse(&mut self, field: BrowseField) -> Vec<BackendCommand> {
         // One dialog of the desktop is enough.
         if self.browsing.is_some() {
             return vec![];
@@ -34,14 +34,18 @@ impl Model {
         let (kind, root) = (field.kind, self.workspace.root().to_owned());
         let Some(title) = field.save_title else {
             let title = TextKey::ChooseFileTitle.text(self.language).to_owned();
-            return vec![Command::PickFile { job, kind, title }];
+            return vec![BackendCommand::PickFile { job, kind, title }];
         };
         let typed = (field.text)(self).map(|text| text.trim().trim_matches('"').to_owned()).unwrap_or_default();
         let title = title.text(self.language).to_owned();
-        vec![Command::PickTarget { job, kind, title, begin: root.join(typed) }]
+        vec![BackendCommand::PickTarget { job, kind, title, begin: root.join(typed) }]
     }
 
-    pub(in crate::ui) fn file_picked(&mut self, job: JobId, result: Result<Option<PathBuf>, Problem>) -> Vec<Command> {
+    pub(in crate::ui) fn file_picked(
+        &mut self,
+        job: JobId,
+        result: Result<Option<PathBuf>, Problem>,
+    ) -> Vec<BackendCommand> {
         if let Some((_, field)) = self.browsing.take_if(|(browsing, _)| *browsing == job) {
             match result {
                 Ok(None) => {}
@@ -74,7 +78,7 @@ impl Model {
     }
 
     /// Reads the file whose path is typed into the dialog on top. A relative path starts at the workspace.
-    pub(in crate::ui) fn read_typed(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn read_typed(&mut self) -> Vec<BackendCommand> {
         let job = self.next_job();
         let root = self.workspace.root().to_owned();
         let Some(file) = self.dialogs.last_mut().and_then(|dialog| dialog.file()) else { return vec![] };
@@ -111,9 +115,9 @@ impl Model {
     }
 }
 
-fn read(file: &mut FileForm, job: JobId, path: PathBuf) -> Command {
+fn read(file: &mut FileForm, job: JobId, path: PathBuf) -> BackendCommand {
     file.problem = None;
     file.shown = None;
     file.reading = Some(job);
-    Command::ReadFile { job, path, most: file.most }
+    BackendCommand::ReadFile { job, path, most: file.most }
 }

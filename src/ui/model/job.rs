@@ -1,8 +1,8 @@
 use std::path::PathBuf;
 
 use super::{JobId, RowId, RowState, Task};
-use crate::jobs::{Summary, TrustUndo};
-use crate::model::{CutClient, Problem};
+use crate::jobs::{JobSummary, TrustUndo};
+use crate::model::{DisconnectedClient, Problem};
 
 /// Whether a running job is to be stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -26,7 +26,7 @@ pub struct JobRow {
     /// Where files on this computer are now that had to make room.
     pub moved_aside: Vec<PathBuf>,
     /// Whose connections the change ended.
-    pub cut: Vec<CutClient>,
+    pub cut: Vec<DisconnectedClient>,
     /// What takes a change of whom it trusts back.
     pub undo: Option<TrustUndo>,
 }
@@ -41,7 +41,7 @@ pub struct Job {
     pub failed: usize,
     pub cancel: CancelState,
     /// Set when it has ended.
-    pub summary: Option<Summary>,
+    pub summary: Option<JobSummary>,
 }
 
 impl JobRow {

@@ -1,6 +1,6 @@
 //! What the window knows: the list of controllers, the running job, the open dialogs.
 //!
-//! A [`Message`] goes in, [`Command`]s for the backend come out. Nothing here knows the features, does I/O or draws.
+//! A [`Message`] goes in, [`BackendCommand`]s for the backend come out. Nothing here knows the features, does I/O or draws.
 
 mod closing;
 mod columns;
@@ -32,10 +32,12 @@ use crate::texts::Zone;
 use crate::workspace::{Configuration, Options, StoreStatus, ThemeChoice, Workspace};
 
 pub use closing::{CloseChoice, Closing};
-pub use command::{AuthorityDone, AuthorityWork, Command, Event, ExportFound, FileContents, ReadTrustFile, VaultWork};
+pub use command::{
+    AuthorityResult, AuthorityWork, BackendCommand, BackendEvent, ExportFound, FileContents, ReadTrustFile, VaultWork,
+};
 pub use command_palette::{CommandPalette, PaletteAction};
-pub use dialog::{Answer, Dialog, Place};
-pub use dropped::{Choice, DropForm, DroppedFile, Hover, MAX_DROPPED};
+pub use dialog::{Dialog, DialogAnswer, DialogPlace};
+pub use dropped::{DropChoice, DropForm, DroppedFile, HoveringFiles, MAX_DROPPED};
 pub use file_form::{BrowseField, FileForm};
 pub use files::first_path;
 pub use job::{CancelState, Job, JobRow};
@@ -49,7 +51,7 @@ pub use task::{Task, TaskEvent, TaskFacts, TaskReport};
 pub use ui_command::UiCommand;
 
 /// What a change of the model asks the backend for.
-pub type Commands = Vec<Command>;
+pub type Commands = Vec<BackendCommand>;
 
 /// Draws what a feature adds to the processing dialog after the end of its job.
 pub type Footer = fn(&mut egui::Ui, &Job, &Model, &mut Vec<Message>);
@@ -76,7 +78,7 @@ pub struct Model {
     /// What the status bar says until the next thing happens.
     pub status: Option<String>,
     /// Files held over the window.
-    pub hover: Option<Hover>,
+    pub hover: Option<HoveringFiles>,
     pub virtual_available: bool,
     pub virtual_starting: bool,
     /// What the store of connection passwords is like; `None` where there is none, as in the demo.
@@ -137,7 +139,7 @@ pub enum Message {
     /// Cancel, Close or Esc.
     Close,
     /// Something that one dialog offers.
-    Act(Action),
+    Act(ExtraAction),
     /// Let the desktop's dialog find the file the dialog on top asks for.
     ChooseFile,
     /// Let the desktop's dialog find the file for a field of the dialog on top.
@@ -163,22 +165,22 @@ pub enum Message {
     StartVirtual,
     Closing(CloseChoice),
     Save,
-    Event(Event),
+    Event(BackendEvent),
 }
 
 impl Message {
     /// An action of one dialog: a function of its feature.
-    pub fn act(action: impl FnOnce(&mut Model) -> Vec<Command> + 'static) -> Self {
-        Self::Act(Action(Box::new(action)))
+    pub fn act(action: impl FnOnce(&mut Model) -> Vec<BackendCommand> + 'static) -> Self {
+        Self::Act(ExtraAction(Box::new(action)))
     }
 }
 
 /// What a dialog offers besides its main button and Close.
-pub struct Action(pub(in crate::ui) Act);
+pub struct ExtraAction(pub(in crate::ui) Act);
 
 type Act = Box<dyn FnOnce(&mut Model) -> Commands>;
 
-impl fmt::Debug for Action {
+impl fmt::Debug for ExtraAction {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Action(…)")
     }
@@ -234,9 +236,9 @@ impl Model {
     }
 
     /// Asks the backend to save what the window remembers.
-    pub(in crate::ui) fn save(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn save(&mut self) -> Vec<BackendCommand> {
         self.unsaved = false;
-        vec![Command::Save(Box::new(self.configuration()))]
+        vec![BackendCommand::Save(Box::new(self.configuration()))]
     }
 
     pub(in crate::ui) fn next_job(&mut self) -> JobId {

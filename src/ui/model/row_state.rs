@@ -1,11 +1,11 @@
-use crate::jobs::Step;
+use crate::jobs::JobStep;
 use crate::model::{ErrorCode, Problem};
 
 /// Where a job is with one controller.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RowState {
     Waiting,
-    Step(Step),
+    Step(JobStep),
     Done,
     Failed(Problem),
     NotStarted,

@@ -6,7 +6,7 @@ use chrono::{DateTime, Duration, Utc};
 use crate::model::{Capabilities, CertificateType, ControllerInfo, Feature};
 use crate::session;
 use crate::ui::model::{LastResult, OverviewRead, RowState};
-use crate::workspace::{ControllerEntry, Retrieved};
+use crate::workspace::{ControllerEntry, RetrievedInfo};
 
 /// A certificate that expires within this time is pointed out.
 pub const EXPIRES_SOON: Duration = Duration::days(30);
@@ -352,7 +352,7 @@ impl Rows {
     /// while a job runs.
     pub fn set_info(&mut self, id: RowId, info: ControllerInfo, now: DateTime<Utc>) {
         if let Some(row) = self.get_mut(id) {
-            row.entry.last = Some(Retrieved { at: now, info });
+            row.entry.last = Some(RetrievedInfo { at: now, info });
             row.refresh(now);
         }
     }

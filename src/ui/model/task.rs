@@ -10,7 +10,8 @@ use tokio_util::sync::CancellationToken;
 
 use super::{Commands, Dialog, Footer, Model, RowId};
 use crate::jobs::{
-    self, Confirmation, JobContext, JobController, JobEvent, Operation, OperationOutput, Report, Step, Summary,
+    self, Confirmation, ControllerReport, JobContext, JobController, JobEvent, JobStep, JobSummary, Operation,
+    OperationOutput,
 };
 use crate::model::{ControllerInfo, Problem};
 use crate::texts::TextKey;
@@ -174,7 +175,7 @@ impl Task {
         context: JobContext,
         cancel: CancellationToken,
         on_event: Arc<dyn Fn(TaskEvent) + Send + Sync>,
-    ) -> Pin<Box<dyn Future<Output = Summary> + Send>> {
+    ) -> Pin<Box<dyn Future<Output = JobSummary> + Send>> {
         self.work.run(controllers, context, cancel, on_event)
     }
 
@@ -185,7 +186,7 @@ impl Task {
 
     /// The event of a result, for a backend that plays results back instead of running the operation. `None` if the
     /// results of the operation are of another type.
-    pub fn finished<O: OperationOutput>(&self, index: usize, report: Report<O>) -> Option<TaskEvent> {
+    pub fn finished<O: OperationOutput>(&self, index: usize, report: ControllerReport<O>) -> Option<TaskEvent> {
         let results: &Results<O> = self.work.results().downcast_ref()?;
         Some(results.event(JobEvent::Finished { index, report: Box::new(report) }))
     }
@@ -205,11 +206,11 @@ impl fmt::Debug for Task {
 /// What happens while a task runs. `index` counts the job's controllers.
 #[derive(Debug)]
 pub enum TaskEvent {
-    Step { index: usize, step: Step },
+    Step { index: usize, step: JobStep },
     Finished { index: usize, report: Box<TaskReport> },
 }
 
-/// A [`Report`] whose result only the feature that started the task can look at.
+/// A [`ControllerReport`] whose result only the feature that started the task can look at.
 pub struct TaskReport {
     pub result: Result<TaskFacts, Problem>,
     /// The controller's information after the operation; `None` if it was not reached.
@@ -259,7 +260,7 @@ trait Work: fmt::Debug + Send + Sync {
         context: JobContext,
         cancel: CancellationToken,
         on_event: Arc<dyn Fn(TaskEvent) + Send + Sync>,
-    ) -> Pin<Box<dyn Future<Output = Summary> + Send>>;
+    ) -> Pin<Box<dyn Future<Output = JobSummary> + Send>>;
 }
 
 struct TypedWork<P: Operation> {
@@ -281,7 +282,7 @@ impl<O: OperationOutput> Results<O> {
         match event {
             JobEvent::Step { index, step } => TaskEvent::Step { index, step },
             JobEvent::Finished { index, report } => {
-                let Report { result, info } = *report;
+                let ControllerReport { result, info } = *report;
                 let facts = result.as_ref().map(TaskFacts::of).map_err(Clone::clone);
                 let on_result = self.0.clone();
                 let deliver = Box::new(move |model: &mut Model, row| on_result(model, row, result));
@@ -315,7 +316,7 @@ impl<P: Operation + 'static> Work for TypedWork<P> {
     }
 
     fn failed(&self, index: usize, problem: Problem) -> TaskEvent {
-        let report = Box::new(Report { result: Err(problem), info: None });
+        let report = Box::new(ControllerReport { result: Err(problem), info: None });
         self.results.event(JobEvent::Finished { index, report })
     }
 
@@ -325,7 +326,7 @@ impl<P: Operation + 'static> Work for TypedWork<P> {
         context: JobContext,
         cancel: CancellationToken,
         on_event: Arc<dyn Fn(TaskEvent) + Send + Sync>,
-    ) -> Pin<Box<dyn Future<Output = Summary> + Send>> {
+    ) -> Pin<Box<dyn Future<Output = JobSummary> + Send>> {
         let operation: Arc<dyn Operation<Output = P::Output>> = self.operation.clone();
         let results = self.results.clone();
         Box::pin(jobs::run(controllers, operation, context, cancel, move |event| on_event(results.event(event))))

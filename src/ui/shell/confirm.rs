@@ -2,7 +2,7 @@ use egui::{Label, Ui};
 
 use crate::jobs::Confirmation;
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task};
+use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, Task};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, list, note};
 
@@ -16,18 +16,18 @@ pub struct ConfirmDialog {
 }
 
 impl Dialog for ConfirmDialog {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         show(ui, &self.task, &self.names, self.confirmation, model)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.dialogs.pop_if(|form| form.is_done_by_confirming());
         model.start(self.task, self.rows, None)
     }
 }
 
 /// Says what an operation will do, and to which controllers.
-fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, model: &Model) -> Answer {
+fn show(ui: &Ui, task: &Task, names: &[String], confirmation: Confirmation, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(task.act), None)), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, task.title, names);

@@ -3,7 +3,7 @@
 use egui::output::OutputEvent;
 use egui::{Context, Id, Key, Modifiers, Role, Ui};
 
-use crate::ui::model::{Answer, Dialog, Message, Model, Place};
+use crate::ui::model::{Dialog, DialogAnswer, DialogPlace, Message, Model};
 
 /// Draws the open dialogs, the last on top. `opened`: the top one is new and takes the keyboard.
 pub fn show(ui: &Ui, open: &mut [Box<dyn Dialog>], opened: bool, model: &Model, messages: &mut Vec<Message>) {
@@ -11,13 +11,13 @@ pub fn show(ui: &Ui, open: &mut [Box<dyn Dialog>], opened: bool, model: &Model, 
     let enter = top > 0 && model.closing.is_none() && enter_confirms(ui);
     for (index, dialog) in open.iter_mut().enumerate() {
         let on_top = index + 1 == top;
-        let answer = dialog.show(ui, Place { on_top, focus: on_top && opened }, model, messages);
+        let answer = dialog.show(ui, DialogPlace { on_top, focus: on_top && opened }, model, messages);
         match answer {
             _ if !on_top => {}
-            Answer::Close => messages.push(Message::Close),
-            Answer::Submit => messages.push(Message::Submit),
-            Answer::None if enter && dialog.enter_submits(model) => messages.push(Message::Submit),
-            Answer::None => {}
+            DialogAnswer::Close => messages.push(Message::Close),
+            DialogAnswer::Submit => messages.push(Message::Submit),
+            DialogAnswer::None if enter && dialog.enter_submits(model) => messages.push(Message::Submit),
+            DialogAnswer::None => {}
         }
     }
     if top > 0 {

@@ -2,7 +2,7 @@ use egui::{Label, RichText, Ui};
 
 use crate::model::{Language, Problem};
 use crate::texts::TextKey as T;
-use crate::ui::model::{Answer, Dialog, Message, Model, Place};
+use crate::ui::model::{Dialog, DialogAnswer, DialogPlace, Message, Model};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog};
 
@@ -11,7 +11,7 @@ use crate::ui::widgets::{Buttons, dialog};
 pub struct ErrorDialog(pub Problem);
 
 impl Dialog for ErrorDialog {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         show(ui, &self.0, model)
     }
 }
@@ -24,7 +24,7 @@ impl Model {
 }
 
 /// Message, cause, remedy, detail.
-fn show(ui: &Ui, problem: &Problem, model: &Model) -> Answer {
+fn show(ui: &Ui, problem: &Problem, model: &Model) -> DialogAnswer {
     let language = model.language;
     let buttons = Buttons { submit: Some((T::Close.text(language), None)), close: None };
     dialog(ui, "error", problem.code.explain(language).message, theme::DIALOG, buttons, |ui| {

@@ -5,7 +5,8 @@ use secrecy::SecretString;
 use crate::jobs::JobController;
 use crate::model::{ErrorCode, ServerStatus};
 use crate::ui::model::{
-    CancelState, Command, Dialog, Job, JobId, JobRow, LastResult, Model, RowId, RowState, SecretInput, Task, TaskEvent,
+    BackendCommand, CancelState, Dialog, Job, JobId, JobRow, LastResult, Model, RowId, RowState, SecretInput, Task,
+    TaskEvent,
 };
 use crate::ui::shell::confirm::ConfirmDialog;
 use crate::ui::shell::password::PasswordDialog;
@@ -13,7 +14,7 @@ use crate::ui::shell::processing::ProcessingDialog;
 
 impl Model {
     /// Asks first when the task changes something, else starts it.
-    pub(in crate::ui) fn plan(&mut self, task: Task, rows: Vec<RowId>) -> Vec<Command> {
+    pub(in crate::ui) fn plan(&mut self, task: Task, rows: Vec<RowId>) -> Vec<BackendCommand> {
         match task.confirmation() {
             Some(confirmation) => {
                 let names = self.rows.names(&rows);
@@ -29,7 +30,7 @@ impl Model {
         task: Task,
         rows: Vec<RowId>,
         password: Option<secrecy::SecretString>,
-    ) -> Vec<Command> {
+    ) -> Vec<BackendCommand> {
         let id = self.next_job();
         let entries: Vec<_> = rows.iter().filter_map(|row| self.rows.get(*row)).collect();
         let controllers: Vec<JobController> = entries.iter().map(|row| JobController::from(&row.entry)).collect();
@@ -44,18 +45,18 @@ impl Model {
         }
         self.job =
             Some(Job { id, task: task.clone(), rows, finished: 0, failed: 0, cancel: CancelState::No, summary: None });
-        vec![Command::Run { job: id, controllers, task, parallelism: self.options.parallelism, password }]
+        vec![BackendCommand::Run { job: id, controllers, task, parallelism: self.options.parallelism, password }]
     }
 
     /// Stops waiting for the job of a form that was closed.
-    pub(in crate::ui) fn drop_job(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn drop_job(&mut self) -> Vec<BackendCommand> {
         match self.job.take() {
-            Some(job) if job.summary.is_none() => vec![Command::Cancel(job.id)],
+            Some(job) if job.summary.is_none() => vec![BackendCommand::Cancel(job.id)],
             _ => vec![],
         }
     }
 
-    pub(in crate::ui) fn job_event(&mut self, id: JobId, event: TaskEvent) -> Vec<Command> {
+    pub(in crate::ui) fn job_event(&mut self, id: JobId, event: TaskEvent) -> Vec<BackendCommand> {
         let Some(job) = self.job.as_mut().filter(|job| job.id == id) else { return vec![] };
         match event {
             TaskEvent::Step { index, step } => {
@@ -96,7 +97,7 @@ impl Model {
     }
 
     /// Passwords were asked for, and none was given.
-    pub(in crate::ui) fn without_password(&mut self, task: &Task) -> Vec<Command> {
+    pub(in crate::ui) fn without_password(&mut self, task: &Task) -> Vec<BackendCommand> {
         if let Some(hook) = task.password_hook() {
             return hook(self);
         }
@@ -164,21 +165,25 @@ impl Model {
         task: Task,
         rows: Vec<RowId>,
         password: Option<SecretString>,
-    ) -> Vec<Command> {
+    ) -> Vec<BackendCommand> {
         if task.is_shown {
             self.end_processing();
         }
         self.start(task, rows, password)
     }
 
-    pub(in crate::ui) fn cancel_last(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn cancel_last(&mut self) -> Vec<BackendCommand> {
         let job = JobId(self.last_job);
         self.next_job();
-        vec![Command::Cancel(job)]
+        vec![BackendCommand::Cancel(job)]
     }
 
     /// Asks for what a form plans; keeps the form under the confirmation, so that Cancel leads back to it.
-    pub(in crate::ui) fn ask(&mut self, form: Box<dyn Dialog>, planned: Option<(Task, Vec<RowId>)>) -> Vec<Command> {
+    pub(in crate::ui) fn ask(
+        &mut self,
+        form: Box<dyn Dialog>,
+        planned: Option<(Task, Vec<RowId>)>,
+    ) -> Vec<BackendCommand> {
         self.put_back(form);
         match planned {
             Some((task, rows)) => self.plan(task, rows),

@@ -3,10 +3,10 @@ use secrecy::SecretString;
 
 use crate::model::ErrorCode;
 use crate::texts::TextKey as T;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task};
+use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, SecretInput, Task};
 use crate::ui::shell::confirm;
 use crate::ui::theme;
-use crate::ui::widgets::{Buttons, dialog, fine_print, form, labelled, mistake, secret_field};
+use crate::ui::widgets::{Buttons, dialog, form, labelled, mistake, secret_field, small_note};
 
 /// The password of controllers whose password is not known.
 #[derive(Debug)]
@@ -22,21 +22,21 @@ pub struct PasswordDialog {
 }
 
 impl Dialog for PasswordDialog {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         show(ui, self, place.focus, model)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         let password = SecretString::from(self.password.0.as_str());
         model.start_again(self.task.clone(), self.rows.clone(), Some(password))
     }
 
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.without_password(&self.task)
     }
 }
 
-fn show(ui: &Ui, ask: &mut PasswordDialog, focus: bool, model: &Model) -> Answer {
+fn show(ui: &Ui, ask: &mut PasswordDialog, focus: bool, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let submit = if ask.rows.len() == 1 { T::Ok } else { T::PasswordUse };
     let buttons = Buttons { submit: Some((text(submit), None)), close: Some(text(T::Cancel)) };
@@ -61,7 +61,7 @@ fn show(ui: &Ui, ask: &mut PasswordDialog, focus: bool, model: &Model) -> Answer
                     mistake(ui, ErrorCode::WrongPassword.explain(model.language).message);
                 }
                 if model.store.is_some_and(|store| !store.keeps()) {
-                    fine_print(ui, text(T::PasswordNotKept));
+                    small_note(ui, text(T::PasswordNotKept));
                 }
                 Some(response)
             });

@@ -4,7 +4,9 @@ use egui::{Align, Frame, Label, Layout, ProgressBar, RichText, ScrollArea, Sense
 
 use super::error;
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Answer, CancelState, Command, Dialog, Job, JobRow, Message, Model, Place, RowState};
+use crate::ui::model::{
+    BackendCommand, CancelState, Dialog, DialogAnswer, DialogPlace, Job, JobRow, Message, Model, RowState,
+};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, chip, dialog, note, path_line};
 
@@ -20,12 +22,12 @@ pub struct ProcessingDialog {
 }
 
 impl Dialog for ProcessingDialog {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         show(ui, self, model, messages)
     }
 
     /// While the job runs: asks, then stops it. Afterwards: closes.
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         let Some(job) = &mut model.job else {
             model.end_processing();
             return vec![];
@@ -42,7 +44,7 @@ impl Dialog for ProcessingDialog {
             }
             CancelState::Asking => {
                 job.cancel = CancelState::Sent;
-                vec![Command::Cancel(job.id)]
+                vec![BackendCommand::Cancel(job.id)]
             }
             CancelState::Sent => vec![],
         };
@@ -57,9 +59,9 @@ impl Dialog for ProcessingDialog {
 }
 
 /// Each controller's progress and result; at the end the sum of it.
-fn show(ui: &Ui, view: &mut ProcessingDialog, model: &Model, messages: &mut Vec<Message>) -> Answer {
+fn show(ui: &Ui, view: &mut ProcessingDialog, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
-    let Some(job) = &model.job else { return Answer::Close };
+    let Some(job) = &model.job else { return DialogAnswer::Close };
     let ended = job.summary.is_some();
     let state = match job.summary {
         None => T::Processing,

@@ -71,9 +71,9 @@ fn it_is_deleted_after_a_question_and_read_again() {
     let confirmation = model.top::<ConfirmDialog>().expect("a question").confirmation;
     assert!(confirmation.deletes_log && confirmation.server == ServerEffect::Restarts);
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { job: id, ref task, .. }] = commands[..] else { panic!("{commands:?}") };
-    assert!(task.operation::<SetSettings>().unwrap().change.delete_log);
-    done(&mut model, id, 0, Done);
+    let [BackendCommand::Run { job: id, ref task, .. }] = commands[..] else { panic!("{commands:?}") };
+    assert!(task.operation::<SetBasicSettings>().unwrap().change.delete_log);
+    done(&mut model, id, 0, NoOutput);
     ended(&mut model, id, 1, 0);
     let id = job(&reduce(&mut model, Message::Submit));
     done(&mut model, id, 0, LogChunk::default());

@@ -5,7 +5,7 @@ use secrecy::ExposeSecret as _;
 use super::*;
 use crate::jobs::{ExportSettings, ImportSettings, ServerEffect};
 use crate::model::FirmwareVersion;
-use crate::ui::features::settings_transfer::{Preview, TransferForm};
+use crate::ui::features::settings_transfer::{ExportPreview, TransferForm};
 use crate::ui::model::ExportFound;
 
 fn know(model: &mut Model, name: &str, firmware: FirmwareVersion) {
@@ -54,7 +54,7 @@ fn an_export_goes_out_after_it_was_confirmed_with_the_passphrase_or_none() {
     assert!(model.top::<ConfirmDialog>().unwrap().confirmation.overwrites_export);
     let commands = reduce(&mut model, Message::Submit);
     assert!(!format!("{commands:?} {:?}", model.dialogs).contains("correct"), "no secret in a log");
-    let [Command::Run { task, controllers, .. }] = &commands[..] else { panic!("{commands:?}") };
+    let [BackendCommand::Run { task, controllers, .. }] = &commands[..] else { panic!("{commands:?}") };
     let passphrase = task.operation::<ExportSettings>().unwrap().passphrase.as_ref().unwrap();
     assert_eq!((passphrase.expose_secret(), controllers.len()), ("correct horse", 2));
     assert!(model.is_only::<ProcessingDialog>());
@@ -66,11 +66,11 @@ fn the_file_is_looked_at_before_an_import() {
     know(&mut model, "Paint", legacy());
     tick(&mut model, &["Paint"]);
     let look = |model: &mut Model| match reduce(model, Message::Invoke(UiCommand::IMPORT_SETTINGS))[..] {
-        [Command::LookAtExport { job, .. }] => job,
+        [BackendCommand::LookAtExport { job, .. }] => job,
         ref other => panic!("{other:?}"),
     };
     let seen = |model: &mut Model, job, result| {
-        assert!(reduce(model, Message::Event(Event::ExportSeen { job, result })).is_empty());
+        assert!(reduce(model, Message::Event(BackendEvent::ExportSeen { job, result })).is_empty());
     };
     let old = look(&mut model);
     assert!(form(&mut model).path.ends_with("SN1/option.json"));
@@ -80,7 +80,7 @@ fn the_file_is_looked_at_before_an_import() {
     let job = look(&mut model);
     let found = ExportFound { exported: now(), firmware: legacy() };
     seen(&mut model, old, Ok(found));
-    assert_eq!(form(&mut model).preview, Preview::Reading(job), "that was for the one closed");
+    assert_eq!(form(&mut model).preview, ExportPreview::Reading(job), "that was for the one closed");
     seen(&mut model, job, Err(ErrorCode::ExportMissing.into()));
     assert!(form(&mut model).task(&workspace).is_none());
     reduce(&mut model, Message::Close);
@@ -92,7 +92,7 @@ fn the_file_is_looked_at_before_an_import() {
     let confirmation = model.top::<ConfirmDialog>().expect("a question").confirmation;
     assert!(confirmation.server == ServerEffect::Restarts && confirmation.replaces_settings);
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { task, .. }] = &commands[..] else { panic!("{commands:?}") };
+    let [BackendCommand::Run { task, .. }] = &commands[..] else { panic!("{commands:?}") };
     assert!(task.operation::<ImportSettings>().unwrap().passphrase.is_some());
 }
 
@@ -103,5 +103,5 @@ fn many_are_imported_without_a_look_and_cancel_leads_back() {
     assert!(reduce(&mut model, Message::Invoke(UiCommand::IMPORT_SETTINGS)).is_empty());
     reduce(&mut model, Message::Submit);
     reduce(&mut model, Message::Close);
-    assert_eq!(form(&mut model).preview, Preview::None);
+    assert_eq!(form(&mut model).preview, ExportPreview::None);
 }

@@ -11,7 +11,7 @@ fn status(vault: VaultState) -> StoreStatus {
 
 fn with_vault(vault: VaultState) -> Model {
     let mut model = model();
-    reduce(&mut model, Message::Event(Event::PasswordStore(status(vault))));
+    reduce(&mut model, Message::Event(BackendEvent::PasswordStore(status(vault))));
     model
 }
 
@@ -19,7 +19,7 @@ fn with_vault(vault: VaultState) -> Model {
 fn find_it_closed(model: &mut Model) {
     tick(model, &["Weld 2", "Paint"]);
     let id = job(&reduce(model, Message::Invoke(UiCommand::GET_INFO)));
-    done(model, id, 0, Done);
+    done(model, id, 0, NoOutput);
     fail(model, id, 1, ErrorCode::VaultLocked);
     ended(model, id, 1, 1);
 }
@@ -35,16 +35,16 @@ fn the_passphrase_is_asked_for_when_it_is_needed_and_the_job_goes_on() {
     assert!(reduce(&mut model, Message::Submit).is_empty(), "nothing was entered");
     form(&mut model).passphrase.0 = "correct house".into();
     let work = reduce(&mut model, Message::Submit);
-    assert!(matches!(work[..], [Command::Vault(VaultWork::Open { .. })]));
+    assert!(matches!(work[..], [BackendCommand::Vault(VaultWork::Open { .. })]));
     assert!(!format!("{work:?}{:?}", model.dialogs).contains("house"));
     assert!(reduce(&mut model, Message::Submit).is_empty(), "once is enough");
     assert!(reduce(&mut model, Message::Close).is_empty(), "what is being done is not cancelled");
-    reduce(&mut model, Message::Event(Event::VaultDone(Err(ErrorCode::VaultPassphrase.into()))));
+    reduce(&mut model, Message::Event(BackendEvent::VaultDone(Err(ErrorCode::VaultPassphrase.into()))));
     assert_eq!(form(&mut model).problem, Some(ErrorCode::VaultPassphrase.into()));
 
     reduce(&mut model, Message::Submit);
-    let commands = reduce(&mut model, Message::Event(Event::VaultDone(Ok(()))));
-    let [Command::Run { controllers, password: None, .. }] = &commands[..] else { panic!("{commands:?}") };
+    let commands = reduce(&mut model, Message::Event(BackendEvent::VaultDone(Ok(()))));
+    let [BackendCommand::Run { controllers, password: None, .. }] = &commands[..] else { panic!("{commands:?}") };
     assert_eq!(controllers.len(), 1, "only the one that failed");
     assert!(model.is_only::<ProcessingDialog>());
 }
@@ -54,15 +54,15 @@ fn who_does_not_open_the_vault_is_asked_for_the_password() {
     let mut model = with_vault(VaultState::Closed);
     find_it_closed(&mut model);
     let commands = reduce(&mut model, Message::Close);
-    assert!(matches!(commands[..], [Command::Vault(VaultWork::Decline)]));
+    assert!(matches!(commands[..], [BackendCommand::Vault(VaultWork::Decline)]));
     let Some(asked) = model.top_mut::<PasswordDialog>() else { panic!("not asked") };
     assert_eq!(asked.names, ["Paint"]);
     asked.password.0 = "secret".into();
     let commands = reduce(&mut model, Message::Submit);
-    assert!(matches!(&commands[..], [Command::Run { password: Some(_), .. }]));
+    assert!(matches!(&commands[..], [BackendCommand::Run { password: Some(_), .. }]));
     // It may be opened later all the same.
-    reduce(&mut model, Message::Event(Event::PasswordStore(status(VaultState::Declined))));
-    reduce(&mut model, Message::Event(Event::PasswordNotKept(ErrorCode::VaultLocked.into())));
+    reduce(&mut model, Message::Event(BackendEvent::PasswordStore(status(VaultState::Declined))));
+    reduce(&mut model, Message::Event(BackendEvent::PasswordNotKept(ErrorCode::VaultLocked.into())));
     reduce(&mut model, Message::act(|model| model.vault_request(VaultRequest::NotKept)));
     assert_eq!(form(&mut model).action, VaultAction::Open);
 }
@@ -74,8 +74,8 @@ fn a_password_that_is_not_kept_opens_no_dialog() {
         let mut model = with_vault(VaultState::Declined);
         tick(&mut model, &["Weld 2", "Paint"]);
         let id = job(&reduce(&mut model, Message::Invoke(UiCommand::GET_INFO)));
-        reduce(&mut model, Message::Event(Event::PasswordNotKept(code.into())));
-        done(&mut model, id, 0, Done);
+        reduce(&mut model, Message::Event(BackendEvent::PasswordNotKept(code.into())));
+        done(&mut model, id, 0, NoOutput);
         fail(&mut model, id, 1, ErrorCode::Unreachable);
         ended(&mut model, id, 1, 1);
         assert_eq!(model.top::<ProcessingDialog>().unwrap().selected, Some(1));
@@ -95,8 +95,8 @@ fn a_pc_without_a_keyring_is_offered_a_vault() {
     let mut model = model();
     assert_eq!(model.store, None, "none in the demo");
     let none = StoreStatus { place: PasswordPlace::Keyring, keyring_fails: true, vault: VaultState::None };
-    reduce(&mut model, Message::Event(Event::PasswordStore(none)));
-    reduce(&mut model, Message::Event(Event::PasswordNotKept(ErrorCode::KeyringUnavailable.into())));
+    reduce(&mut model, Message::Event(BackendEvent::PasswordStore(none)));
+    reduce(&mut model, Message::Event(BackendEvent::PasswordNotKept(ErrorCode::KeyringUnavailable.into())));
     reduce(&mut model, Message::act(|model| model.vault_request(VaultRequest::NotKept)));
     let asked = form(&mut model);
     assert_eq!(asked.action, VaultAction::Create);
@@ -111,10 +111,10 @@ fn a_pc_without_a_keyring_is_offered_a_vault() {
         assert_eq!(asked.incomplete().is_none(), complete, "{passphrase}, {again}");
     }
     let work = reduce(&mut model, Message::Submit);
-    let [Command::Vault(VaultWork::Create { controllers, .. })] = &work[..] else { panic!("{work:?}") };
+    let [BackendCommand::Vault(VaultWork::Create { controllers, .. })] = &work[..] else { panic!("{work:?}") };
     assert_eq!(controllers.len(), 3, "the keyring may know them");
-    let saved = reduce(&mut model, Message::Event(Event::VaultDone(Ok(()))));
-    let [Command::Save(configuration)] = &saved[..] else { panic!("{saved:?}") };
+    let saved = reduce(&mut model, Message::Event(BackendEvent::VaultDone(Ok(()))));
+    let [BackendCommand::Save(configuration)] = &saved[..] else { panic!("{saved:?}") };
     assert_eq!(configuration.options.passwords, PasswordPlace::Vault);
     assert_eq!((model.not_kept.clone(), model.dialogs.len()), (None, 0));
 }
@@ -127,16 +127,22 @@ fn the_passphrase_is_changed_with_the_present_one_and_a_place_is_chosen() {
     (asked.new.0, asked.again.0) = ("another one".into(), "another one".into());
     assert_eq!(asked.incomplete(), Some(TextKey::VaultPassphraseNeeded));
     asked.passphrase.0 = "correct horse".into();
-    assert!(matches!(reduce(&mut model, Message::Submit)[..], [Command::Vault(VaultWork::ChangePassphrase { .. })]));
-    reduce(&mut model, Message::Event(Event::VaultDone(Ok(()))));
+    assert!(matches!(
+        reduce(&mut model, Message::Submit)[..],
+        [BackendCommand::Vault(VaultWork::ChangePassphrase { .. })]
+    ));
+    reduce(&mut model, Message::Event(BackendEvent::VaultDone(Ok(()))));
     assert!(model.dialogs.is_empty());
 
     let chosen =
         reduce(&mut model, Message::act(|model| model.vault_request(VaultRequest::Use(PasswordPlace::Keyring))));
-    assert!(matches!(chosen[..], [Command::Save(_), Command::Vault(VaultWork::Use(PasswordPlace::Keyring))]));
+    assert!(matches!(
+        chosen[..],
+        [BackendCommand::Save(_), BackendCommand::Vault(VaultWork::Use(PasswordPlace::Keyring))]
+    ));
     assert!(matches!(
         reduce(&mut model, Message::act(|model| model.vault_request(VaultRequest::Close)))[..],
-        [Command::Vault(VaultWork::Close)]
+        [BackendCommand::Vault(VaultWork::Close)]
     ));
     let mut without = with_vault(VaultState::None);
     assert!(
@@ -151,29 +157,29 @@ fn the_passphrase_is_changed_with_the_present_one_and_a_place_is_chosen() {
 fn a_controller_is_added_before_the_vault_is_asked_for() {
     let mut model = with_vault(VaultState::Closed);
     reduce(&mut model, Message::Invoke(UiCommand::ADD_CONTROLLER));
-    let Some(open) = model.top_mut::<AddController>() else { panic!("no form") };
+    let Some(open) = model.top_mut::<AddControllerForm>() else { panic!("no form") };
     (open.name, open.address) = ("New".into(), "10.0.0.77".into());
-    let [Command::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
+    let [BackendCommand::Probe { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no probe") };
     let fingerprint = Fingerprint::of(b"new");
-    reduce(&mut model, Message::Event(Event::Probed { job, result: Ok(fingerprint) }));
-    let [Command::Enroll { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no enrolment") };
+    reduce(&mut model, Message::Event(BackendEvent::Probed { job, result: Ok(fingerprint) }));
+    let [BackendCommand::Enroll { job, .. }] = reduce(&mut model, Message::Submit)[..] else { panic!("no enrolment") };
     let password_not_kept = Some(ErrorCode::VaultLocked.into());
     let enrolled = crate::jobs::Enrolled { fingerprint, info: info(), password_not_kept };
-    let saved = reduce(&mut model, Message::Event(Event::Enrolled { job, result: Ok(Box::new(enrolled)) }));
-    assert!(matches!(saved[..], [Command::Save(_)]));
+    let saved = reduce(&mut model, Message::Event(BackendEvent::Enrolled { job, result: Ok(Box::new(enrolled)) }));
+    assert!(matches!(saved[..], [BackendCommand::Save(_)]));
     assert_eq!(model.rows.all().len(), 4);
     assert!(model.is_only::<VaultForm>());
-    assert!(matches!(reduce(&mut model, Message::Close)[..], [Command::Vault(VaultWork::Decline)]));
+    assert!(matches!(reduce(&mut model, Message::Close)[..], [BackendCommand::Vault(VaultWork::Decline)]));
     assert!(model.dialogs.is_empty() && model.not_kept.is_some());
 }
 
 /// Tries to add a controller; what came of it.
 fn probed(model: &mut Model, result: Result<Fingerprint, Problem>) {
     reduce(model, Message::Invoke(UiCommand::ADD_CONTROLLER));
-    let Some(open) = model.top_mut::<AddController>() else { panic!("no form") };
+    let Some(open) = model.top_mut::<AddControllerForm>() else { panic!("no form") };
     (open.name, open.address) = ("New".into(), "10.0.0.77".into());
-    let [Command::Probe { job, .. }] = reduce(model, Message::Submit)[..] else { panic!("no probe") };
-    reduce(model, Message::Event(Event::Probed { job, result }));
+    let [BackendCommand::Probe { job, .. }] = reduce(model, Message::Submit)[..] else { panic!("no probe") };
+    reduce(model, Message::Event(BackendEvent::Probed { job, result }));
 }
 
 #[test]
@@ -182,7 +188,7 @@ fn a_controller_that_is_switched_off_is_added_without_a_fingerprint() {
         let mut model = model();
         probed(&mut model, Err(code.into()));
         let saved = reduce(&mut model, Message::act(Model::add_unconfirmed));
-        assert!(matches!(saved[..], [Command::Save(_)]), "nothing is sent to it");
+        assert!(matches!(saved[..], [BackendCommand::Save(_)]), "nothing is sent to it");
         let row = model.rows.all().last().unwrap();
         assert_eq!((row.entry.name.as_str(), row.entry.fingerprint, row.info()), ("New", None, None));
         assert!(model.dialogs.is_empty());
@@ -201,7 +207,7 @@ fn a_controller_that_is_switched_off_is_added_without_a_fingerprint() {
     reduce(&mut model, Message::Close);
     // The name was taken meanwhile.
     probed(&mut model, Err(ErrorCode::Unreachable.into()));
-    if let Some(open) = model.top_mut::<AddController>() {
+    if let Some(open) = model.top_mut::<AddControllerForm>() {
         open.name = "Paint".into();
     }
     assert!(reduce(&mut model, Message::act(Model::add_unconfirmed)).is_empty());

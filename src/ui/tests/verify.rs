@@ -2,19 +2,19 @@
 
 use super::*;
 use crate::jobs::{
-    EndpointVerdict, NotTried, Refusal, RefusalDetails, TokenOutcome, TokenVerdict, TrustConfigurator, Verify,
+    ConnectRefusal, EndpointVerdict, NotTried, RefusalDetails, TokenOutcome, TokenVerdict, TrustConfigurator, Verify,
     VerifyFinding, VerifyReport,
 };
 use crate::model::{CertificateStatus, SecurityPolicy};
 use crate::pki::client_identity;
 use crate::session::opcua_client::{MessageSecurity, TokenKind};
 use crate::ui::features::verify::VerifyView;
-use crate::workspace::OwnIdentity;
+use crate::workspace::ConfiguratorIdentity;
 
 /// `None` works, and a user name was not tried; `trusted` says whether the encrypted endpoint works as well.
 fn report(trusted: bool) -> VerifyReport {
     let token = |kind, verdict| TokenVerdict { kind, verdict };
-    let refused = Refusal::OwnCertificate(Some(RefusalDetails {
+    let refused = ConnectRefusal::OwnCertificate(Some(RefusalDetails {
         status: CertificateStatus::Untrusted,
         cause: None,
         reason: "nobody trusts it".into(),
@@ -23,7 +23,7 @@ fn report(trusted: bool) -> VerifyReport {
     let endpoint = |policy, mode, tokens| EndpointVerdict { policy: Ok(policy), mode: Some(mode), tokens };
     VerifyReport {
         url: "opc.tcp://10.0.0.1:4840".into(),
-        own: OwnIdentity {
+        own: ConfiguratorIdentity {
             certificate: client_identity("OPC UA Configurator", "desk", now()).unwrap().certificate,
             certificate_path: "/nowhere/configurator.der".into(),
             key_path: "/nowhere/configurator_key.pem".into(),
@@ -56,7 +56,7 @@ fn verifying(names: &[&str]) -> (Model, JobId) {
     let mut model = model();
     tick(&mut model, names);
     let commands = reduce(&mut model, Message::Invoke(UiCommand::VERIFY));
-    let [Command::Run { job, ref task, .. }] = commands[..] else { panic!("{commands:?}") };
+    let [BackendCommand::Run { job, ref task, .. }] = commands[..] else { panic!("{commands:?}") };
     assert!(task.operation::<Verify>().unwrap().login.is_none());
     (model, job)
 }
@@ -76,10 +76,10 @@ fn the_first_report_with_something_wrong_is_shown_first() {
 
     assert!(reduce(&mut model, Message::act(Model::trust_configurator)).is_empty(), "asked first");
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { job, ref task, ref controllers, .. }] = commands[..] else { panic!("{commands:?}") };
+    let [BackendCommand::Run { job, ref task, ref controllers, .. }] = commands[..] else { panic!("{commands:?}") };
     assert!(task.operation::<TrustConfigurator>().is_some());
     assert_eq!(controllers.len(), 1);
-    done(&mut model, job, 0, Done);
+    done(&mut model, job, 0, NoOutput);
     ended(&mut model, job, 1, 0);
     assert!(model.is_only::<VerifyView>(), "back to the reports, without a click");
 }
@@ -94,7 +94,7 @@ fn a_login_is_used_when_it_is_whole() {
     assert!(reduce(&mut model, Message::Submit).is_empty(), "half a login");
     view(&mut model).password.0 = "Passw0rd1".into();
     let commands = reduce(&mut model, Message::Submit);
-    let [Command::Run { job, task, .. }] = &commands[..] else { panic!("{commands:?}") };
+    let [BackendCommand::Run { job, task, .. }] = &commands[..] else { panic!("{commands:?}") };
     let login = task.operation::<Verify>().unwrap().login.as_ref().unwrap();
     assert_eq!((login.name.as_str(), login.password.expose()), ("operator1", "Passw0rd1"));
     assert!(!format!("{commands:?}{:?}", model.dialogs).contains("Passw0rd1"));
@@ -112,7 +112,7 @@ fn a_job_that_was_stopped_leaves_what_it_found() {
     fail(&mut model, id, 1, ErrorCode::Cancelled);
     reduce(
         &mut model,
-        Message::Event(Event::JobEnded { job: id, summary: Summary { done: 1, failed: 0, not_started: 1 } }),
+        Message::Event(BackendEvent::JobEnded { job: id, summary: JobSummary { done: 1, failed: 0, not_started: 1 } }),
     );
     assert_eq!(view(&mut model).of.len(), 1);
 
@@ -120,7 +120,7 @@ fn a_job_that_was_stopped_leaves_what_it_found() {
     fail(&mut model, id, 0, ErrorCode::Cancelled);
     reduce(
         &mut model,
-        Message::Event(Event::JobEnded { job: id, summary: Summary { done: 0, failed: 0, not_started: 1 } }),
+        Message::Event(BackendEvent::JobEnded { job: id, summary: JobSummary { done: 0, failed: 0, not_started: 1 } }),
     );
     assert!(model.dialogs.is_empty(), "nothing to look at: {:?}", model.dialogs);
 }
@@ -153,12 +153,12 @@ fn servers_that_were_started_again_are_verified_by_themselves_if_that_is_wanted(
         reduce(&mut model, Message::SetVerifyAfterChanges(wanted));
         tick(&mut model, &["Paint"]);
         let id = job(&reduce(&mut model, Message::Invoke(UiCommand::START)));
-        done(&mut model, id, 0, Done);
-        let summary = Summary { done: 1, ..Summary::default() };
-        let commands = reduce(&mut model, Message::Event(Event::JobEnded { job: id, summary }));
+        done(&mut model, id, 0, NoOutput);
+        let summary = JobSummary { done: 1, ..JobSummary::default() };
+        let commands = reduce(&mut model, Message::Event(BackendEvent::JobEnded { job: id, summary }));
         commands
             .iter()
-            .any(|command| matches!(command, Command::Run { task, .. } if task.operation::<Verify>().is_some()))
+            .any(|command| matches!(command, BackendCommand::Run { task, .. } if task.operation::<Verify>().is_some()))
     };
     assert!(start(true));
     assert!(!start(false));

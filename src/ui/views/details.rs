@@ -6,7 +6,7 @@ use crate::model::{CertificateSummary, ControllerInfo, UserTokenPolicy};
 use crate::texts::{self, TextKey as T};
 use crate::ui::model::{Message, Model, Row, RowState};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::fine_print;
+use crate::ui::widgets::small_note;
 
 pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     let width = model.options.window.details_width.unwrap_or(theme::DETAILS);
@@ -40,7 +40,7 @@ fn pane(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
     ui.add_space(theme::SPACE);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| match row {
         Some(row) => details(ui, row, model, messages),
-        None => fine_print(ui, text(T::DetailsChoose)),
+        None => small_note(ui, text(T::DetailsChoose)),
     });
 }
 
@@ -82,7 +82,7 @@ fn server(ui: &mut Ui, info: &ControllerInfo, model: &Model) {
         Some(error) => {
             let status = texts::status_with_error(status, error);
             colored(ui, text(T::ColumnStatus), &status, palette(ui).error);
-            fine_print(ui, error.explain(model.language).remedy);
+            small_note(ui, error.explain(model.language).remedy);
         }
     }
     field(ui, text(T::VerifyEndpoint), &info.endpoint);
@@ -120,7 +120,7 @@ fn last_result(ui: &mut Ui, row: &Row, model: &Model) {
     let text = |key: T| key.text(model.language);
     heading(ui, text(T::DetailsLastResult));
     let Some(result) = &row.last_result else {
-        fine_print(ui, text(T::DetailsNoResult));
+        small_note(ui, text(T::DetailsNoResult));
         return;
     };
     let name = text(result.title).trim_end_matches('…');
@@ -142,7 +142,7 @@ fn lists(ui: &mut Ui, row: &Row, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
     heading(ui, text(T::DetailsLists));
     match &row.overview {
-        None => fine_print(ui, text(T::DetailsNotRead)),
+        None => small_note(ui, text(T::DetailsNotRead)),
         Some(read) => {
             field(ui, text(T::ColumnRetrieved), &model.zone.date_time(read.at));
             let overview = &read.overview;

@@ -69,7 +69,7 @@ fn table(ui: &mut Ui, columns: &[Column], model: &Model, messages: &mut Vec<Mess
                     if heading.clicked() {
                         messages.push(Message::Sort(*column));
                     }
-                    places.push(Place { column: *column, rect: ui.max_rect(), heading });
+                    places.push(HeadingPlace { column: *column, rect: ui.max_rect(), heading });
                 });
             }
             drag_column(&places, messages);
@@ -114,14 +114,14 @@ fn remember_widths(columns: &[Column], widths: &[f32], model: &Model, messages: 
 }
 
 /// A column's heading on the screen.
-struct Place {
+struct HeadingPlace {
     column: Column,
     rect: Rect,
     heading: Response,
 }
 
 /// Marks where the heading that is dragged would be put down, and puts it there.
-fn drag_column(places: &[Place], messages: &mut Vec<Message>) {
+fn drag_column(places: &[HeadingPlace], messages: &mut Vec<Message>) {
     let Some(dragged) = places.iter().find(|place| place.heading.dragged() || place.heading.drag_stopped()) else {
         return;
     };

@@ -3,7 +3,7 @@ use egui::{Button, RichText, Ui, vec2};
 use crate::texts::TextKey as T;
 use crate::ui::model::{Message, Model, UiCommand as C};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{fine_print, primary};
+use crate::ui::widgets::{primary, small_note};
 
 /// What an empty list shows: the ways on.
 pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
             }
             ui.scope(|ui| {
                 ui.set_max_width(size.x);
-                fine_print(ui, text(T::WelcomeVirtualText));
+                small_note(ui, text(T::WelcomeVirtualText));
             });
         }
     });

@@ -4,7 +4,7 @@ use egui::{
 };
 
 use super::primary;
-use crate::ui::model::Answer;
+use crate::ui::model::DialogAnswer;
 use crate::ui::theme::{self, palette};
 
 /// The buttons at the foot of a dialog.
@@ -25,7 +25,7 @@ pub fn dialog(
     width: f32,
     buttons: Buttons<'_>,
     body: impl FnOnce(&mut Ui),
-) -> Answer {
+) -> DialogAnswer {
     let room = ui.ctx().content_rect();
     let frame = Frame::window(ui.style());
     let width = width.min(room.width() - frame.total_margin().sum().x - 2.0 * theme::SPACE);
@@ -43,15 +43,15 @@ pub fn dialog(
             .auto_shrink([false, true])
             .show(ui, body);
         if buttons.submit.is_none() && buttons.close.is_none() {
-            return Answer::None;
+            return DialogAnswer::None;
         }
         ui.add_space(theme::SPACE_LARGE);
         foot(ui, buttons)
     });
     settle(ui.ctx(), &shown.response);
     let escape = || ui.ctx().input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
-    if shown.inner == Answer::None && shown.is_top_modal && !shown.any_popup_open && escape() {
-        return Answer::Close;
+    if shown.inner == DialogAnswer::None && shown.is_top_modal && !shown.any_popup_open && escape() {
+        return DialogAnswer::Close;
     }
     shown.inner
 }
@@ -103,8 +103,8 @@ fn settle(ctx: &Context, dialog: &Response) {
     }
 }
 
-fn foot(ui: &mut Ui, buttons: Buttons<'_>) -> Answer {
-    let mut answer = Answer::None;
+fn foot(ui: &mut Ui, buttons: Buttons<'_>) -> DialogAnswer {
+    let mut answer = DialogAnswer::None;
     ui.allocate_ui_with_layout(
         egui::vec2(ui.available_width(), theme::BUTTON_HEIGHT),
         Layout::right_to_left(Align::Center),
@@ -113,13 +113,13 @@ fn foot(ui: &mut Ui, buttons: Buttons<'_>) -> Answer {
                 let button = if why.is_none() { primary(ui, text) } else { Button::new(text) };
                 let response = ui.add_enabled(why.is_none(), button);
                 if response.on_disabled_hover_text(why.unwrap_or_default()).clicked() {
-                    answer = Answer::Submit;
+                    answer = DialogAnswer::Submit;
                 }
             }
             if let Some(text) = buttons.close
                 && ui.button(text).clicked()
             {
-                answer = Answer::Close;
+                answer = DialogAnswer::Close;
             }
         },
     );

@@ -119,7 +119,7 @@ pub fn mistake(ui: &mut Ui, text: &str) {
 }
 
 /// An explanation under a field.
-pub fn fine_print(ui: &mut Ui, text: &str) {
+pub fn small_note(ui: &mut Ui, text: &str) {
     ui.add(egui::Label::new(RichText::new(text).size(theme::SMALL_TEXT).color(palette(ui).weak)).wrap());
 }
 

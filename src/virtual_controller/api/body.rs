@@ -18,13 +18,13 @@ const MAX_DRAINED_BYTES: usize = 8 * MAX_REQUEST_BYTES;
 
 /// The answer to a body that is not the message expected.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Malformed {
+pub(super) struct MalformedBody {
     code: ErrorCode,
     /// serde quotes what it did not understand, which may be a secret in the wrong place.
     quoted: bool,
 }
 
-impl Malformed {
+impl MalformedBody {
     /// For a message without secrets: the answer quotes what is wrong.
     pub(super) const fn plain(code: ErrorCode) -> Self {
         Self { code, quoted: true }
@@ -46,7 +46,7 @@ impl Malformed {
 }
 
 /// Reads a body of at most [`MAX_REQUEST_BYTES`] within 10 s, whatever its media type.
-pub(super) async fn read<T: DeserializeOwned>(body: Body, malformed: Malformed) -> Result<T, Problem> {
+pub(super) async fn read<T: DeserializeOwned>(body: Body, malformed: MalformedBody) -> Result<T, Problem> {
     let bytes = tokio::time::timeout(BODY_TIMEOUT, collect(body))
         .await
         .map_err(|_| Problem::with_detail(ErrorCode::Refused, "the request did not arrive in time"))??;

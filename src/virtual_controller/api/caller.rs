@@ -15,33 +15,33 @@ use tokio::sync::Mutex as AsyncMutex;
 use tokio_util::sync::CancellationToken;
 
 use crate::model::{ErrorCode, Problem};
-use crate::protocol::{self, Failure, WireSecret};
+use crate::protocol::{self, FailureBody, WireSecret};
 use crate::virtual_controller::controller::{ChangeFailure, Controller};
-use crate::virtual_controller::login::{Sessions, Throttle};
-use crate::virtual_controller::peer::Peer;
+use crate::virtual_controller::login::{LoginThrottle, ManagementSessions};
+use crate::virtual_controller::peer::PeerConnection;
 use crate::virtual_controller::request_heads::RejectedHead;
 
 /// The management protocol of one controller.
 #[derive(Debug)]
-pub struct Api {
+pub struct ManagementApi {
     pub(super) controller: Arc<Controller>,
     /// Locked while a password is compared, so that two guesses at the same time are both counted.
-    pub(super) throttle: AsyncMutex<Throttle>,
-    pub(super) sessions: Mutex<Sessions>,
+    pub(super) throttle: AsyncMutex<LoginThrottle>,
+    pub(super) sessions: Mutex<ManagementSessions>,
 }
 
 /// The connection that a request arrived on.
 #[derive(Debug, Clone)]
 pub struct ClientConnection {
-    pub api: Arc<Api>,
-    pub peer: Arc<Peer>,
+    pub api: Arc<ManagementApi>,
+    pub peer: Arc<PeerConnection>,
     /// The controller's address the client used.
     pub local: IpAddr,
     /// Cuts the connection without an answer.
     pub cut: CancellationToken,
 }
 
-impl Api {
+impl ManagementApi {
     pub fn new(controller: Arc<Controller>) -> Self {
         Self { controller, throttle: AsyncMutex::default(), sessions: Mutex::default() }
     }
@@ -58,7 +58,7 @@ pub(super) struct Caller {
 }
 
 /// A failed request. The status is [`protocol::status_of`] the code unless it is about the path or the head.
-pub(super) struct Failed {
+pub(super) struct FailedRequest {
     status: StatusCode,
     problem: Problem,
 }
@@ -74,7 +74,7 @@ impl Caller {
     }
 
     /// The result of a change. If a fault switch asks for the connection to be lost here, it is cut and this never returns.
-    pub(super) async fn settle<T>(&self, outcome: Result<T, ChangeFailure>) -> Result<T, Failed> {
+    pub(super) async fn settle<T>(&self, outcome: Result<T, ChangeFailure>) -> Result<T, FailedRequest> {
         match outcome {
             Ok(value) => Ok(value),
             Err(ChangeFailure::Problem(problem)) => Err(problem.into()),
@@ -87,9 +87,9 @@ impl Caller {
 }
 
 impl<S: Send + Sync> FromRequestParts<S> for Caller {
-    type Rejection = Failed;
+    type Rejection = FailedRequest;
 
-    async fn from_request_parts(parts: &mut Parts, _state: &S) -> Result<Self, Failed> {
+    async fn from_request_parts(parts: &mut Parts, _state: &S) -> Result<Self, FailedRequest> {
         let connection = parts
             .extensions
             .get::<ClientConnection>()
@@ -110,7 +110,7 @@ impl<S: Send + Sync> FromRequestParts<S> for Caller {
     }
 }
 
-impl From<Problem> for Failed {
+impl From<Problem> for FailedRequest {
     fn from(problem: Problem) -> Self {
         let status = StatusCode::from_u16(protocol::status_of(problem.code));
         Self { status: status.unwrap_or(StatusCode::INTERNAL_SERVER_ERROR), problem }
@@ -119,26 +119,26 @@ impl From<Problem> for Failed {
 
 /// The answer to a request whose head was refused.
 pub fn rejected(head: RejectedHead) -> Response {
-    Failed { status: head.status, problem: head.problem }.into_response()
+    FailedRequest { status: head.status, problem: head.problem }.into_response()
 }
 
-impl IntoResponse for Failed {
+impl IntoResponse for FailedRequest {
     fn into_response(self) -> Response {
-        (self.status, Json(Failure::from(self.problem))).into_response()
+        (self.status, Json(FailureBody::from(self.problem))).into_response()
     }
 }
 
-pub(super) async fn unknown_path() -> Failed {
+pub(super) async fn unknown_path() -> FailedRequest {
     not_found()
 }
 
-pub(super) async fn unknown_method() -> Failed {
-    Failed {
+pub(super) async fn unknown_method() -> FailedRequest {
+    FailedRequest {
         status: StatusCode::METHOD_NOT_ALLOWED,
         problem: Problem::with_detail(ErrorCode::Refused, "this path does not take this method"),
     }
 }
 
-pub(super) fn not_found() -> Failed {
-    Failed { status: StatusCode::NOT_FOUND, problem: Problem::with_detail(ErrorCode::Refused, "no such path") }
+pub(super) fn not_found() -> FailedRequest {
+    FailedRequest { status: StatusCode::NOT_FOUND, problem: Problem::with_detail(ErrorCode::Refused, "no such path") }
 }

@@ -3,7 +3,7 @@
 //! | file | its one idea |
 //! |---|---|
 //! | `mod` | the router; logging in and out |
-//! | `caller` | [`Api`], the sender of a request, and how a request that fails is answered |
+//! | `caller` | [`ManagementApi`], the sender of a request, and how a request that fails is answered |
 //! | `routes` | a handler is registered under the type of the request that it answers |
 //! | `handlers` | what the controller does for each request |
 //! | `body` | request bodies, bounded in size and time |
@@ -21,10 +21,10 @@ use secrecy::ExposeSecret as _;
 
 use super::password::is_password;
 use crate::model::{ErrorCode, Problem};
-use crate::protocol::{self, GetHello, Hello, Login, Logout, SESSION_IDLE_SECS, Session, WireSecret};
-use body::Malformed;
-pub use caller::{Api, ClientConnection, rejected};
-use caller::{Caller, Failed};
+use crate::protocol::{self, GetHello, Hello, Login, Logout, SESSION_IDLE_SECS, SessionStarted, WireSecret};
+use body::MalformedBody;
+use caller::{Caller, FailedRequest};
+pub use caller::{ClientConnection, ManagementApi, rejected};
 use routes::Routes;
 
 /// How long a wrong password waits for its answer.
@@ -37,16 +37,16 @@ pub static ROUTER: LazyLock<Router> = LazyLock::new(|| routes().router());
 fn routes() -> Routes {
     let routes = Routes::default()
         .open::<GetHello, _, _>(hello)
-        .open_with_body::<Login, _, _>(Malformed::secret(ErrorCode::Refused), login)
+        .open_with_body::<Login, _, _>(MalformedBody::secret(ErrorCode::Refused), login)
         .plain::<Logout, _, _>(logout);
     handlers::register(routes)
 }
 
-async fn hello() -> Result<Hello, Failed> {
+async fn hello() -> Result<Hello, FailedRequest> {
     Ok(Hello { product: protocol::PRODUCT.to_owned(), versions: vec![protocol::VERSION] })
 }
 
-async fn login(connection: ClientConnection, Login { password }: Login) -> Result<Session, Failed> {
+async fn login(connection: ClientConnection, Login { password }: Login) -> Result<SessionStarted, FailedRequest> {
     let api = &connection.api;
     let right = {
         let mut throttle = api.throttle.lock().await;
@@ -66,10 +66,10 @@ async fn login(connection: ClientConnection, Login { password }: Login) -> Resul
     }
     let token = api.sessions.lock().open(Instant::now())?;
     connection.peer.has_session();
-    Ok(Session { token: WireSecret(token), idle_secs: SESSION_IDLE_SECS })
+    Ok(SessionStarted { token: WireSecret(token), idle_secs: SESSION_IDLE_SECS })
 }
 
-async fn logout(caller: Arc<Caller>) -> Result<(), Failed> {
+async fn logout(caller: Arc<Caller>) -> Result<(), FailedRequest> {
     caller.connection.api.sessions.lock().close(caller.token.0.expose_secret());
     Ok(())
 }

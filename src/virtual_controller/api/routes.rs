@@ -11,8 +11,8 @@ use axum::response::{IntoResponse as _, Response};
 use axum::routing::{MethodFilter, MethodRouter, on};
 use axum::{Json, Router};
 
-use super::body::{Malformed, read};
-use super::caller::{Caller, ClientConnection, Failed, not_found, unknown_method, unknown_path};
+use super::body::{MalformedBody, read};
+use super::caller::{Caller, ClientConnection, FailedRequest, not_found, unknown_method, unknown_path};
 use crate::protocol::{Method, Request};
 
 /// A router in the making, and what was registered.
@@ -23,7 +23,7 @@ pub(super) struct Routes {
     pub(super) registered: Vec<(Method, &'static str)>,
 }
 
-type Answer = Result<Response, Failed>;
+type Answer = Result<Response, FailedRequest>;
 
 impl Routes {
     /// A request without a session and without a body.
@@ -31,17 +31,17 @@ impl Routes {
     where
         R: Request<Response: 'static>,
         F: Fn() -> A + Clone + Send + Sync + 'static,
-        A: Future<Output = Result<R::Response, Failed>> + Send,
+        A: Future<Output = Result<R::Response, FailedRequest>> + Send,
     {
         self.add::<R>(on(filter::<R>(), async move || -> Answer { Ok(respond(handler().await?)) }))
     }
 
     /// A request without a session and with a body.
-    pub(super) fn open_with_body<R, F, A>(self, malformed: Malformed, handler: F) -> Self
+    pub(super) fn open_with_body<R, F, A>(self, malformed: MalformedBody, handler: F) -> Self
     where
         R: Request<Response: 'static> + 'static,
         F: Fn(ClientConnection, R) -> A + Clone + Send + Sync + 'static,
-        A: Future<Output = Result<R::Response, Failed>> + Send,
+        A: Future<Output = Result<R::Response, FailedRequest>> + Send,
     {
         let handler = async move |Extension(connection): Extension<ClientConnection>, body: Body| -> Answer {
             Ok(respond(handler(connection, read(body, malformed).await?).await?))
@@ -54,18 +54,18 @@ impl Routes {
     where
         R: Request<Response: 'static>,
         F: Fn(Arc<Caller>) -> A + Clone + Send + Sync + 'static,
-        A: Future<Output = Result<R::Response, Failed>> + Send,
+        A: Future<Output = Result<R::Response, FailedRequest>> + Send,
     {
         let handler = async move |caller: Caller| -> Answer { Ok(respond(handler(Arc::new(caller)).await?)) };
         self.add::<R>(on(filter::<R>(), handler))
     }
 
     /// A request in a session, with a body.
-    pub(super) fn with_body<R, F, A>(self, malformed: Malformed, handler: F) -> Self
+    pub(super) fn with_body<R, F, A>(self, malformed: MalformedBody, handler: F) -> Self
     where
         R: Request<Response: 'static> + 'static,
         F: Fn(Arc<Caller>, R) -> A + Clone + Send + Sync + 'static,
-        A: Future<Output = Result<R::Response, Failed>> + Send,
+        A: Future<Output = Result<R::Response, FailedRequest>> + Send,
     {
         let handler = async move |caller: Caller, body: Body| -> Answer {
             Ok(respond(handler(Arc::new(caller), read(body, malformed).await?).await?))
@@ -78,7 +78,7 @@ impl Routes {
     where
         R: Request<Response: 'static>,
         F: Fn(Arc<Caller>, String) -> A + Clone + Send + Sync + 'static,
-        A: Future<Output = Result<R::Response, Failed>> + Send,
+        A: Future<Output = Result<R::Response, FailedRequest>> + Send,
     {
         let handler = async move |caller: Caller, value: Result<Path<String>, PathRejection>| -> Answer {
             let Path(value) = value.map_err(|_| not_found())?;
@@ -92,7 +92,7 @@ impl Routes {
     where
         R: Request<Response: 'static>,
         F: Fn(Arc<Caller>, Option<String>) -> A + Clone + Send + Sync + 'static,
-        A: Future<Output = Result<R::Response, Failed>> + Send,
+        A: Future<Output = Result<R::Response, FailedRequest>> + Send,
     {
         let handler = async move |caller: Caller, RawQuery(query): RawQuery| -> Answer {
             Ok(respond(handler(Arc::new(caller), query).await?))

@@ -106,10 +106,10 @@ impl std::fmt::Display for ClockRate {
 
 /// Says what simulated time it is. Clones are the same clock. Monotonic.
 #[derive(Debug, Clone)]
-pub struct CellClock(Source);
+pub struct CellClock(SourceNetwork);
 
 #[derive(Debug, Clone)]
-enum Source {
+enum SourceNetwork {
     Running { started: Instant, rate: ClockRate },
     Manual(Arc<AtomicU64>),
 }
@@ -117,28 +117,28 @@ enum Source {
 impl CellClock {
     /// A clock that starts at [`CellTime::ZERO`] now and runs by itself.
     pub fn running(rate: ClockRate) -> Self {
-        Self(Source::Running { started: Instant::now(), rate })
+        Self(SourceNetwork::Running { started: Instant::now(), rate })
     }
 
     /// A clock that stands at [`CellTime::ZERO`] until [`CellClock::advance`].
     pub fn manual() -> Self {
-        Self(Source::Manual(Arc::new(AtomicU64::new(0))))
+        Self(SourceNetwork::Manual(Arc::new(AtomicU64::new(0))))
     }
 
     /// Simulated time now.
     pub fn now(&self) -> CellTime {
         match &self.0 {
-            Source::Running { started, rate } => {
+            SourceNetwork::Running { started, rate } => {
                 let nanos = started.elapsed().as_nanos() * u128::from(rate.thousandths) / 1000;
                 CellTime(u64::try_from(nanos).unwrap_or(u64::MAX))
             }
-            Source::Manual(nanos) => CellTime(nanos.load(Ordering::Acquire)),
+            SourceNetwork::Manual(nanos) => CellTime(nanos.load(Ordering::Acquire)),
         }
     }
 
     /// Moves a manual clock forward. A running clock is not changed.
     pub fn advance(&self, by: Duration) {
-        if let Source::Manual(nanos) = &self.0 {
+        if let SourceNetwork::Manual(nanos) = &self.0 {
             nanos.fetch_add(u64::try_from(by.as_nanos()).unwrap_or(u64::MAX), Ordering::AcqRel);
         }
     }

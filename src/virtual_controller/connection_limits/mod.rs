@@ -4,10 +4,10 @@
 //!
 //! | file | idea |
 //! |---|---|
-//! | `source` | [`Source`]: which addresses count as one peer |
+//! | `source` | [`SourceNetwork`]: which addresses count as one peer |
 //! | `activity` | [`Activity`]: how far one connection has come, and when it was last used |
 //! | `slots` | [`ConnectionSlots`]: how many connections there may be, and which one makes room |
-//! | `lines` | [`Lines`]: how much is said about one source in a log |
+//! | `lines` | [`LineLimiter`]: how much is said about one source in a log |
 //!
 //! # Which connection makes room
 //! A listener always accepts. When a source, or the listener as a whole, has too many connections, one of those with the
@@ -15,11 +15,11 @@
 //! session never makes room while it is used (OPC 10000-4 §5.5.2.1 asks the same for secure channels).
 
 mod activity;
-mod lines;
+mod line_limiter;
 mod slots;
-mod source;
+mod source_network;
 
 pub(super) use activity::{Activity, ConnectionStage};
-pub(super) use lines::{Line, Lines, Refusal};
+pub(super) use line_limiter::{LineDecision, LineLimiter, RefusalDecision};
 pub(super) use slots::{ConnectionLimits, ConnectionSlot, ConnectionSlots, LimitedConnection};
-pub(super) use source::Source;
+pub(super) use source_network::SourceNetwork;

@@ -4,11 +4,11 @@ use std::time::Duration;
 
 use parking_lot::Mutex;
 
-use super::{Activity, ConnectionStage, Source};
+use super::{Activity, ConnectionStage, SourceNetwork};
 
 /// A connection that takes one of the [`ConnectionSlots`].
 pub trait LimitedConnection {
-    fn source(&self) -> Source;
+    fn source(&self) -> SourceNetwork;
 
     fn activity(&self) -> &Activity;
 
@@ -31,11 +31,11 @@ pub struct ConnectionLimits {
 #[derive(Debug)]
 pub struct ConnectionSlots<C> {
     limits: ConnectionLimits,
-    taken: Mutex<Taken<C>>,
+    taken: Mutex<TakenSlot<C>>,
 }
 
 #[derive(Debug)]
-struct Taken<C> {
+struct TakenSlot<C> {
     next: u64,
     by_age: BTreeMap<u64, Arc<C>>,
 }
@@ -50,7 +50,7 @@ pub struct ConnectionSlot<C> {
 
 impl<C: LimitedConnection> ConnectionSlots<C> {
     pub fn new(limits: ConnectionLimits) -> Self {
-        Self { limits, taken: Mutex::new(Taken { next: 0, by_age: BTreeMap::new() }) }
+        Self { limits, taken: Mutex::new(TakenSlot { next: 0, by_age: BTreeMap::new() }) }
     }
 
     /// Takes in one more, for which another one may have to end. `None` if every other one has a session that is used.
@@ -70,14 +70,14 @@ impl<C: LimitedConnection> ConnectionSlots<C> {
         Some(ConnectionSlot { slots: self.clone(), number, connection })
     }
 
-    fn evict(&self, taken: &mut Taken<C>, may_go: impl Fn(&C) -> bool) -> Option<()> {
+    fn evict(&self, taken: &mut TakenSlot<C>, may_go: impl Fn(&C) -> bool) -> Option<()> {
         let stage = |connection: &C| connection.activity().stage(self.limits.silence);
         let candidates = || taken.by_age.iter().filter(|(_, connection)| may_go(connection));
         let lowest = candidates().map(|(_, connection)| stage(connection)).min()?;
         if lowest == ConnectionStage::InSession {
             return None;
         }
-        let mut by_source: HashMap<Source, (usize, u64)> = HashMap::new();
+        let mut by_source: HashMap<SourceNetwork, (usize, u64)> = HashMap::new();
         for (number, connection) in candidates().filter(|(_, connection)| stage(connection) == lowest) {
             by_source.entry(connection.source()).or_insert((0, *number)).0 += 1;
         }
@@ -108,13 +108,13 @@ mod tests {
     use super::*;
 
     struct Peer {
-        source: Source,
+        source: SourceNetwork,
         activity: Activity,
         is_evicted: AtomicBool,
     }
 
     impl LimitedConnection for Peer {
-        fn source(&self) -> Source {
+        fn source(&self) -> SourceNetwork {
             self.source
         }
 
@@ -132,7 +132,7 @@ mod tests {
     }
 
     fn enter(slots: &Arc<ConnectionSlots<Peer>>, address: u8, stage: ConnectionStage) -> Option<ConnectionSlot<Peer>> {
-        let source = Source::new([192, 168, 0, address].into());
+        let source = SourceNetwork::new([192, 168, 0, address].into());
         let slot = slots.enter(Peer { source, activity: Activity::new(), is_evicted: AtomicBool::new(false) })?;
         slot.connection.activity.reached(stage);
         Some(slot)

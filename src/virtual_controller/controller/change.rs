@@ -5,12 +5,12 @@ use tokio::task::spawn_blocking;
 
 use super::server_slot::{ServerSlot, opcua_config, trust_lists};
 use super::{Controller, ServerState};
-use crate::model::{Changed, CutClient, ErrorCode, Problem, RevisionToken};
+use crate::model::{Changed, DisconnectedClient, ErrorCode, Problem, RevisionToken};
 use crate::virtual_controller::faults::DropPoint;
 use crate::virtual_controller::memory;
-use crate::virtual_controller::opcua::{Clock, Events, OpcUaConfig, OpcUaServer, StartError};
+use crate::virtual_controller::opcua::{CertificateClock, OpcUaConfig, OpcUaServer, ServerEvents, StartError};
 use crate::virtual_controller::server_log::ServerLog;
-use crate::virtual_controller::state::{OperatingContext, State};
+use crate::virtual_controller::state::{ControllerState, OperatingContext};
 use crate::virtual_controller::store::StoreError;
 
 /// What a change means for a running OPC UA server.
@@ -27,11 +27,11 @@ pub(in super::super) enum Effect {
 }
 
 /// A change that is in force.
-pub(super) struct Applied<T> {
+pub(super) struct AppliedChange<T> {
     pub changed: Changed,
     pub value: T,
     /// Whose connections were ended.
-    pub cut: Vec<CutClient>,
+    pub cut: Vec<DisconnectedClient>,
 }
 
 /// How a change, a start or a stop did not succeed.
@@ -65,7 +65,7 @@ impl Controller {
         self: &Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut State, &OperatingContext) -> Result<T, Problem> + Send + 'static,
+        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, Problem> + Send + 'static,
     ) -> Result<(Changed, T), ChangeFailure> {
         let this = Arc::clone(self);
         finished(tokio::spawn(async move { this.change_now(revision, effect, edit).await }).await)
@@ -104,7 +104,7 @@ impl Controller {
         self: &Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut State, &OperatingContext) -> Result<T, Problem> + Send + 'static,
+        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, Problem> + Send + 'static,
     ) -> Result<(Changed, T), ChangeFailure> {
         let this = Arc::clone(self);
         let change = async move {
@@ -112,7 +112,7 @@ impl Controller {
             // Before the change: a full log keeps the server from starting.
             this.with_log(ServerLog::put_aside).await?;
             match this.apply(&mut slot, revision, effect, edit).await {
-                Ok(Applied { changed, value, .. }) => {
+                Ok(AppliedChange { changed, value, .. }) => {
                     drop(slot);
                     if let Err(problem) = this.with_log(ServerLog::delete_aside).await {
                         tracing::warn!(%problem, "the old server log was not deleted");
@@ -142,10 +142,10 @@ impl Controller {
         self: Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut State, &OperatingContext) -> Result<T, Problem> + Send + 'static,
+        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, Problem> + Send + 'static,
     ) -> Result<(Changed, T), ChangeFailure> {
         let mut slot = self.server.lock().await;
-        let Applied { changed, value, .. } = self.apply(&mut slot, revision, effect, edit).await?;
+        let AppliedChange { changed, value, .. } = self.apply(&mut slot, revision, effect, edit).await?;
         drop(slot);
         self.answer()?;
         Ok((changed, value))
@@ -170,14 +170,14 @@ impl Controller {
         slot: &mut ServerSlot,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut State, &OperatingContext) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<Applied<T>, ChangeFailure> {
+        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, Problem> + Send + 'static,
+    ) -> Result<AppliedChange<T>, ChangeFailure> {
         slot.admit()?;
         self.faults.admit_change()?;
         self.check_revision(revision)?;
         let effect = if slot.is_running() { effect } else { Effect::Nothing };
         let old = self.state();
-        let (store, context, copy) = (Arc::clone(&self.store), self.operating_context(), State::clone(&old));
+        let (store, context, copy) = (Arc::clone(&self.store), self.operating_context(), ControllerState::clone(&old));
         let (new, value, lists, staged) = blocking(move || {
             let mut state = copy;
             let value = edit(&mut state, &context)?;
@@ -213,7 +213,7 @@ impl Controller {
             Some(lists) => slot.trust(lists).await,
             None => Vec::new(),
         };
-        Ok(Applied { changed: self.changed(), value, cut })
+        Ok(AppliedChange { changed: self.changed(), value, cut })
     }
 
     pub(in super::super) async fn start_server_now(&self) -> Result<(), Problem> {
@@ -243,8 +243,8 @@ impl Controller {
         &self,
         slot: &mut ServerSlot,
         effect: Effect,
-        old: &State,
-        new: &State,
+        old: &ControllerState,
+        new: &ControllerState,
     ) -> Result<(), Problem> {
         match effect {
             Effect::Restart => self.restart(slot, old, new).await,
@@ -259,7 +259,12 @@ impl Controller {
         }
     }
 
-    async fn restart(&self, slot: &mut ServerSlot, old: &State, new: &State) -> Result<(), Problem> {
+    async fn restart(
+        &self,
+        slot: &mut ServerSlot,
+        old: &ControllerState,
+        new: &ControllerState,
+    ) -> Result<(), Problem> {
         // A configuration that cannot run is refused before anything is stopped.
         new.check_start(&self.operating_context())?;
         slot.stop().await;
@@ -277,7 +282,7 @@ impl Controller {
     }
 
     /// Puts back the server that ran until a moment ago. Should even that fail, the status says so.
-    async fn restore(&self, slot: &mut ServerSlot, old: &State) {
+    async fn restore(&self, slot: &mut ServerSlot, old: &ControllerState) {
         for attempt in 1..=RESTORE_ATTEMPTS {
             match self.run(old).await {
                 Ok(server) => {
@@ -293,11 +298,11 @@ impl Controller {
         }
     }
 
-    async fn run(&self, state: &State) -> Result<OpcUaServer, Problem> {
+    async fn run(&self, state: &ControllerState) -> Result<OpcUaServer, Problem> {
         let mut config = self.config(state).await?;
         config.refusals = Some(Arc::clone(&self.rejected) as _);
         let faults = self.faults.clone();
-        config.clock = Clock::new(move || faults.now());
+        config.clock = CertificateClock::new(move || faults.now());
         config.trust_policy = self.admission.trust_policy();
         config.detailed_status = self.admission.detailed_status;
         if state.settings.server_log {
@@ -305,7 +310,7 @@ impl Controller {
                 return Err(ErrorCode::ServerLogFull.into());
             }
             let log = Arc::clone(&self.log);
-            config.events = Events::new(move |event| log.write(event));
+            config.events = ServerEvents::new(move |event| log.write(event));
         }
         OpcUaServer::start(config).await.map_err(|error| match &error {
             StartError::PortInUse(port) => Problem::with_detail(ErrorCode::PortConflict, port),
@@ -315,7 +320,7 @@ impl Controller {
     }
 
     /// Parses what may be megabytes of CRLs: off the async threads.
-    async fn config(&self, state: &State) -> Result<OpcUaConfig, Problem> {
+    async fn config(&self, state: &ControllerState) -> Result<OpcUaConfig, Problem> {
         let (state, context, folder) = (state.clone(), self.operating_context(), self.folder.clone());
         let cell = self.cell.clone();
         spawn_blocking(move || opcua_config(&state, &context, cell, &folder))

@@ -33,7 +33,7 @@ use super::new_controller::NewController;
 use super::opcua::AdmissionOptions;
 use super::rejected::RejectedClients;
 use super::server_log::ServerLog;
-use super::state::{Identity, OperatingContext, State};
+use super::state::{ControllerIdentity, ControllerState, OperatingContext};
 use super::store::{Store, StoreError};
 use crate::model::{ErrorCode, Problem};
 
@@ -73,7 +73,7 @@ pub enum SwitchOnError {
 /// Questions read a snapshot and never wait. Changes, start and stop take their turn at [`Controller::server`].
 #[derive(Debug)]
 pub(super) struct Controller {
-    state: RwLock<Arc<State>>,
+    state: RwLock<Arc<ControllerState>>,
     store: Arc<Store>,
     faults: Faults,
     log: Arc<ServerLog>,
@@ -136,7 +136,7 @@ impl Controller {
         })
     }
 
-    pub(super) fn state(&self) -> Arc<State> {
+    pub(super) fn state(&self) -> Arc<ControllerState> {
         Arc::clone(&self.state.read())
     }
 
@@ -171,8 +171,8 @@ impl Controller {
 }
 
 /// The cell of a controller that is switched on `now`.
-fn switch_on_cell(state: &State, now: DateTime<Utc>, options: CellOptions) -> CellHandle {
-    let Identity { serial, series, firmware, name } = state.identity.clone();
+fn switch_on_cell(state: &ControllerState, now: DateTime<Utc>, options: CellOptions) -> CellHandle {
+    let ControllerIdentity { serial, series, firmware, name } = state.identity.clone();
     let clock = CellClock::running(options.rate);
     let cell = Cell::new(CellConfig { name, serial, series, firmware, started: now, variables: Vec::new(), options });
     CellHandle::new(cell, clock)

@@ -5,15 +5,15 @@ use tokio::task::spawn_blocking;
 
 use super::{Controller, ServerState};
 use crate::model::{
-    Base64Bytes, Changed, ClientList, ControllerInfo, ErrorCode, FirmwareGeneration, HeldCertificate, HeldCertificates,
-    ListedCertificate, ListedCrl, LogChunk, Problem, RevisionToken, Revisioned, ServerSettings, ServerStatus,
-    TrustStamp, UserName,
+    Base64Bytes, Changed, ClientList, ControllerInfo, ErrorCode, FirmwareGeneration, ListedCertificate, ListedCrl,
+    LogChunk, Problem, RevisionToken, Revisioned, ServerSettings, ServerStatus, StoredServerCertificate,
+    StoredServerCertificates, TrustStamp, UserName,
 };
 use crate::pki::RejectedClient;
 use crate::protocol::{SettingsExport, WireSecret};
 use crate::virtual_controller::ports::is_free;
 use crate::virtual_controller::settings_transfer;
-use crate::virtual_controller::state::StoredCertificate;
+use crate::virtual_controller::state::TrustListCertificate;
 
 impl Controller {
     /// `reached`: the address the asking client used, which names the controller when it listens on every one.
@@ -51,17 +51,17 @@ impl Controller {
         }
     }
 
-    pub(in super::super) fn certificates(&self) -> Revisioned<HeldCertificates> {
+    pub(in super::super) fn certificates(&self) -> Revisioned<StoredServerCertificates> {
         let state = self.state();
         let held = state
             .certificates
             .iter()
-            .map(|(kind, pair)| HeldCertificate { kind: *kind, certificate: pair.certificate.clone() })
+            .map(|(kind, pair)| StoredServerCertificate { kind: *kind, certificate: pair.certificate.clone() })
             .collect();
         let csr = state.csr.as_ref().map(|pending| pending.csr.clone());
         Revisioned {
             revision: RevisionToken::new(state.revision),
-            value: HeldCertificates { selected: state.selected, held, csr },
+            value: StoredServerCertificates { selected: state.selected, held, csr },
         }
     }
 
@@ -71,7 +71,7 @@ impl Controller {
         if list == ClientList::Issuers && state.generation() == FirmwareGeneration::Legacy {
             return Err(ErrorCode::FirmwareTooOld.into());
         }
-        let value = state.list(list).iter().filter_map(StoredCertificate::to_message).collect();
+        let value = state.list(list).iter().filter_map(TrustListCertificate::to_message).collect();
         Ok(Revisioned { revision: RevisionToken::new(state.revision), value })
     }
 

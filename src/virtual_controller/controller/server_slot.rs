@@ -2,13 +2,13 @@ use std::path::Path;
 
 use tokio::task::spawn_blocking;
 
-use crate::model::{CertificateSummary, CutClient, ErrorCode, Problem};
+use crate::model::{CertificateSummary, DisconnectedClient, ErrorCode, Problem};
 use crate::pki::{Certificate, Crl, TrustLists, TrustPolicy};
 use crate::virtual_controller::cell::CellHandle;
 use crate::virtual_controller::opcua::{
-    Clock, CutConnection, DeviceIdentity, Events, OpcUaConfig, OpcUaServer, OpcUaUser,
+    CertificateClock, DeviceIdentity, DisconnectedConnection, OpcUaConfig, OpcUaServer, OpcUaUser, ServerEvents,
 };
-use crate::virtual_controller::state::{OperatingContext, State, StoredCertificate};
+use crate::virtual_controller::state::{ControllerState, OperatingContext, TrustListCertificate};
 
 /// The OPC UA server, if it runs. Serialises changes: only the holder of the lock around it may change the server.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl ServerSlot {
     }
 
     /// Puts other trust lists in force in the running server, and says whose connections it ended.
-    pub async fn trust(&mut self, lists: TrustLists) -> Vec<CutClient> {
+    pub async fn trust(&mut self, lists: TrustLists) -> Vec<DisconnectedClient> {
         let Some(server) = self.server.take() else { return Vec::new() };
         // Checks the certificate of every connection.
         let changed = spawn_blocking(move || {
@@ -57,7 +57,7 @@ impl ServerSlot {
 const OPCUA_FOLDER: &str = "opcua";
 
 pub(super) fn opcua_config(
-    state: &State,
+    state: &ControllerState,
     context: &OperatingContext,
     cell: CellHandle,
     folder: &Path,
@@ -85,7 +85,7 @@ pub(super) fn opcua_config(
         trust_policy: TrustPolicy::default(),
         detailed_status: false,
         refusals: None,
-        clock: Clock::default(),
+        clock: CertificateClock::default(),
         identity: DeviceIdentity {
             name: state.identity.name.to_string(),
             series: state.identity.series,
@@ -93,21 +93,21 @@ pub(super) fn opcua_config(
             firmware: state.identity.firmware,
         },
         cell,
-        events: Events::default(),
+        events: ServerEvents::default(),
         pki_folder: folder.join(OPCUA_FOLDER),
     })
 }
 
 /// What the state lists, parsed. Slow with large CRLs.
-pub(super) fn trust_lists(state: &State) -> Result<TrustLists, Problem> {
-    let certificates = |list: &[StoredCertificate]| -> Result<Vec<Certificate>, Problem> {
+pub(super) fn trust_lists(state: &ControllerState) -> Result<TrustLists, Problem> {
+    let certificates = |list: &[TrustListCertificate]| -> Result<Vec<Certificate>, Problem> {
         Ok(list.iter().map(|listed| Certificate::from_der(&listed.certificate.0)).collect::<Result<_, _>>()?)
     };
     let crls = state.crls.iter().map(|held| Crl::from_der(&held.crl.0)).collect::<Result<_, _>>()?;
     Ok(TrustLists::new(certificates(&state.trusted)?, certificates(&state.issuers)?, crls))
 }
 
-fn cut_client(cut: CutConnection) -> CutClient {
+fn cut_client(cut: DisconnectedConnection) -> DisconnectedClient {
     let CertificateSummary { issued_to, thumbprint, .. } = cut.certificate.summary();
-    CutClient { address: cut.address.to_string(), issued_to, thumbprint, status: cut.rejection.status() }
+    DisconnectedClient { address: cut.address.to_string(), issued_to, thumbprint, status: cut.rejection.status() }
 }

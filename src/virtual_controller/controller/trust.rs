@@ -2,13 +2,13 @@ use std::sync::Arc;
 
 use tokio::task::spawn_blocking;
 
-use super::change::{Applied, finished};
+use super::change::{AppliedChange, finished};
 use super::{ChangeFailure, Controller, Effect};
 use crate::model::{ClientList, ErrorCode, Problem, RevisionToken, TrustStep};
 use crate::protocol::{EditTrust, TrustChanged};
 use crate::virtual_controller::rejected::{RejectedClients, RejectedEntry};
-use crate::virtual_controller::state::{OperatingContext, State};
-use crate::virtual_controller::trust_changes::{self, Rejected};
+use crate::virtual_controller::state::{ControllerState, OperatingContext};
+use crate::virtual_controller::trust_changes::{self, RejectedListChanges};
 
 impl Controller {
     /// Changes client lists and CRLs, whole or not at all, even if the one who asked has gone.
@@ -33,12 +33,12 @@ impl Controller {
             self.forget(revision, thumbprints).await?
         } else {
             let rejected = Arc::clone(&self.rejected);
-            let edit = move |state: &mut State, context: &OperatingContext| {
-                let Rejected { arrived, left } =
+            let edit = move |state: &mut ControllerState, context: &OperatingContext| {
+                let RejectedListChanges { arrived, left } =
                     trust_changes::edit_trust(state, context, steps, rejected.certificates())?;
                 RejectedListTransaction::new(rejected, arrived, left)
             };
-            let Applied { changed, value, cut } = self.apply(&mut slot, revision, Effect::Trust, edit).await?;
+            let AppliedChange { changed, value, cut } = self.apply(&mut slot, revision, Effect::Trust, edit).await?;
             value.settle().await;
             TrustChanged { changed, cut }
         };

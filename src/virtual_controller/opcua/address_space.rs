@@ -19,11 +19,11 @@ use crate::model::ServerStatus;
 ///
 /// Namespace 1 is the server's, its URI the ApplicationUri (OPC 10000-5). Its node ids are the path below
 /// `Objects/DeviceSet`, joined by dots, so they are the same after every start.
-pub(super) struct Controller {
+pub(super) struct ControllerNodes {
     namespaces: Vec<NamespaceMetadata>,
 }
 
-impl Controller {
+impl ControllerNodes {
     /// Fills `space`. Must be the first node manager of a server, so that it gets namespace 1.
     pub(super) fn build(
         context: &ServerContext,
@@ -51,7 +51,7 @@ impl Controller {
 }
 
 #[async_trait]
-impl InMemoryNodeManagerImpl for Controller {
+impl InMemoryNodeManagerImpl for ControllerNodes {
     async fn init(&self, _space: &mut AddressSpace, _context: ServerContext) {}
 
     fn name(&self) -> &str {

@@ -10,7 +10,7 @@ use rsa::pkcs8::{DecodePrivateKey, EncodePublicKey};
 use x509_parser::prelude::{FromDer, X509Certificate};
 use zeroize::Zeroizing;
 
-use super::{Clock, Events, Refusals, StartError};
+use super::{CertificateClock, RejectionRecorder, ServerEvents, StartError};
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, SerialNumber, UserTokenPolicy};
 use crate::pki::{TrustLists, TrustPolicy};
 use crate::virtual_controller::cell::CellHandle;
@@ -41,14 +41,14 @@ pub struct OpcUaConfig {
     /// OPC 10000-6 §6.7.6 wants it.
     pub detailed_status: bool,
     /// Told of every client whose certificate was refused.
-    pub refusals: Option<Arc<dyn Refusals>>,
+    pub refusals: Option<Arc<dyn RejectionRecorder>>,
     /// The clock certificates are checked by.
-    pub clock: Clock,
+    pub clock: CertificateClock,
     pub identity: DeviceIdentity,
     /// What the controller's nodes show.
     pub cell: CellHandle,
     /// Told what happens while the server runs.
-    pub events: Events,
+    pub events: ServerEvents,
     /// A folder of this server alone. Starting creates it, or removes from it what an earlier run left.
     pub pki_folder: PathBuf,
 }

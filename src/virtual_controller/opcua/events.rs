@@ -2,20 +2,20 @@ use std::fmt;
 use std::net::SocketAddr;
 use std::sync::Arc;
 
-use crate::virtual_controller::connection_limits::Source;
+use crate::virtual_controller::connection_limits::SourceNetwork;
 
 /// Who is told what happens in a running server; nobody by default.
 ///
 /// Called on the server's own tasks: a listener must return at once.
 #[derive(Clone, Default)]
-pub struct Events(Option<Arc<Listener>>);
+pub struct ServerEvents(Option<Arc<Listener>>);
 
-type Listener = dyn Fn(Event<'_>) + Send + Sync;
+type Listener = dyn Fn(ServerEvent<'_>) + Send + Sync;
 
 /// One thing that happened. `Display` is one line of English without a secret: an unknown user's name, which may be a
 /// password typed into the wrong field, is not part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Event<'a> {
+pub enum ServerEvent<'a> {
     Started {
         endpoint: &'a str,
         policies: &'a str,
@@ -44,15 +44,15 @@ pub enum Event<'a> {
     },
     /// No more refusals of this source are told for a minute.
     RefusalsQuiet {
-        source: Source,
+        source: SourceNetwork,
     },
     /// No more connections of this source are told for a minute.
     ConnectionsQuiet {
-        source: Source,
+        source: SourceNetwork,
     },
     /// So many lines about this source were not told.
     LinesLeftOut {
-        source: Source,
+        source: SourceNetwork,
         count: u64,
     },
     LoggedIn {
@@ -67,25 +67,25 @@ pub enum Event<'a> {
     },
 }
 
-impl Events {
-    pub fn new(listener: impl Fn(Event<'_>) + Send + Sync + 'static) -> Self {
+impl ServerEvents {
+    pub fn new(listener: impl Fn(ServerEvent<'_>) + Send + Sync + 'static) -> Self {
         Self(Some(Arc::new(listener)))
     }
 
-    pub(super) fn tell(&self, event: Event<'_>) {
+    pub(super) fn tell(&self, event: ServerEvent<'_>) {
         if let Some(listener) = &self.0 {
             listener(event);
         }
     }
 }
 
-impl fmt::Debug for Events {
+impl fmt::Debug for ServerEvents {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(if self.0.is_some() { "Events(told)" } else { "Events(not told)" })
     }
 }
 
-impl Event<'_> {
+impl ServerEvent<'_> {
     /// Whether it is something to look at.
     pub fn is_warning(&self) -> bool {
         matches!(
@@ -117,7 +117,7 @@ impl Event<'_> {
     }
 }
 
-impl fmt::Display for Event<'_> {
+impl fmt::Display for ServerEvent<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Started { endpoint, policies } => write!(f, "server started: {endpoint}, {policies}"),

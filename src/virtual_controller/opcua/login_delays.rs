@@ -1,9 +1,9 @@
 use std::collections::{HashMap, HashSet};
 use std::time::{Duration, Instant};
 
-use super::admission::Login;
+use super::admission::PasswordLogin;
 use crate::pki::Fingerprint;
-use crate::virtual_controller::connection_limits::Source;
+use crate::virtual_controller::connection_limits::SourceNetwork;
 
 /// Slows down who guesses passwords, and nobody else.
 ///
@@ -12,14 +12,14 @@ use crate::virtual_controller::connection_limits::Source;
 /// has logged in as a user never waits for that name.
 #[derive(Debug, Default)]
 pub(super) struct LoginDelays {
-    wrong: HashMap<(Client, Option<String>), Wrong>,
+    wrong: HashMap<(DelayKey, Option<String>), WrongPasswords>,
     welcome: HashSet<(Fingerprint, String)>,
 }
 
-type Client = (Source, Option<Fingerprint>);
+type DelayKey = (SourceNetwork, Option<Fingerprint>);
 
 #[derive(Debug)]
-struct Wrong {
+struct WrongPasswords {
     count: u32,
     last: Instant,
     /// When the next attempt may be made.
@@ -28,7 +28,7 @@ struct Wrong {
 
 impl LoginDelays {
     /// How long an attempt has to wait. `None` if too many are waiting already, so that it is refused.
-    pub(super) fn delay(&mut self, login: &Login, now: Instant) -> Option<Duration> {
+    pub(super) fn delay(&mut self, login: &PasswordLogin, now: Instant) -> Option<Duration> {
         if self.is_welcome(login) {
             return Some(Duration::ZERO);
         }
@@ -50,11 +50,11 @@ impl LoginDelays {
     }
 
     /// Whether a client with a trusted certificate logged in with this name before.
-    fn is_welcome(&self, login: &Login) -> bool {
+    fn is_welcome(&self, login: &PasswordLogin) -> bool {
         login.certificate.is_some_and(|certificate| self.welcome.contains(&(certificate, login.name.clone())))
     }
 
-    pub(super) fn right(&mut self, login: &Login) {
+    pub(super) fn right(&mut self, login: &PasswordLogin) {
         for (key, _) in keys(login) {
             self.wrong.remove(&key);
         }
@@ -65,7 +65,7 @@ impl LoginDelays {
         }
     }
 
-    pub(super) fn wrong(&mut self, login: &Login, now: Instant) {
+    pub(super) fn wrong(&mut self, login: &PasswordLogin, now: Instant) {
         for (key, free) in keys(login) {
             if self.wrong.len() >= MAX_WRONG && !self.wrong.contains_key(&key) {
                 self.wrong.retain(|_, wrong| !wrong.is_forgotten(now));
@@ -76,7 +76,7 @@ impl LoginDelays {
                     self.wrong.remove(&oldest);
                 }
             }
-            let wrong = self.wrong.entry(key).or_insert(Wrong { count: 0, last: now, next: now });
+            let wrong = self.wrong.entry(key).or_insert(WrongPasswords { count: 0, last: now, next: now });
             if wrong.is_forgotten(now) {
                 wrong.count = 0;
             }
@@ -87,7 +87,7 @@ impl LoginDelays {
     }
 }
 
-impl Wrong {
+impl WrongPasswords {
     fn is_forgotten(&self, now: Instant) -> bool {
         now.saturating_duration_since(self.last) >= FORGOTTEN_AFTER
     }
@@ -102,7 +102,7 @@ impl Wrong {
 }
 
 /// Under what an attempt is counted, each with how many wrong ones cost nothing.
-fn keys(login: &Login) -> [((Client, Option<String>), u32); 2] {
+fn keys(login: &PasswordLogin) -> [((DelayKey, Option<String>), u32); 2] {
     let client = (login.source, login.certificate);
     [((client, Some(login.name.clone())), FREE_FOR_A_NAME), ((client, None), FREE)]
 }
@@ -121,10 +121,10 @@ const MAX_WELCOME: usize = 1024;
 mod tests {
     use super::*;
 
-    fn login(address: u8, certificate: Option<u8>, name: &str) -> Login {
+    fn login(address: u8, certificate: Option<u8>, name: &str) -> PasswordLogin {
         let client = std::net::SocketAddr::from(([192, 168, 0, address], 50_000));
         let certificate = certificate.map(|byte| Fingerprint::of(&[byte]));
-        Login { name: name.to_owned(), client, source: Source::new(client.ip()), certificate }
+        PasswordLogin { name: name.to_owned(), client, source: SourceNetwork::new(client.ip()), certificate }
     }
 
     const SECOND: Duration = Duration::from_secs(1);

@@ -31,9 +31,9 @@ mod start_error;
 mod tests;
 mod users;
 
-pub use admission::{Clock, CutConnection, Refusals};
+pub use admission::{CertificateClock, DisconnectedConnection, RejectionRecorder};
 pub use config::{AdmissionOptions, DeviceIdentity, OpcUaConfig, OpcUaUser};
-pub use events::{Event, Events};
+pub use events::{ServerEvent, ServerEvents};
 pub use server::OpcUaServer;
 pub use start_error::StartError;
 pub use users::{HashError, hash_password};

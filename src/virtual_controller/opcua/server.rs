@@ -15,14 +15,15 @@ use rsa::traits::PublicKeyParts;
 use tokio::net::TcpListener;
 use tokio::task::JoinHandle;
 
-use super::address_space::Controller;
+use super::address_space::ControllerNodes;
 use super::admission::{
-    Attached, CutConnection, Gate, Guarded, InnerServer, Judge, Reporter, ServerKeyPair, Settings, deaf_listener,
+    AdmissionReporter, Attached, ClientVerifier, DisconnectedConnection, Gate, GateSettings, GuardedNodeManager,
+    InnerServer, ServerKeyPair, deaf_listener,
 };
 use super::certificate_store::{OWN_CERTIFICATE, PkiFolder};
 use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
-use super::events::{Event, Events};
+use super::events::{ServerEvent, ServerEvents};
 use super::nodesets::NodeSet;
 use super::start_error::StartError;
 use super::users::Users;
@@ -33,7 +34,7 @@ pub struct OpcUaServer {
     address: SocketAddr,
     handle: ServerHandle,
     gate: Attached,
-    events: Events,
+    events: ServerEvents,
     server: JoinHandle<Result<(), String>>,
     clients: JoinHandle<()>,
 }
@@ -66,7 +67,7 @@ impl OpcUaServer {
         let clients = tokio::spawn(gate.0.clone().run(clients));
         let running = Self { address, handle, gate, events, server, clients };
         tracing::info!(endpoint = running.endpoint(), "OPC UA server started");
-        running.events.tell(Event::Started { endpoint: &running.endpoint(), policies: &policies });
+        running.events.tell(ServerEvent::Started { endpoint: &running.endpoint(), policies: &policies });
         Ok(running)
     }
 
@@ -84,7 +85,7 @@ impl OpcUaServer {
     /// more. Gives those that were ended.
     ///
     /// Checks the certificate of every connection, so not for an async task.
-    pub fn set_trust(&self, lists: TrustLists) -> Vec<CutConnection> {
+    pub fn set_trust(&self, lists: TrustLists) -> Vec<DisconnectedConnection> {
         self.gate.0.set_trust(lists)
     }
 
@@ -97,7 +98,7 @@ impl OpcUaServer {
     pub async fn stop(mut self) {
         self.handle.cancel();
         // Clients that listen are told why they are disconnected; the others are cut off.
-        let told = ended(&mut self.server, FAREWELL).await;
+        let told = ended(&mut self.server, SHUTDOWN_MESSAGE_LIMIT).await;
         self.clients.abort();
         ended(&mut self.clients, STOP_TIMEOUT).await;
         if !told && !ended(&mut self.server, STOP_TIMEOUT).await {
@@ -105,7 +106,7 @@ impl OpcUaServer {
             self.server.abort();
         }
         tracing::info!(endpoint = self.endpoint(), "OPC UA server stopped");
-        self.events.tell(Event::Stopped { endpoint: &self.endpoint() });
+        self.events.tell(ServerEvent::Stopped { endpoint: &self.endpoint() });
     }
 }
 
@@ -167,12 +168,12 @@ fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHan
     pki.write_own(&config.certificate_der, &pem).map_err(failed)?;
     let own = ServerKeyPair::new(&config.certificate_der, &pem).map_err(StartError::InvalidParameter)?;
     let gate = Arc::new(Gate::new(
-        Settings::new(config.policies.clone(), config.detailed_status),
+        GateSettings::new(config.policies.clone(), config.detailed_status),
         InnerServer::default(),
         own,
-        Judge::new(config.trust.clone(), config.trust_policy, config.clock.clone()),
+        ClientVerifier::new(config.trust.clone(), config.trust_policy, config.clock.clone()),
         pki,
-        Reporter::new(config.events.clone(), config.refusals.clone()),
+        AdmissionReporter::new(config.events.clone(), config.refusals.clone()),
     ));
     let (server, handle) =
         builder(config, address, key.size() * 8, devices, &gate).build().map_err(StartError::Failed)?;
@@ -193,15 +194,18 @@ fn builder(
 ) -> ServerBuilder {
     let identity = config.identity.clone();
     let controller = InMemoryNodeManagerBuilder::new(move |context: ServerContext, space: &mut AddressSpace| {
-        Controller::build(&context, space, &devices, &identity)
+        ControllerNodes::build(&context, space, &devices, &identity)
     });
     let tokens = UserTokens::new(config.user_tokens.clone());
     let mut builder = ServerBuilder::new()
         // The controller's nodes before the standard ones: that gives them namespace 1. The crate's diagnostics want
         // the same namespace and are left out.
         .without_node_managers()
-        .with_node_manager(Guarded::builder(controller, gate.clone()))
-        .with_node_manager(Guarded::builder(InMemoryNodeManagerBuilder::new(CoreNodeManagerBuilder), gate.clone()))
+        .with_node_manager(GuardedNodeManager::builder(controller, gate.clone()))
+        .with_node_manager(GuardedNodeManager::builder(
+            InMemoryNodeManagerBuilder::new(CoreNodeManagerBuilder),
+            gate.clone(),
+        ))
         .with_authenticator(Arc::new(Users::new(tokens, &config.users, gate.clone(), config.events.clone())))
         .application_name(&config.application_name)
         .application_uri(&config.application_uri)
@@ -253,7 +257,7 @@ fn failed(error: impl fmt::Display) -> StartError {
 
 const PRODUCT_URI: &str = "urn:opcua-configurator:virtual-controller";
 const START_TIMEOUT: Duration = Duration::from_secs(10);
-const FAREWELL: Duration = Duration::from_secs(1);
+const SHUTDOWN_MESSAGE_LIMIT: Duration = Duration::from_secs(1);
 const STOP_TIMEOUT: Duration = Duration::from_secs(3);
 const POLL: Duration = Duration::from_millis(2);
 

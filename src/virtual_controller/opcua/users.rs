@@ -12,10 +12,10 @@ use parking_lot::Mutex;
 use tokio::sync::Semaphore;
 use zeroize::Zeroizing;
 
-use super::admission::{Gate, Login};
+use super::admission::{Gate, PasswordLogin};
 use super::config::OpcUaUser;
 use super::endpoints::UserTokens;
-use super::events::{Event, Events};
+use super::events::{ServerEvent, ServerEvents};
 use super::login_delays::LoginDelays;
 
 /// Why a password could not be hashed.
@@ -50,12 +50,12 @@ pub(super) struct Users {
     hashes: HashMap<String, String>,
     delays: Mutex<LoginDelays>,
     gate: Arc<Gate>,
-    events: Events,
+    events: ServerEvents,
 }
 
 impl Users {
     /// `gate`: where the names of users come from, marked with their connections.
-    pub(super) fn new(tokens: UserTokens, users: &[OpcUaUser], gate: Arc<Gate>, events: Events) -> Self {
+    pub(super) fn new(tokens: UserTokens, users: &[OpcUaUser], gate: Arc<Gate>, events: ServerEvents) -> Self {
         Self {
             tokens,
             hashes: users.iter().map(|user| (user.name.clone(), user.password_hash.clone())).collect(),
@@ -65,7 +65,7 @@ impl Users {
         }
     }
 
-    async fn log_in(&self, login: &Login, password: Zeroizing<String>) -> bool {
+    async fn log_in(&self, login: &PasswordLogin, password: Zeroizing<String>) -> bool {
         let known = self.hashes.get(&login.name);
         // The name of an unknown user may be a password in the wrong field.
         let user = known.is_some().then_some(login.name.as_str());
@@ -89,7 +89,7 @@ impl Users {
 
     fn welcome(&self, user: Option<&str>, endpoint: &ServerEndpoint) {
         let (policy, mode) = (&endpoint.security_policy, &endpoint.security_mode);
-        self.events.tell(Event::LoggedIn { user, policy, mode });
+        self.events.tell(ServerEvent::LoggedIn { user, policy, mode });
     }
 }
 
@@ -101,7 +101,7 @@ impl AuthManager for Users {
             Ok(())
         } else {
             let reason = "anonymous users are not let in";
-            self.events.tell(Event::LoginRefused { client: None, user: None, reason });
+            self.events.tell(ServerEvent::LoginRefused { client: None, user: None, reason });
             Err(Error::new(StatusCode::BadIdentityTokenRejected, reason))
         }
     }

@@ -1,10 +1,14 @@
 use chrono::{TimeDelta, Utc};
 use serde_json::{Value, json};
 
-use super::bench::{Bench, CURRENT, Client, KEY, LEGACY, LOOPBACK, Refusal, bounded, code, initial, request};
-use crate::model::{Base64Bytes, CertificateType, Changed, CsrRequest, ErrorCode, HeldCertificates, Revisioned};
+use super::test_controller::{
+    ApiClient, CURRENT, KEY, LEGACY, LOOPBACK, RequestFailure, TestController, bounded, code, initial, request,
+};
+use crate::model::{
+    Base64Bytes, CertificateType, Changed, CsrRequest, ErrorCode, Revisioned, StoredServerCertificates,
+};
 use crate::pki::{Certificate, Csr, PrivateKey, ServerNames, make_csr, pkcs12_write_key, self_signed};
-use crate::protocol::{self, CsrMade, Installed, Request as _};
+use crate::protocol::{self, CertificateInstalled, CsrMade, Request as _};
 
 fn wish(bits: u16) -> CsrRequest {
     let request = request("robot", bits);
@@ -20,7 +24,11 @@ fn made_on_the_pc(revision: u64, csr: &Csr, key: &PrivateKey) -> Value {
     json!({ "revision": revision, "csr": Base64Bytes(csr.der().to_vec()), "pkcs12": pkcs12, "password": "transfer" })
 }
 
-async fn import(client: &Client, revision: u64, certificate: &Certificate) -> Result<Installed, Refusal> {
+async fn import(
+    client: &ApiClient,
+    revision: u64,
+    certificate: &Certificate,
+) -> Result<CertificateInstalled, RequestFailure> {
     let certificate = Base64Bytes(certificate.der().to_vec());
     client.post(protocol::ImportCaSigned::PATH, &json!({ "revision": revision, "certificate": certificate })).await
 }
@@ -28,8 +36,8 @@ async fn import(client: &Client, revision: u64, certificate: &Certificate) -> Re
 #[tokio::test]
 async fn legacy_firmware_takes_a_csr_with_its_key() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(LEGACY)).await;
+        let client = test_controller.client().await;
         let make =
             client.post::<CsrMade>(protocol::MakeCsr::PATH, &json!({ "revision": 1, "request": wish(2048) })).await;
         assert_eq!(code(make), ErrorCode::FirmwareTooOld);
@@ -47,13 +55,13 @@ async fn legacy_firmware_takes_a_csr_with_its_key() {
         let short = PrivateKey::generate(wish(1024).key_length).unwrap();
         let too_short = make_csr(&wish(1024), &names(), &short).unwrap();
         assert_eq!(code(send(made_on_the_pc(1, &too_short, &short)).await), ErrorCode::KeyLengthNotAllowed);
-        assert_eq!(bench.revision(), 1);
+        assert_eq!(test_controller.revision(), 1);
 
         let made = send(made_on_the_pc(1, &csr, &KEY)).await.unwrap();
         assert_eq!((made.changed.revision.number(), made.csr.0.as_slice()), (2, csr.der()));
-        let held: Revisioned<HeldCertificates> = client.get(protocol::GetCertificates::PATH).await.unwrap();
+        let held: Revisioned<StoredServerCertificates> = client.get(protocol::GetCertificates::PATH).await.unwrap();
         assert_eq!(held.value.csr, Some(made.csr));
-        assert!(format!("{:?}", bench.state().csr).contains("private_key: SecretBytes(…)"));
+        assert!(format!("{:?}", test_controller.state().csr).contains("private_key: SecretBytes(…)"));
     })
     .await;
 }
@@ -62,8 +70,8 @@ async fn legacy_firmware_takes_a_csr_with_its_key() {
 async fn a_ca_signed_certificate_is_for_the_csr_held() {
     bounded(async {
         for firmware in [LEGACY, CURRENT] {
-            let bench = Bench::new(initial(firmware)).await;
-            let client = bench.client().await;
+            let test_controller = TestController::new(initial(firmware)).await;
+            let client = test_controller.client().await;
             let stranger = self_signed(&request("robot", 2048), &names(), &KEY, Utc::now()).unwrap();
             assert_eq!(code(import(&client, 1, &stranger).await), ErrorCode::NoCsr);
             if firmware == CURRENT {
@@ -91,7 +99,7 @@ async fn a_ca_signed_certificate_is_for_the_csr_held() {
             assert_eq!(code(import(&client, 1, &stranger).await), ErrorCode::ChangedMeanwhile);
             let installed = import(&client, 2, &stranger).await.unwrap();
             assert_eq!(installed.certificate.0, stranger.der());
-            assert_eq!(bench.state().selected, CertificateType::CaSigned);
+            assert_eq!(test_controller.state().selected, CertificateType::CaSigned);
         }
     })
     .await;
@@ -100,15 +108,15 @@ async fn a_ca_signed_certificate_is_for_the_csr_held() {
 #[tokio::test]
 async fn a_type_is_selected_only_if_it_is_held() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let client = test_controller.client().await;
         let select = async |kind: &str| {
             client.post::<Changed>(protocol::SelectCertificate::PATH, &json!({ "revision": 1, "type": kind })).await
         };
         assert_eq!(code(select("self-signed").await), ErrorCode::CertificateNotStored);
         assert_eq!(code(select("user-specified").await), ErrorCode::FirmwareTooNew);
         assert_eq!(code(select("home-made").await), ErrorCode::Refused);
-        assert_eq!(bench.revision(), 1);
+        assert_eq!(test_controller.revision(), 1);
     })
     .await;
 }

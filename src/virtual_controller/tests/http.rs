@@ -6,14 +6,14 @@ use rustls::pki_types::ServerName;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::TcpStream;
 
-use super::bench::{Bench, Client, LEGACY, bounded, initial, tls};
+use super::test_controller::{ApiClient, LEGACY, TestController, bounded, initial, tls};
 use crate::model::ErrorCode;
-use crate::protocol::Failure;
+use crate::protocol::FailureBody;
 
 /// Everything the controller answers on one connection.
-async fn answers(bench: &Bench, request: &[u8]) -> String {
-    let tcp = TcpStream::connect(bench.controller.management_address()).await.unwrap();
-    let connector = tokio_rustls::TlsConnector::from(Arc::new(tls(&bench.controller)));
+async fn answers(test_controller: &TestController, request: &[u8]) -> String {
+    let tcp = TcpStream::connect(test_controller.controller.management_address()).await.unwrap();
+    let connector = tokio_rustls::TlsConnector::from(Arc::new(tls(&test_controller.controller)));
     let mut stream = connector.connect(ServerName::try_from("robot").unwrap(), tcp).await.unwrap();
     stream.write_all(request).await.unwrap();
     let mut answer = Vec::new();
@@ -23,7 +23,7 @@ async fn answers(bench: &Bench, request: &[u8]) -> String {
 }
 
 /// Status and failure of an answer.
-fn failure(answer: &str) -> (u16, Failure) {
+fn failure(answer: &str) -> (u16, FailureBody) {
     let status = answer.split(' ').nth(1).and_then(|status| status.parse().ok()).expect(answer);
     let (_, body) = answer.split_once("\r\n\r\n").expect(answer);
     (status, serde_json::from_str(body).expect(answer))
@@ -32,7 +32,7 @@ fn failure(answer: &str) -> (u16, Failure) {
 #[tokio::test]
 async fn every_refused_request_is_told_why() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
+        let test_controller = TestController::new(initial(LEGACY)).await;
         let long = "a".repeat(3000);
         let headers = "x: y\r\n".repeat(100);
         for (request, status, code) in [
@@ -55,7 +55,7 @@ async fn every_refused_request_is_told_why() {
             ),
             ("GET /refused HTTP/1.1\r\nhost: a\r\nconnection: close\r\n\r\n".to_owned(), 404, ErrorCode::Refused),
         ] {
-            let (told, failure) = failure(&answers(&bench, request.as_bytes()).await);
+            let (told, failure) = failure(&answers(&test_controller, request.as_bytes()).await);
             assert_eq!((told, failure.code), (status, code), "{request:.60?}");
         }
     })
@@ -65,12 +65,12 @@ async fn every_refused_request_is_told_why() {
 #[tokio::test]
 async fn a_path_that_is_no_text_is_no_path() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(LEGACY)).await;
+        let client = test_controller.client().await;
         for path in ["/v1/clients/%ff", "/v1/crls/%ff%fe", "/v1/clients/a%2fb", "/v1/../v1/info%00"] {
             let refused = client.get::<serde_json::Value>(path).await.expect_err(path);
             assert!(
-                matches!(refused, super::bench::Refusal::Failure(status, _) if status == 404),
+                matches!(refused, super::test_controller::RequestFailure::Failure(status, _) if status == 404),
                 "{path} {refused:?}"
             );
         }
@@ -81,16 +81,17 @@ async fn a_path_that_is_no_text_is_no_path() {
 #[tokio::test]
 async fn a_refusal_stands_behind_the_answers_before_it() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
+        let test_controller = TestController::new(initial(LEGACY)).await;
         let good = "GET /v1/hello HTTP/1.1\r\nhost: a\r\n\r\n";
-        let answer = answers(&bench, [good, good, "GET /v1/hello HTTP/1.1\r\n\r\n", good].concat().as_bytes()).await;
+        let answer =
+            answers(&test_controller, [good, good, "GET /v1/hello HTTP/1.1\r\n\r\n", good].concat().as_bytes()).await;
         let statuses: Vec<&str> = answer.matches("HTTP/1.1 200").chain(answer.matches("HTTP/1.1 400")).collect();
         assert_eq!(statuses, ["HTTP/1.1 200", "HTTP/1.1 200", "HTTP/1.1 400"], "{answer}");
         let chunked = "POST /v1/login HTTP/1.1\r\nhost: a\r\ntransfer-encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n\r\n";
-        let answer = answers(&bench, [chunked, good].concat().as_bytes()).await;
+        let answer = answers(&test_controller, [chunked, good].concat().as_bytes()).await;
         assert!(answer.contains("connection: close") && !answer.contains("HTTP/1.1 200"), "{answer}");
         // Others are served meanwhile.
-        Client::new(&bench.controller).hello().await;
+        ApiClient::new(&test_controller.controller).hello().await;
     })
     .await;
 }

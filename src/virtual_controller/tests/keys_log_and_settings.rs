@@ -1,16 +1,16 @@
 use chrono::Utc;
 use serde_json::{Value, json};
 
-use super::bench::{Bench, CURRENT, LEGACY, Refusal, bounded, code, initial};
+use super::test_controller::{CURRENT, LEGACY, RequestFailure, TestController, bounded, code, initial};
 use crate::model::{Changed, ErrorCode, LogChunk, ServerSettings};
 use crate::protocol::{self, ExportContent, ExportedUser, Request as _, SettingsExport};
 use crate::virtual_controller::demo_keys;
 
 const PASSPHRASE: &str = "correct horse";
 
-fn detail<T: std::fmt::Debug>(result: Result<T, Refusal>) -> String {
+fn detail<T: std::fmt::Debug>(result: Result<T, RequestFailure>) -> String {
     match result {
-        Err(Refusal::Failure(_, failure)) => failure.detail.unwrap_or_default(),
+        Err(RequestFailure::Failure(_, failure)) => failure.detail.unwrap_or_default(),
         other => panic!("not a refusal: {other:?}"),
     }
 }
@@ -20,9 +20,9 @@ async fn only_its_own_keys_activate_a_controller() {
     bounded(async {
         let mut new = initial(LEGACY);
         new.activated = false;
-        let bench = Bench::new(new).await;
-        let client = bench.client().await;
-        let own = demo_keys(&bench.state().identity.serial);
+        let test_controller = TestController::new(new).await;
+        let client = test_controller.client().await;
+        let own = demo_keys(&test_controller.state().identity.serial);
         let body = |revision: u64, licence: &str, activation: &str| {
             json!({ "revision": revision, "licence": licence, "activation": activation })
         };
@@ -35,12 +35,12 @@ async fn only_its_own_keys_activate_a_controller() {
         assert!(!detail(short).contains(&activation[1..]), "a mistake does not repeat a key");
         assert_eq!(code(send(body(1, &licence, "")).await), ErrorCode::BadActivationKey);
         assert_eq!(code(send(body(2, &licence, &activation)).await), ErrorCode::ChangedMeanwhile);
-        assert!(!bench.state().activated);
+        assert!(!test_controller.state().activated);
         assert_eq!(send(body(1, &licence.to_uppercase(), &activation)).await.unwrap().revision.number(), 2);
-        assert!(bench.state().activated);
+        assert!(test_controller.state().activated);
 
-        let bench = Bench::new(initial(CURRENT)).await;
-        let result = bench.client().await.post::<Changed>(protocol::Activate::PATH, &body(1, &licence, &activation)).await;
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let result = test_controller.client().await.post::<Changed>(protocol::Activate::PATH, &body(1, &licence, &activation)).await;
         assert_eq!(code(result), ErrorCode::FirmwareTooNew);
     })
     .await;
@@ -49,8 +49,8 @@ async fn only_its_own_keys_activate_a_controller() {
 #[tokio::test]
 async fn a_log_is_asked_for_from_a_byte_on_and_in_no_other_way() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(LEGACY)).await;
+        let client = test_controller.client().await;
         let ask = async |query: &str| client.get::<LogChunk>(&format!("{}{query}", protocol::GetLog::PATH)).await;
         for query in ["", "?", "?from=0", "?from=18446744073709551615"] {
             assert_eq!(ask(query).await.unwrap(), LogChunk::default(), "{query}");
@@ -66,9 +66,9 @@ async fn a_log_is_asked_for_from_a_byte_on_and_in_no_other_way() {
 #[tokio::test]
 async fn a_sealed_export_is_checked_like_any_other_change() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
-        let client = bench.client().await;
-        let before = bench.state();
+        let test_controller = TestController::new(initial(LEGACY)).await;
+        let client = test_controller.client().await;
+        let before = test_controller.state();
         let identity = before.identity.clone();
         let hash = "$argon2id$v=19$m=19456,t=2,p=1$bm9ib2R5bm9ib2R5bm9ibw$AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA";
         let user = |name: String, hash: &str| ExportedUser { name: name.parse().unwrap(), password_hash: hash.into() };
@@ -100,7 +100,7 @@ async fn a_sealed_export_is_checked_like_any_other_change() {
         let body = json!({ "revision": 1, "export": { "format": "secret" }, "passphrase": PASSPHRASE });
         let refused = client.post::<Changed>(protocol::ImportSettings::PATH, &body).await;
         assert!(!detail(refused).contains("secret"));
-        assert_eq!(bench.state(), before);
+        assert_eq!(test_controller.state(), before);
         assert_eq!(
             import(&with_users(vec![user("operator1".into(), hash)]), PASSPHRASE).await.unwrap().revision.number(),
             2

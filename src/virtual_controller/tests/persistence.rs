@@ -2,7 +2,7 @@ use std::fs;
 
 use serde_json::{Value, json};
 
-use super::bench::{Bench, CURRENT, bounded, clients, initial, switch_on, with_certificate};
+use super::test_controller::{CURRENT, TestController, bounded, clients, initial, switch_on, with_certificate};
 use crate::model::Changed;
 use crate::protocol::{self, Request as _};
 use crate::virtual_controller::{StoreError, SwitchOnError};
@@ -12,18 +12,18 @@ const FILE: &str = "controller.state";
 #[tokio::test]
 async fn a_controller_comes_back_as_it_was() {
     bounded(async {
-        let bench = Bench::new(with_certificate(initial(CURRENT))).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(with_certificate(initial(CURRENT))).await;
+        let client = test_controller.client().await;
         let user = json!({ "revision": 1, "name": "operator1", "password": "Passw0rd" });
         client.post::<Changed>(protocol::GetUsers::PATH, &user).await.unwrap();
         let step = json!({ "add": { "list": "trusted", "certificates": clients("c", 3) } });
         client.post::<Value>(protocol::EditTrust::PATH, &json!({ "revision": 2, "steps": [step] })).await.unwrap();
-        let (state, fingerprint) = (bench.state(), bench.controller.fingerprint());
-        bench.controller.shutdown().await;
+        let (state, fingerprint) = (test_controller.state(), test_controller.controller.fingerprint());
+        test_controller.controller.shutdown().await;
 
         // What a process killed while writing leaves behind.
-        fs::write(bench.folder.path().join("controller.state.new"), b"opcua-virtual-contr").unwrap();
-        let again = switch_on(bench.folder.path(), initial(CURRENT)).await.unwrap();
+        fs::write(test_controller.folder.path().join("controller.state.new"), b"opcua-virtual-contr").unwrap();
+        let again = switch_on(test_controller.folder.path(), initial(CURRENT)).await.unwrap();
         assert_eq!(again.state(), state);
         assert_eq!(again.fingerprint(), fingerprint);
         assert_eq!(again.info().revision.number(), 3);
@@ -34,16 +34,16 @@ async fn a_controller_comes_back_as_it_was() {
 #[tokio::test]
 async fn a_damaged_file_is_refused_and_kept() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        bench.controller.shutdown().await;
-        let path = bench.folder.path().join(FILE);
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        test_controller.controller.shutdown().await;
+        let path = test_controller.folder.path().join(FILE);
         let whole = fs::read(&path).unwrap();
         let mut flipped = whole.clone();
         *flipped.last_mut().unwrap() ^= 1;
         let beyond: &[u8] = &whole[..whole.len() / 2];
         for damaged in [b"".as_slice(), b"nonsense\n{}", beyond, &flipped] {
             fs::write(&path, damaged).unwrap();
-            match switch_on(bench.folder.path(), initial(CURRENT)).await {
+            match switch_on(test_controller.folder.path(), initial(CURRENT)).await {
                 Err(SwitchOnError::Store(StoreError::Damaged { kept, .. })) => {
                     assert_eq!(fs::read(kept).unwrap(), damaged);
                 }
@@ -53,11 +53,11 @@ async fn a_damaged_file_is_refused_and_kept() {
         }
         fs::write(&path, "opcua-virtual-controller 2 later").unwrap();
         fs::write(&path, "opcua-virtual-controller 2 later\n").unwrap();
-        let newer = switch_on(bench.folder.path(), initial(CURRENT)).await;
+        let newer = switch_on(test_controller.folder.path(), initial(CURRENT)).await;
         assert!(matches!(newer, Err(SwitchOnError::Store(StoreError::TooNew { .. }))));
         assert!(path.exists(), "a newer program's file is left alone");
         fs::write(&path, &whole).unwrap();
-        switch_on(bench.folder.path(), initial(CURRENT)).await.unwrap();
+        switch_on(test_controller.folder.path(), initial(CURRENT)).await.unwrap();
     })
     .await;
 }

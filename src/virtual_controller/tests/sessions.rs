@@ -1,15 +1,17 @@
 use reqwest::{Method, StatusCode};
 use serde_json::{Value, json};
 
-use super::bench::{Bench, CURRENT, Client, LEGACY, PASSWORD, Refusal, bounded, code, initial};
+use super::test_controller::{
+    ApiClient, CURRENT, LEGACY, PASSWORD, RequestFailure, TestController, bounded, code, initial,
+};
 use crate::model::{ControllerInfo, ErrorCode};
 use crate::protocol::{self, LOGIN_ATTEMPTS, MAX_REQUEST_BYTES, Request as _};
 
 #[tokio::test]
 async fn a_session_begins_with_the_password_and_ends_with_logout() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let mut client = Client::new(&bench.controller);
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let mut client = ApiClient::new(&test_controller.controller);
         let hello = client.hello().await;
         assert_eq!((hello.product.as_str(), hello.versions.as_slice()), (protocol::PRODUCT, [1].as_slice()));
         assert_eq!(code(client.get::<Value>(protocol::GetInfo::PATH).await), ErrorCode::SessionExpired);
@@ -17,8 +19,8 @@ async fn a_session_begins_with_the_password_and_ends_with_logout() {
         let info: ControllerInfo = client.get(protocol::GetInfo::PATH).await.unwrap();
         assert_eq!(info.name, "测试 1");
         assert_eq!(info.application_name, "EpsonRC.R7A0000001.127.000.000.001");
-        assert_eq!(info.endpoint, bench.controller.endpoint());
-        assert!(info.used_ports.contains(&bench.controller.management_address().port()));
+        assert_eq!(info.endpoint, test_controller.controller.endpoint());
+        assert!(info.used_ports.contains(&test_controller.controller.management_address().port()));
         assert!(info.activated);
         client.post::<()>(protocol::Logout::PATH, &()).await.unwrap();
         assert_eq!(code(client.get::<Value>(protocol::GetInfo::PATH).await), ErrorCode::SessionExpired);
@@ -29,8 +31,8 @@ async fn a_session_begins_with_the_password_and_ends_with_logout() {
 #[tokio::test]
 async fn wrong_passwords_are_slow_and_lock_out_even_the_right_one() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
-        let mut client = Client::new(&bench.controller);
+        let test_controller = TestController::new(initial(LEGACY)).await;
+        let mut client = ApiClient::new(&test_controller.controller);
         for _ in 0..LOGIN_ATTEMPTS {
             let asked = std::time::Instant::now();
             assert_eq!(code(client.login("wrong").await), ErrorCode::WrongPassword);
@@ -44,10 +46,10 @@ async fn wrong_passwords_are_slow_and_lock_out_even_the_right_one() {
 #[tokio::test]
 async fn guesses_at_the_same_time_do_not_slip_by_the_count() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
+        let test_controller = TestController::new(initial(LEGACY)).await;
         let guesses: Vec<_> = (0..12)
             .map(|_| {
-                let mut client = Client::new(&bench.controller);
+                let mut client = ApiClient::new(&test_controller.controller);
                 tokio::spawn(async move { code(client.login("wrong").await) })
             })
             .collect();
@@ -63,8 +65,8 @@ async fn guesses_at_the_same_time_do_not_slip_by_the_count() {
 #[tokio::test]
 async fn every_failure_is_a_failure_body() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let client = test_controller.client().await;
         for (method, path, status) in [
             (Method::GET, "/", StatusCode::NOT_FOUND),
             (Method::GET, "/v2/info", StatusCode::NOT_FOUND),
@@ -73,7 +75,7 @@ async fn every_failure_is_a_failure_body() {
             (Method::DELETE, protocol::GetUsers::PATH, StatusCode::METHOD_NOT_ALLOWED),
         ] {
             match client.send::<Value>(method, path, Vec::new()).await {
-                Err(Refusal::Failure(got, _)) => assert_eq!(got, status, "{path}"),
+                Err(RequestFailure::Failure(got, _)) => assert_eq!(got, status, "{path}"),
                 other => panic!("{path}: {other:?}"),
             }
         }
@@ -104,11 +106,11 @@ async fn every_failure_is_a_failure_body() {
 #[tokio::test]
 async fn a_misplaced_secret_is_not_quoted() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let client = test_controller.client().await;
         let body = json!({ "revision": "TopSecret99", "name": "operator1", "password": "TopSecret99" });
         match client.post::<Value>(protocol::GetUsers::PATH, &body).await {
-            Err(Refusal::Failure(_, failure)) => assert!(!format!("{failure:?}").contains("TopSecret99")),
+            Err(RequestFailure::Failure(_, failure)) => assert!(!format!("{failure:?}").contains("TopSecret99")),
             other => panic!("{other:?}"),
         }
     })
@@ -118,8 +120,8 @@ async fn a_misplaced_secret_is_not_quoted() {
 #[tokio::test]
 async fn a_body_over_its_bound_is_refused_and_the_answer_arrives() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let client = test_controller.client().await;
         let body = vec![b' '; MAX_REQUEST_BYTES + 1];
         let result = client.send::<Value>(Method::POST, protocol::GetUsers::PATH, body).await;
         assert_eq!(code(result), ErrorCode::RequestTooLarge);
@@ -134,16 +136,16 @@ async fn a_body_over_its_bound_is_refused_and_the_answer_arrives() {
 #[tokio::test]
 async fn silent_connections_do_not_keep_others_out_for_long() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let address = bench.controller.management_address();
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let address = test_controller.controller.management_address();
         let mut silent = Vec::new();
         for _ in 0..80 {
             silent.push(tokio::net::TcpStream::connect(address).await.unwrap());
         }
         let asked = std::time::Instant::now();
-        Client::new(&bench.controller).hello().await;
+        ApiClient::new(&test_controller.controller).hello().await;
         assert!(asked.elapsed() < std::time::Duration::from_secs(15));
-        bench.controller.shutdown().await;
+        test_controller.controller.shutdown().await;
     })
     .await;
 }
@@ -151,9 +153,9 @@ async fn silent_connections_do_not_keep_others_out_for_long() {
 #[tokio::test]
 async fn latency_and_a_wrong_clock_show() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let client = bench.client().await;
-        bench.controller.faults().update(|switches| {
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let client = test_controller.client().await;
+        test_controller.controller.faults().update(|switches| {
             switches.latency = std::time::Duration::from_millis(200);
             switches.clock_offset = chrono::TimeDelta::days(-365);
         });

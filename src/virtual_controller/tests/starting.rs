@@ -1,20 +1,20 @@
 use serde_json::json;
 
-use super::bench::{Bench, CURRENT, LEGACY, bounded, code, initial, with_certificate};
+use super::test_controller::{CURRENT, LEGACY, TestController, bounded, code, initial, with_certificate};
 use crate::model::{Changed, ErrorCode, RevisionToken, ServerStatus, StartupMode};
 use crate::protocol::{self, Request as _};
 use crate::virtual_controller::NewController;
 
-async fn refuses_to_start(new: NewController, expected: ErrorCode) -> Bench {
-    let bench = Bench::new(new).await;
-    let client = bench.client().await;
-    assert_eq!(bench.status(), (ServerStatus::Stop, None));
+async fn refuses_to_start(new: NewController, expected: ErrorCode) -> TestController {
+    let test_controller = TestController::new(new).await;
+    let client = test_controller.client().await;
+    assert_eq!(test_controller.status(), (ServerStatus::Stop, None));
     assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), expected);
-    assert_eq!(bench.status(), (ServerStatus::Error, Some(expected)));
+    assert_eq!(test_controller.status(), (ServerStatus::Error, Some(expected)));
     let stopped: Changed = client.post(protocol::StopServer::PATH, &()).await.unwrap();
     assert_eq!(stopped, Changed { revision: RevisionToken::new(1), status: ServerStatus::Stop });
-    assert_eq!(bench.status(), (ServerStatus::Stop, None));
-    bench
+    assert_eq!(test_controller.status(), (ServerStatus::Stop, None));
+    test_controller
 }
 
 #[tokio::test]
@@ -40,29 +40,29 @@ async fn a_number_goes_when_its_cause_is_mended() {
     bounded(async {
         let mut bare = initial(LEGACY);
         bare.activated = false;
-        let bench = Bench::new(bare).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(bare).await;
+        let client = test_controller.client().await;
         assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::NotActivated);
         let crate::model::activation::ActivationKeys { licence, activation } =
-            crate::virtual_controller::demo_keys(&bench.controller.serial());
+            crate::virtual_controller::demo_keys(&test_controller.controller.serial());
         let keys = json!({ "revision": 1, "licence": licence, "activation": activation });
         let changed: Changed = client.post(protocol::Activate::PATH, &keys).await.unwrap();
         assert_eq!(changed.status, ServerStatus::Error);
-        assert_eq!(bench.status(), (ServerStatus::Error, Some(ErrorCode::NoCertificate)), "the next reason");
+        assert_eq!(test_controller.status(), (ServerStatus::Error, Some(ErrorCode::NoCertificate)), "the next reason");
 
-        let bench = Bench::new(initial(CURRENT)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let client = test_controller.client().await;
         assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::NoCertificate);
-        let make = json!({ "revision": 1, "request": super::bench::request("robot", 2048) });
-        let made: protocol::Installed = client.post(protocol::MakeSelfSigned::PATH, &make).await.unwrap();
+        let make = json!({ "revision": 1, "request": super::test_controller::request("robot", 2048) });
+        let made: protocol::CertificateInstalled = client.post(protocol::MakeSelfSigned::PATH, &make).await.unwrap();
         assert_eq!(made.changed.status, ServerStatus::Stop);
-        assert_eq!(bench.status(), (ServerStatus::Stop, None));
+        assert_eq!(test_controller.status(), (ServerStatus::Stop, None));
 
-        let blocker = std::net::TcpListener::bind(("127.0.0.1", bench.state().settings.port.get())).unwrap();
+        let blocker = std::net::TcpListener::bind(("127.0.0.1", test_controller.state().settings.port.get())).unwrap();
         assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::PortConflict);
-        assert_eq!(bench.status(), (ServerStatus::Error, Some(ErrorCode::PortConflict)));
+        assert_eq!(test_controller.status(), (ServerStatus::Error, Some(ErrorCode::PortConflict)));
         drop(blocker);
-        assert_eq!(bench.status(), (ServerStatus::Stop, None));
+        assert_eq!(test_controller.status(), (ServerStatus::Stop, None));
         let started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
         assert_eq!(started.status, ServerStatus::Run);
     })
@@ -72,22 +72,22 @@ async fn a_number_goes_when_its_cause_is_mended() {
 #[tokio::test]
 async fn an_error_lasts_until_a_start_succeeds() {
     bounded(async {
-        let bench = Bench::new(with_certificate(initial(CURRENT))).await;
-        let client = bench.client().await;
-        bench.controller.faults().update(|switches| switches.server_error = true);
+        let test_controller = TestController::new(with_certificate(initial(CURRENT))).await;
+        let client = test_controller.client().await;
+        test_controller.controller.faults().update(|switches| switches.server_error = true);
         assert_eq!(code(client.post::<Changed>(protocol::StartServer::PATH, &()).await), ErrorCode::ServerError);
         let body = json!({ "revision": 1, "name": "operator1", "password": "Passw0rd" });
         let changed: Changed = client.post(protocol::GetUsers::PATH, &body).await.unwrap();
         assert_eq!(changed, Changed { revision: RevisionToken::new(2), status: ServerStatus::Error });
-        bench.controller.faults().update(|switches| switches.server_error = false);
+        test_controller.controller.faults().update(|switches| switches.server_error = false);
         for _ in 0..2 {
             let started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
             assert_eq!(started, Changed { revision: RevisionToken::new(2), status: ServerStatus::Run });
         }
-        assert!(bench.answers());
+        assert!(test_controller.answers());
         let stopped: Changed = client.post(protocol::StopServer::PATH, &()).await.unwrap();
         assert_eq!(stopped.status, ServerStatus::Stop);
-        assert!(!bench.answers());
+        assert!(!test_controller.answers());
     })
     .await;
 }
@@ -97,14 +97,14 @@ async fn startup_auto_starts_with_the_controller_or_says_why_not() {
     bounded(async {
         let mut good = with_certificate(initial(CURRENT));
         good.settings.startup = StartupMode::Auto;
-        let bench = Bench::new(good).await;
-        assert_eq!(bench.status(), (ServerStatus::Run, None));
-        assert!(bench.answers());
+        let test_controller = TestController::new(good).await;
+        assert_eq!(test_controller.status(), (ServerStatus::Run, None));
+        assert!(test_controller.answers());
         let mut bare = initial(CURRENT);
         bare.settings.startup = StartupMode::Auto;
-        let bench = Bench::new(bare).await;
-        assert_eq!(bench.status(), (ServerStatus::Error, Some(ErrorCode::NoCertificate)));
-        bench.client().await.hello().await;
+        let test_controller = TestController::new(bare).await;
+        assert_eq!(test_controller.status(), (ServerStatus::Error, Some(ErrorCode::NoCertificate)));
+        test_controller.client().await.hello().await;
     })
     .await;
 }

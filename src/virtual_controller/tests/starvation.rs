@@ -11,7 +11,7 @@ use tokio::net::{TcpSocket, TcpStream};
 use tokio::task::JoinSet;
 use tokio_rustls::TlsConnector;
 
-use super::bench::{Bench, CURRENT, Client, PASSWORD, bounded, initial, tls};
+use super::test_controller::{ApiClient, CURRENT, PASSWORD, TestController, bounded, initial, tls};
 use crate::model::ControllerInfo;
 use crate::protocol;
 use crate::protocol::Request as _;
@@ -31,9 +31,9 @@ struct Strangers {
 
 impl Strangers {
     /// `count` of them from one address; each sends `requests` over TLS, one after another, or nothing without TLS.
-    fn start(bench: &Bench, count: usize, from: [u8; 4], requests: Option<&'static str>) -> Self {
-        let (address, got_through) = (bench.controller.management_address(), Arc::new(AtomicUsize::new(0)));
-        let tls = TlsConnector::from(Arc::new(tls(&bench.controller)));
+    fn start(test_controller: &TestController, count: usize, from: [u8; 4], requests: Option<&'static str>) -> Self {
+        let (address, got_through) = (test_controller.controller.management_address(), Arc::new(AtomicUsize::new(0)));
+        let tls = TlsConnector::from(Arc::new(tls(&test_controller.controller)));
         let mut tasks = JoinSet::new();
         for _ in 0..count {
             let (tls, got_through) = (tls.clone(), got_through.clone());
@@ -79,11 +79,11 @@ async fn hold(
 }
 
 /// Ten times, each over a new connection; the longest time it took.
-async fn serves_the_engineer(bench: &Bench) -> Duration {
+async fn serves_the_engineer(test_controller: &TestController) -> Duration {
     let mut longest = Duration::ZERO;
     for _ in 0..10 {
         let asked = Instant::now();
-        let mut client = Client::new(&bench.controller);
+        let mut client = ApiClient::new(&test_controller.controller);
         client.login(PASSWORD).await.unwrap();
         let _: ControllerInfo = client.get(protocol::GetInfo::PATH).await.unwrap();
         longest = longest.max(asked.elapsed());
@@ -94,14 +94,14 @@ async fn serves_the_engineer(bench: &Bench) -> Duration {
 #[tokio::test(flavor = "multi_thread")]
 async fn strangers_keep_no_engineer_out() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let mut working = bench.client().await;
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let mut working = test_controller.client().await;
         let hello = Some("GET /v1/hello HTTP/1.1\r\nHost: a\r\n\r\n");
         let slow_login = Some("POST /v1/login HTTP/1.1\r\nHost: a\r\nContent-Length: 1000\r\n\r\n{");
         for (what, count, requests) in [("hello", 70, hello), ("nothing", 200, None), ("slow bodies", 70, slow_login)] {
-            let strangers = Strangers::start(&bench, count, [127, 0, 0, 77], requests);
+            let strangers = Strangers::start(&test_controller, count, [127, 0, 0, 77], requests);
             strangers.have_got_through(count).await;
-            let longest = serves_the_engineer(&bench).await;
+            let longest = serves_the_engineer(&test_controller).await;
             println!("10 of 10 while {count} connections send {what}; the longest took {longest:?}");
             assert!(longest < Duration::from_secs(5), "{what}: {longest:?}");
             let _: ControllerInfo = working.get(protocol::GetInfo::PATH).await.unwrap();
@@ -109,12 +109,12 @@ async fn strangers_keep_no_engineer_out() {
         }
         let mut strangers = JoinSet::new();
         for last in 1..=100 {
-            strangers.spawn(dial(bench.controller.management_address(), [127, 0, 1, last]));
+            strangers.spawn(dial(test_controller.controller.management_address(), [127, 0, 1, last]));
         }
         let held = strangers.join_all().await;
-        println!("from {} addresses: {:?}", held.len(), serves_the_engineer(&bench).await);
+        println!("from {} addresses: {:?}", held.len(), serves_the_engineer(&test_controller).await);
         working.login(PASSWORD).await.unwrap();
-        bench.controller.shutdown().await;
+        test_controller.controller.shutdown().await;
     })
     .await;
 }

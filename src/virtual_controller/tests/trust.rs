@@ -2,13 +2,15 @@
 
 use serde_json::{Value, json};
 
-use super::bench::{Bench, CURRENT, LEGACY, Refusal, bounded, clients, code, initial, switch_on, with_certificate};
+use super::test_controller::{
+    CURRENT, LEGACY, RequestFailure, TestController, bounded, clients, code, initial, switch_on, with_certificate,
+};
 use crate::model::{
     Base64Bytes, ClientList, ErrorCode, ListedCrl, Revisioned, ServerStatus, StartupMode, TrustStamp, TrustStep,
 };
 use crate::pki::RejectedClient;
 use crate::protocol::{self, Request as _, TrustChanged};
-use crate::virtual_controller::{DropPoint, Switches};
+use crate::virtual_controller::{DropPoint, FaultSwitches};
 
 fn edit(revision: u64, steps: &[TrustStep]) -> Value {
     json!({ "revision": revision, "steps": steps })
@@ -47,10 +49,10 @@ fn add_crls(crls: &[(&str, &Base64Bytes)]) -> TrustStep {
     TrustStep::AddCrls { crls: crls.iter().map(|(name, der)| ((*name).to_owned(), (*der).clone())).collect() }
 }
 
-async fn running() -> Bench {
+async fn running() -> TestController {
     let mut new = with_certificate(initial(CURRENT));
     new.settings.startup = StartupMode::Auto;
-    Bench::new(new).await
+    TestController::new(new).await
 }
 
 use ClientList::{Issuers, Rejected, Trusted};
@@ -58,14 +60,14 @@ use ClientList::{Issuers, Rejected, Trusted};
 #[tokio::test]
 async fn steps_are_made_in_order_and_all_of_them_or_none() {
     bounded(async {
-        let bench = running().await;
-        let client = bench.client().await;
+        let test_controller = running().await;
+        let client = test_controller.client().await;
         let certificates = clients("c", 3);
         let (two, last) = certificates.split_at(2);
         let steps = [add(Trusted, two), relist(Trusted, Issuers, &two[..1]), add(Trusted, last)];
         let done: TrustChanged = client.post(protocol::EditTrust::PATH, &edit(1, &steps)).await.unwrap();
         assert_eq!((done.changed.revision.number(), done.changed.status, done.cut.len()), (2, ServerStatus::Run, 0));
-        let state = bench.state();
+        let state = test_controller.state();
         assert_eq!((state.trusted.len(), state.issuers.len()), (2, 1));
         assert_eq!(state.issuers[0].file_name, "c0.der");
 
@@ -85,7 +87,7 @@ async fn steps_are_made_in_order_and_all_of_them_or_none() {
         }
         let many = vec![good; protocol::MAX_TRUST_STEPS + 1];
         assert_eq!(code(client.post::<Value>(protocol::EditTrust::PATH, &edit(2, &many)).await), ErrorCode::Refused);
-        assert_eq!(bench.state(), state);
+        assert_eq!(test_controller.state(), state);
     })
     .await;
 }
@@ -93,8 +95,8 @@ async fn steps_are_made_in_order_and_all_of_them_or_none() {
 #[tokio::test]
 async fn legacy_firmware_has_no_issuers() {
     bounded(async {
-        let bench = Bench::new(initial(LEGACY)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(LEGACY)).await;
+        let client = test_controller.client().await;
         let certificates = clients("c", 1);
         client.post::<Value>(protocol::EditTrust::PATH, &edit(1, &[add(Trusted, &certificates)])).await.unwrap();
         for step in [
@@ -105,7 +107,7 @@ async fn legacy_firmware_has_no_issuers() {
             let result = client.post::<Value>(protocol::EditTrust::PATH, &edit(2, &[step])).await;
             assert_eq!(code(result), ErrorCode::FirmwareTooOld);
         }
-        assert_eq!(bench.revision(), 2);
+        assert_eq!(test_controller.revision(), 2);
     })
     .await;
 }
@@ -113,8 +115,8 @@ async fn legacy_firmware_has_no_issuers() {
 #[tokio::test]
 async fn a_crl_replaces_an_older_one_of_its_issuer_and_no_other() {
     bounded(async {
-        let bench = running().await;
-        let client = bench.client().await;
+        let test_controller = running().await;
+        let client = test_controller.client().await;
         let (key, other_key) = (rcgen::KeyPair::generate().unwrap(), rcgen::KeyPair::generate().unwrap());
         let (one, two, three) = (crl("A", &key, 1), crl("A", &key, 2), crl("A", &key, 3));
         let other = crl("B", &other_key, 1);
@@ -141,8 +143,8 @@ async fn a_crl_replaces_an_older_one_of_its_issuer_and_no_other() {
         let id = &listed.value[1].summary.id;
         assert_eq!(client.get::<Base64Bytes>(&protocol::GetCrl { id: id.clone() }.target()).await.unwrap(), three);
         assert_eq!(code(client.get::<Value>("/v1/crls/AB").await), ErrorCode::NotInList);
-        let again = switch_on(bench.folder.path(), initial(CURRENT)).await.unwrap();
-        assert_eq!(again.state(), bench.state());
+        let again = switch_on(test_controller.folder.path(), initial(CURRENT)).await.unwrap();
+        assert_eq!(again.state(), test_controller.state());
     })
     .await;
 }
@@ -150,8 +152,8 @@ async fn a_crl_replaces_an_older_one_of_its_issuer_and_no_other() {
 #[tokio::test]
 async fn a_crl_that_its_authority_did_not_sign_is_refused() {
     bounded(async {
-        let bench = Bench::new(initial(CURRENT)).await;
-        let client = bench.client().await;
+        let test_controller = TestController::new(initial(CURRENT)).await;
+        let client = test_controller.client().await;
         let (key, forger) = (rcgen::KeyPair::generate().unwrap(), rcgen::KeyPair::generate().unwrap());
         let mut params = rcgen::CertificateParams::default();
         params.distinguished_name = rcgen::DistinguishedName::new();
@@ -168,7 +170,7 @@ async fn a_crl_that_its_authority_did_not_sign_is_refused() {
         // One of another key of the same name may belong to an authority that is added later.
         let later = edit(2, &[add_crls(&[("later.crl", &crl("A", &forger, 9)), ("a.crl", &crl("A", &key, 1))])]);
         client.post::<TrustChanged>(protocol::EditTrust::PATH, &later).await.unwrap();
-        assert_eq!(bench.state().crls.len(), 2);
+        assert_eq!(test_controller.state().crls.len(), 2);
     })
     .await;
 }
@@ -176,38 +178,38 @@ async fn a_crl_that_its_authority_did_not_sign_is_refused() {
 #[tokio::test]
 async fn a_certificate_is_never_in_no_list_and_never_in_two() {
     bounded(async {
-        let bench = running().await;
-        let client = bench.client().await;
+        let test_controller = running().await;
+        let client = test_controller.client().await;
         let certificates = clients("c", 2);
         client.post::<Value>(protocol::EditTrust::PATH, &edit(1, &[add(Trusted, &certificates)])).await.unwrap();
         let rejected = async || client.get::<Revisioned<Vec<RejectedClient>>>("/v1/clients/rejected").await.unwrap();
         let stamp = async || client.get::<TrustStamp>(protocol::EditTrust::PATH).await.unwrap();
         let away = edit(2, &[relist(Trusted, Rejected, &certificates[..1])]);
-        let (state, before) = (bench.state(), stamp().await);
+        let (state, before) = (test_controller.state(), stamp().await);
 
         for fault in [
-            |switches: &mut Switches| switches.drop_next_change = Some(DropPoint::BeforeApply),
-            |switches: &mut Switches| switches.disk_full = true,
-            |switches: &mut Switches| switches.task_running = true,
+            |switches: &mut FaultSwitches| switches.drop_next_change = Some(DropPoint::BeforeApply),
+            |switches: &mut FaultSwitches| switches.disk_full = true,
+            |switches: &mut FaultSwitches| switches.task_running = true,
         ] {
-            bench.controller.faults().update(fault);
+            test_controller.controller.faults().update(fault);
             client.post::<Value>(protocol::EditTrust::PATH, &away).await.unwrap_err();
-            bench.controller.faults().update(|switches| *switches = Switches::default());
-            assert_eq!((bench.state(), rejected().await.value.len()), (state.clone(), 0));
+            test_controller.controller.faults().update(|switches| *switches = FaultSwitches::default());
+            assert_eq!((test_controller.state(), rejected().await.value.len()), (state.clone(), 0));
         }
-        bench.controller.faults().update(|switches| switches.drop_next_change = Some(DropPoint::AfterApply));
-        assert!(matches!(client.post::<Value>(protocol::EditTrust::PATH, &away).await, Err(Refusal::Lost)));
-        assert_eq!((bench.state().trusted.len(), bench.revision()), (1, 3));
+        test_controller.controller.faults().update(|switches| switches.drop_next_change = Some(DropPoint::AfterApply));
+        assert!(matches!(client.post::<Value>(protocol::EditTrust::PATH, &away).await, Err(RequestFailure::Lost)));
+        assert_eq!((test_controller.state().trusted.len(), test_controller.revision()), (1, 3));
         assert_eq!(rejected().await.value[0].count, 0);
         assert!(stamp().await.rejected > before.rejected);
-        let again = switch_on(bench.folder.path(), initial(CURRENT)).await.unwrap();
-        assert_eq!(again.state(), bench.state());
+        let again = switch_on(test_controller.folder.path(), initial(CURRENT)).await.unwrap();
+        assert_eq!(again.state(), test_controller.state());
         again.shutdown().await;
 
         // Whatever way it comes back, it leaves the rejected ones.
         let back = edit(3, &[add(Trusted, &certificates[..1])]);
         client.post::<Value>(protocol::EditTrust::PATH, &back).await.unwrap();
-        assert_eq!((bench.state().trusted.len(), rejected().await.value.len()), (2, 0));
+        assert_eq!((test_controller.state().trusted.len(), rejected().await.value.len()), (2, 0));
 
         // Forgetting is no change of the configuration, but as careful.
         client
@@ -220,13 +222,13 @@ async fn a_certificate_is_never_in_no_list_and_never_in_two() {
             code(client.post::<Value>(protocol::EditTrust::PATH, &edit(4, &forget)).await),
             ErrorCode::ChangedMeanwhile
         );
-        bench.controller.faults().update(|switches| switches.disk_full = true);
+        test_controller.controller.faults().update(|switches| switches.disk_full = true);
         assert_eq!(code(client.post::<Value>(protocol::EditTrust::PATH, &edit(5, &forget)).await), ErrorCode::DiskFull);
         assert_eq!(rejected().await.value.len(), 2);
-        bench.controller.faults().update(|switches| switches.disk_full = false);
+        test_controller.controller.faults().update(|switches| switches.disk_full = false);
         let forgotten: TrustChanged = client.post(protocol::EditTrust::PATH, &edit(5, &forget)).await.unwrap();
         assert_eq!((forgotten.changed.revision.number(), rejected().await.value.len()), (5, 0));
-        bench.controller.shutdown().await;
+        test_controller.controller.shutdown().await;
     })
     .await;
 }

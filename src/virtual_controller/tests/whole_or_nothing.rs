@@ -2,12 +2,14 @@ use std::path::Path;
 
 use serde_json::{Value, json};
 
-use super::bench::{Bench, CURRENT, Refusal, bounded, clients, code, initial, request, switch_on, with_certificate};
+use super::test_controller::{
+    CURRENT, RequestFailure, TestController, bounded, clients, code, initial, request, switch_on, with_certificate,
+};
 use crate::model::{Changed, ErrorCode, ServerStatus, StartupMode};
 use crate::protocol::{self, Request as _};
-use crate::virtual_controller::{DropPoint, Switches};
+use crate::virtual_controller::{DropPoint, FaultSwitches};
 
-type Throw = fn(&mut Switches);
+type Throw = fn(&mut FaultSwitches);
 
 /// Every kind of change that touches a running server.
 fn changes(revision: u64) -> [(&'static str, Value); 3] {
@@ -32,23 +34,23 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-async fn running() -> Bench {
+async fn running() -> TestController {
     let mut new = with_certificate(initial(CURRENT));
     new.settings.startup = StartupMode::Auto;
-    let bench = Bench::new(new).await;
-    assert!(bench.answers());
-    bench
+    let test_controller = TestController::new(new).await;
+    assert!(test_controller.answers());
+    test_controller
 }
 
 #[tokio::test]
 async fn a_change_that_fails_leaves_everything_as_it_was() {
     bounded(async {
-        let bench = running().await;
-        let client = bench.client().await;
-        let (state, on_disk) = (bench.state(), files(bench.folder.path()));
-        let full = |switches: &mut Switches| switches.disk_full = true;
-        let lost = |switches: &mut Switches| switches.drop_next_change = Some(DropPoint::BeforeApply);
-        let broken = |switches: &mut Switches| switches.server_error = true;
+        let test_controller = running().await;
+        let client = test_controller.client().await;
+        let (state, on_disk) = (test_controller.state(), files(test_controller.folder.path()));
+        let full = |switches: &mut FaultSwitches| switches.disk_full = true;
+        let lost = |switches: &mut FaultSwitches| switches.drop_next_change = Some(DropPoint::BeforeApply);
+        let broken = |switches: &mut FaultSwitches| switches.server_error = true;
         let faults: [(Throw, Option<ErrorCode>); 3] =
             [(full, Some(ErrorCode::DiskFull)), (lost, None), (broken, Some(ErrorCode::ServerError))];
         for (fault, expected) in faults {
@@ -56,17 +58,19 @@ async fn a_change_that_fails_leaves_everything_as_it_was() {
                 if expected == Some(ErrorCode::ServerError) && path == protocol::EditTrust::PATH {
                     continue; // does not restart the server
                 }
-                bench.controller.faults().update(fault);
+                test_controller.controller.faults().update(fault);
                 match (client.post::<Value>(path, &body).await, expected) {
-                    (Err(Refusal::Failure(_, failure)), Some(expected)) => assert_eq!(failure.code, expected, "{path}"),
-                    (Err(Refusal::Lost), None) => {}
+                    (Err(RequestFailure::Failure(_, failure)), Some(expected)) => {
+                        assert_eq!(failure.code, expected, "{path}")
+                    }
+                    (Err(RequestFailure::Lost), None) => {}
                     (other, _) => panic!("{path}: {other:?}"),
                 }
-                bench.controller.faults().update(|switches| *switches = Switches::default());
-                assert_eq!(bench.state(), state, "{path}");
-                assert_eq!(files(bench.folder.path()), on_disk, "{path}");
-                assert_eq!(bench.status(), (ServerStatus::Run, None), "{path}");
-                assert!(bench.answers(), "{path}");
+                test_controller.controller.faults().update(|switches| *switches = FaultSwitches::default());
+                assert_eq!(test_controller.state(), state, "{path}");
+                assert_eq!(files(test_controller.folder.path()), on_disk, "{path}");
+                assert_eq!(test_controller.status(), (ServerStatus::Run, None), "{path}");
+                assert!(test_controller.answers(), "{path}");
             }
         }
         let [first, ..] = changes(1);
@@ -78,13 +82,13 @@ async fn a_change_that_fails_leaves_everything_as_it_was() {
 #[tokio::test]
 async fn a_change_whose_answer_is_lost_was_applied() {
     bounded(async {
-        let bench = running().await;
-        let client = bench.client().await;
-        bench.controller.faults().update(|switches| switches.drop_next_change = Some(DropPoint::AfterApply));
+        let test_controller = running().await;
+        let client = test_controller.client().await;
+        test_controller.controller.faults().update(|switches| switches.drop_next_change = Some(DropPoint::AfterApply));
         let [(path, body), ..] = changes(1);
-        assert!(matches!(client.post::<Changed>(path, &body).await, Err(Refusal::Lost)));
-        assert_eq!((bench.revision(), bench.state().users.len()), (2, 1));
-        assert!(bench.answers());
+        assert!(matches!(client.post::<Changed>(path, &body).await, Err(RequestFailure::Lost)));
+        assert_eq!((test_controller.revision(), test_controller.state().users.len()), (2, 1));
+        assert!(test_controller.answers());
         assert_eq!(code(client.post::<Changed>(path, &body).await), ErrorCode::ChangedMeanwhile);
     })
     .await;
@@ -93,17 +97,17 @@ async fn a_change_whose_answer_is_lost_was_applied() {
 #[tokio::test]
 async fn a_client_that_leaves_in_the_middle_does_not_stop_a_change() {
     bounded(async {
-        let bench = running().await;
-        let client = bench.client().await;
+        let test_controller = running().await;
+        let client = test_controller.client().await;
         let [_, (path, body), _] = changes(1);
         let asking = client.post::<Value>(path, &body);
         let _ = tokio::time::timeout(std::time::Duration::from_millis(30), asking).await;
         // The next one takes its turn after it, whatever became of it.
         let _: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
-        assert_eq!(bench.status(), (ServerStatus::Run, None));
-        assert!(bench.answers());
-        let on_disk = switch_on(bench.folder.path(), initial(CURRENT)).await.unwrap();
-        assert_eq!(on_disk.state(), bench.state());
+        assert_eq!(test_controller.status(), (ServerStatus::Run, None));
+        assert!(test_controller.answers());
+        let on_disk = switch_on(test_controller.folder.path(), initial(CURRENT)).await.unwrap();
+        assert_eq!(on_disk.state(), test_controller.state());
     })
     .await;
 }

@@ -10,17 +10,17 @@ use serde::{Deserialize, Serialize};
 use zeroize::Zeroizing;
 
 use super::database::{Database, StoredAuthority};
-use super::files::{AuthorityFiles, ROOT, SIGNING, Unlock, unlock_pem};
-use super::{Authority, AuthorityError, AuthorityOverview};
+use super::files::{AuthorityFiles, ROOT, SIGNING, UnlockError, unlock_pem};
+use super::{AuthorityError, AuthorityOverview, UnlockedAuthority};
 use crate::model::{Base64Bytes, text};
 use crate::pki::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 use crate::workspace::{WorkspaceError, read_bounded, write_atomic};
 
-/// Format 1: JSON with exactly these members. What is inside, a [`Content`] as JSON, is encrypted with AES-256-GCM
-/// under a key that Argon2id makes of passphrase and salt, and authenticated together with [`Backup::context`].
+/// Format 1: JSON with exactly these members. What is inside, a [`AuthorityBackupContent`] as JSON, is encrypted with AES-256-GCM
+/// under a key that Argon2id makes of passphrase and salt, and authenticated together with [`AuthorityBackup::context`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Backup {
+struct AuthorityBackup {
     format: String,
     version: u32,
     made: DateTime<Utc>,
@@ -32,7 +32,7 @@ struct Backup {
 /// Every file of the CA that cannot be made from the others.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Content {
+struct AuthorityBackupContent {
     database: Database,
     /// Encrypted PKCS#8 in PEM, by name.
     keys: BTreeMap<String, String>,
@@ -40,13 +40,13 @@ struct Content {
     issued: BTreeMap<String, Base64Bytes>,
 }
 
-impl Backup {
+impl AuthorityBackup {
     fn context(&self) -> String {
         format!("{} {} {}", self.format, self.version, self.made.timestamp_micros())
     }
 }
 
-impl Authority {
+impl UnlockedAuthority {
     /// Writes a backup that the passphrase of the CA opens. Blocks for the size of the CA.
     ///
     /// Not into the folder of the CA: under the name of a key it would be the end of that key.
@@ -68,10 +68,10 @@ impl Authority {
                 issued.insert(certificate.serial_number.clone(), Base64Bytes(der));
             }
         }
-        let content = Content { database: self.database().clone(), keys, issued };
+        let content = AuthorityBackupContent { database: self.database().clone(), keys, issued };
         let failed = |e: serde_json::Error| WorkspaceError::writing(path, e.into());
         let plain = Zeroizing::new(serde_json::to_vec(&content).map_err(failed)?);
-        let mut backup = Backup {
+        let mut backup = AuthorityBackup {
             format: FORMAT.to_owned(),
             version: VERSION,
             made: now,
@@ -116,7 +116,7 @@ fn is_below(file: &Path, folder: &Path) -> bool {
     there.is_some_and(|there| there.starts_with(&folder))
 }
 
-fn read(path: &Path, passphrase: &SecretString) -> Result<Content, AuthorityError> {
+fn read(path: &Path, passphrase: &SecretString) -> Result<AuthorityBackupContent, AuthorityError> {
     let damaged = |source| AuthorityError::BackupDamaged { path: path.to_owned(), source };
     let bytes = read_bounded(path, MAX_BACKUP_BYTES)
         .map_err(|source| AuthorityError::Unreadable { path: path.to_owned(), source })?;
@@ -124,7 +124,7 @@ fn read(path: &Path, passphrase: &SecretString) -> Result<Content, AuthorityErro
         return Err(damaged(format!("it has more than {MAX_BACKUP_BYTES} bytes").into()));
     }
     let text = text::decode(&bytes).map_err(|e| damaged(e.into()))?;
-    let backup: Backup = serde_json::from_str(&text).map_err(|e| damaged(e.into()))?;
+    let backup: AuthorityBackup = serde_json::from_str(&text).map_err(|e| damaged(e.into()))?;
     if backup.format != FORMAT || backup.version != VERSION {
         return Err(damaged(format!("it is \"{}\", version {}", backup.format, backup.version).into()));
     }
@@ -139,19 +139,19 @@ fn read(path: &Path, passphrase: &SecretString) -> Result<Content, AuthorityErro
         SealError::NotOpened => AuthorityError::BackupPassphrase(path.to_owned()),
         error => damaged(error.into()),
     })?;
-    let content: Content = serde_json::from_slice(&plain).map_err(|e| damaged(e.into()))?;
+    let content: AuthorityBackupContent = serde_json::from_slice(&plain).map_err(|e| damaged(e.into()))?;
     check(&content, passphrase).map_err(|reason| damaged(reason.into()))?;
     Ok(content)
 }
 
 /// What comes back must be a CA that can sign.
-fn check(content: &Content, passphrase: &SecretString) -> Result<(), String> {
+fn check(content: &AuthorityBackupContent, passphrase: &SecretString) -> Result<(), String> {
     let check_key = |name: &str, stored: &StoredAuthority| -> Result<(), String> {
         let Some(pem) = content.keys.get(name) else { return Ok(()) };
         match unlock_pem(pem.as_bytes(), stored, passphrase) {
             Ok(_) => Ok(()),
-            Err(Unlock::Passphrase) => Err(format!("{name}.key has another passphrase")),
-            Err(Unlock::Damaged(error)) => Err(format!("{name}.key: {error}")),
+            Err(UnlockError::Passphrase) => Err(format!("{name}.key has another passphrase")),
+            Err(UnlockError::Damaged(error)) => Err(format!("{name}.key: {error}")),
         }
     };
     if !content.keys.contains_key(SIGNING) {

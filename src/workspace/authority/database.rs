@@ -65,7 +65,7 @@ pub struct IssuedCertificate {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub controller: Option<IssuedFor>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub revoked: Option<Revocation>,
+    pub revoked: Option<RecordedRevocation>,
 }
 
 /// The controller a certificate was issued for.
@@ -79,7 +79,7 @@ pub struct IssuedFor {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Revocation {
+pub struct RecordedRevocation {
     pub at: DateTime<Utc>,
     pub reason: RevocationReason,
 }
@@ -140,13 +140,13 @@ impl Database {
 
     fn parse(json: &[u8]) -> Result<Self, String> {
         #[derive(Deserialize)]
-        struct Header {
+        struct DatabaseHeader {
             version: u32,
         }
         if json.len() as u64 > MAX_DATABASE_BYTES {
             return Err(format!("it has more than {MAX_DATABASE_BYTES} bytes"));
         }
-        let Header { version } = serde_json::from_slice(json).map_err(|e| e.to_string())?;
+        let DatabaseHeader { version } = serde_json::from_slice(json).map_err(|e| e.to_string())?;
         if version != VERSION {
             return Err(format!("it is of version {version}; this program knows version {VERSION}"));
         }
@@ -188,7 +188,7 @@ impl Database {
         self.issued
             .iter()
             .filter_map(|issued| {
-                let Revocation { at, reason } = issued.revoked?;
+                let RecordedRevocation { at, reason } = issued.revoked?;
                 Some(RevokedCertificate { serial_number: issued.serial_number.clone(), at, reason })
             })
             .collect()

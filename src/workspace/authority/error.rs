@@ -7,7 +7,7 @@ use crate::pki::PkiError;
 use crate::workspace::{PassphraseError, WorkspaceError};
 
 /// The error of a reader, or a sentence in English.
-type Cause = Box<dyn std::error::Error + Send + Sync>;
+type ErrorSource = Box<dyn std::error::Error + Send + Sync>;
 
 /// Why the small CA did not do what it was asked for. Holds no secret.
 #[derive(Debug, Error)]
@@ -19,7 +19,7 @@ pub enum AuthorityError {
     Exists(PathBuf),
     /// A file of the CA cannot be read, or does not hold what it should.
     #[error("{}: {source}", path.display())]
-    Damaged { path: PathBuf, source: Cause },
+    Damaged { path: PathBuf, source: ErrorSource },
     #[error("the passphrase does not open {}", .0.display())]
     Passphrase(PathBuf),
     #[error(transparent)]
@@ -33,7 +33,7 @@ pub enum AuthorityError {
     #[error("the database has {0} certificates, which is the most it holds")]
     Full(usize),
     #[error("{}: {source}", path.display())]
-    BackupDamaged { path: PathBuf, source: Cause },
+    BackupDamaged { path: PathBuf, source: ErrorSource },
     #[error("the passphrase does not open {}", .0.display())]
     BackupPassphrase(PathBuf),
     #[error("{}: {source}", path.display())]

@@ -6,7 +6,7 @@ use secrecy::SecretString;
 
 use super::AuthorityError;
 use super::database::{Database, IssuedCertificate, MAX_DATABASE_BYTES, StoredAuthority, StoredCrl};
-use super::signing::{Authority, crl_number};
+use super::signing::{UnlockedAuthority, crl_number};
 use crate::model::{AuthorityRequest, CertificateSummary, clock};
 use crate::pki::{
     Certificate, CertificateAuthority, Crl, MAX_KEY_FILE_BYTES, PkiError, PrivateKey, encrypt_key, read_key_file,
@@ -76,7 +76,7 @@ impl AuthorityFiles {
         new: &NewAuthority,
         passphrase: &SecretString,
         now: DateTime<Utc>,
-    ) -> Result<Authority, AuthorityError> {
+    ) -> Result<UnlockedAuthority, AuthorityError> {
         check_passphrase(passphrase)?;
         let lock = self.lock_absent()?;
         let path_length = u8::from(new.intermediate.is_some());
@@ -102,18 +102,18 @@ impl AuthorityFiles {
         }
         self.write_database(&database)?;
         self.write_copies(&database)?;
-        Ok(Authority::new(self.clone(), lock, database, signing, passphrase.clone()))
+        Ok(UnlockedAuthority::new(self.clone(), lock, database, signing, passphrase.clone()))
     }
 
     /// Opens the CA for signing and locks it until the result is dropped. Blocks while the passphrase is
     /// hashed.
-    pub fn open(&self, passphrase: &SecretString) -> Result<Authority, AuthorityError> {
+    pub fn open(&self, passphrase: &SecretString) -> Result<UnlockedAuthority, AuthorityError> {
         self.read_database()?;
         let lock = lock_folder(&self.folder)?;
         let database = self.read_database()?;
         let signing = self.unlock(SIGNING, &database.signing, passphrase)?;
         self.write_copies(&database)?;
-        Ok(Authority::new(self.clone(), lock, database, signing, passphrase.clone()))
+        Ok(UnlockedAuthority::new(self.clone(), lock, database, signing, passphrase.clone()))
     }
 
     /// Reads what everybody may know.
@@ -148,8 +148,8 @@ impl AuthorityFiles {
         let damaged = |source| AuthorityError::Damaged { path: path.clone(), source };
         let pem = read_bounded(&path, MAX_KEY_FILE_BYTES as u64).map_err(|e| damaged(e.into()))?;
         unlock_pem(&pem, stored, passphrase).map_err(|error| match error {
-            Unlock::Passphrase => AuthorityError::Passphrase(path.clone()),
-            Unlock::Damaged(error) => damaged(error.into()),
+            UnlockError::Passphrase => AuthorityError::Passphrase(path.clone()),
+            UnlockError::Damaged(error) => damaged(error.into()),
         })
     }
 
@@ -258,7 +258,7 @@ impl PublishedAuthority {
 }
 
 /// Why a key file gives no CA.
-pub(super) enum Unlock {
+pub(super) enum UnlockError {
     Passphrase,
     Damaged(PkiError),
 }
@@ -267,16 +267,16 @@ pub(super) fn unlock_pem(
     pem: &[u8],
     stored: &StoredAuthority,
     passphrase: &SecretString,
-) -> Result<CertificateAuthority, Unlock> {
-    let certificate = Certificate::from_der(&stored.certificate.0).map_err(Unlock::Damaged)?;
+) -> Result<CertificateAuthority, UnlockError> {
+    let certificate = Certificate::from_der(&stored.certificate.0).map_err(UnlockError::Damaged)?;
     let password = secrecy::ExposeSecret::expose_secret(passphrase);
     let encrypted = pem.starts_with(b"-----BEGIN ENCRYPTED PRIVATE KEY-----");
     let key = read_key_file(pem, Some(password)).map_err(|error| match error {
         // A wrong passphrase can also decrypt to something that only looks like a key.
-        PkiError::WrongPasswordOrDamaged | PkiError::NotAPrivateKey if encrypted => Unlock::Passphrase,
-        error => Unlock::Damaged(error),
+        PkiError::WrongPasswordOrDamaged | PkiError::NotAPrivateKey if encrypted => UnlockError::Passphrase,
+        error => UnlockError::Damaged(error),
     })?;
-    CertificateAuthority::from_parts(certificate, key).map_err(Unlock::Damaged)
+    CertificateAuthority::from_parts(certificate, key).map_err(UnlockError::Damaged)
 }
 
 /// The CA that signs certificates: the intermediate, if there is one.

@@ -27,7 +27,7 @@ mod signing;
 #[cfg(test)]
 mod tests;
 
-pub use database::{CertificateState, IssuedCertificate, IssuedFor, Revocation};
+pub use database::{CertificateState, IssuedCertificate, IssuedFor, RecordedRevocation};
 pub use error::AuthorityError;
 pub use files::{AuthorityFiles, AuthorityOverview, NewAuthority, PublishedAuthority};
-pub use signing::{Authority, DEFAULT_CRL_DAYS, Drafted};
+pub use signing::{DEFAULT_CRL_DAYS, UnlockedAuthority, UnrecordedCertificate};

@@ -3,7 +3,7 @@ use std::path::PathBuf;
 use chrono::{DateTime, Utc};
 use secrecy::SecretString;
 
-use super::database::{Database, IssuedCertificate, IssuedFor, MAX_ISSUED, Revocation, StoredCrl};
+use super::database::{Database, IssuedCertificate, IssuedFor, MAX_ISSUED, RecordedRevocation, StoredCrl};
 use super::files::{AuthorityFiles, AuthorityOverview, ROOT};
 use super::{AuthorityError, CertificateState};
 use crate::model::{Base64Bytes, CertificateProfile};
@@ -15,7 +15,7 @@ use crate::workspace::WorkspaceLock;
 pub const DEFAULT_CRL_DAYS: u16 = 365;
 
 /// The small CA, unlocked for signing. Held by one process at a time; given up when dropped.
-pub struct Authority {
+pub struct UnlockedAuthority {
     files: AuthorityFiles,
     _lock: WorkspaceLock,
     database: Database,
@@ -25,21 +25,21 @@ pub struct Authority {
 }
 
 /// A certificate that was signed, but that the CA does not know of yet. It must not be given to anybody before
-/// [`Authority::record`].
+/// [`UnlockedAuthority::record`].
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Drafted {
+pub struct UnrecordedCertificate {
     certificate: Certificate,
     key: String,
     profile: CertificateProfile,
 }
 
-impl Drafted {
+impl UnrecordedCertificate {
     pub const fn certificate(&self) -> &Certificate {
         &self.certificate
     }
 }
 
-impl Authority {
+impl UnlockedAuthority {
     pub(super) fn new(
         files: AuthorityFiles,
         lock: WorkspaceLock,
@@ -66,23 +66,28 @@ impl Authority {
     }
 
     /// Signs, but leaves it at that: for looking at what would be issued.
-    pub fn draft(&self, csr: &Csr, request: &IssueRequest, now: DateTime<Utc>) -> Result<Drafted, AuthorityError> {
+    pub fn draft(
+        &self,
+        csr: &Csr,
+        request: &IssueRequest,
+        now: DateTime<Utc>,
+    ) -> Result<UnrecordedCertificate, AuthorityError> {
         if self.database.issued.len() >= MAX_ISSUED {
             return Err(AuthorityError::Full(MAX_ISSUED));
         }
         let certificate = self.signing.issue(csr, request, now)?;
-        Ok(Drafted { certificate, key: csr.key_digest(), profile: request.profile })
+        Ok(UnrecordedCertificate { certificate, key: csr.key_digest(), profile: request.profile })
     }
 
     /// Writes down what was signed, then the file of the certificate; if that fails, or the program ends before it, the
     /// file is written when the CA is opened again.
     pub fn record(
         &mut self,
-        drafted: Drafted,
+        drafted: UnrecordedCertificate,
         controller: Option<IssuedFor>,
         now: DateTime<Utc>,
     ) -> Result<PathBuf, AuthorityError> {
-        let Drafted { certificate, key, profile } = drafted;
+        let UnrecordedCertificate { certificate, key, profile } = drafted;
         let summary = certificate.summary();
         let path = self.files.issued_path(&summary.serial_number);
         // The one before may still be without its file.
@@ -138,10 +143,10 @@ impl Authority {
         let mut database = self.database.clone();
         for serial_number in serial_numbers {
             let issued = database.find(serial_number)?;
-            if let Some(Revocation { at, .. }) = issued.revoked {
+            if let Some(RecordedRevocation { at, .. }) = issued.revoked {
                 return Err(AuthorityError::AlreadyRevoked { serial_number: issued.serial_number.clone(), at });
             }
-            issued.revoked = Some(Revocation { at: now, reason });
+            issued.revoked = Some(RecordedRevocation { at: now, reason });
         }
         self.update_crl(&mut database, now)?;
         self.commit(database)
@@ -188,9 +193,9 @@ impl Authority {
     }
 }
 
-impl std::fmt::Debug for Authority {
+impl std::fmt::Debug for UnlockedAuthority {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Authority").field("signing", &self.signing).finish_non_exhaustive()
+        f.debug_struct("UnlockedAuthority").field("signing", &self.signing).finish_non_exhaustive()
     }
 }
 

@@ -197,7 +197,7 @@ fn revoking_is_all_or_nothing_and_final() {
     let files = files(folder.path());
     let mut authority = files.create(&new(false), &passphrase(), now()).unwrap();
     let serial = authority.sign(csr(), &server(), false, now()).unwrap().0.summary().serial_number;
-    let revoke = |authority: &mut Authority, serials: &[&str]| {
+    let revoke = |authority: &mut UnlockedAuthority, serials: &[&str]| {
         let serials: Vec<String> = serials.iter().map(ToString::to_string).collect();
         authority.revoke(&serials, RevocationReason::KeyCompromise, now())
     };
@@ -220,7 +220,7 @@ fn crl_numbers_only_ever_grow_also_when_the_clock_goes_back_or_a_backup_comes_ba
     let folder = tempfile::tempdir().unwrap();
     let files = files(folder.path());
     let mut authority = files.create(&new(true), &passphrase(), now()).unwrap();
-    let numbers = |authority: &Authority| {
+    let numbers = |authority: &UnlockedAuthority| {
         let overview = authority.overview().unwrap();
         (overview.signing.crl_number, overview.root.unwrap().crl_number)
     };

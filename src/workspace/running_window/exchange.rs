@@ -9,14 +9,14 @@ use tokio::time::timeout;
 
 /// What becomes of a request to show the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Shown {
+pub enum ShowWindowOutcome {
     /// The window comes to the front.
     InFront,
     /// The window asks for attention; the desktop does not let programs bring windows to the front (Wayland).
     Marked,
 }
 
-impl Shown {
+impl ShowWindowOutcome {
     pub(super) fn as_line(self) -> &'static [u8] {
         match self {
             Self::InFront => b"in front\n",
@@ -25,7 +25,7 @@ impl Shown {
     }
 }
 
-pub(super) fn ask(mut stream: impl Read + Write) -> io::Result<Shown> {
+pub(super) fn ask(mut stream: impl Read + Write) -> io::Result<ShowWindowOutcome> {
     stream.write_all(REQUEST)?;
     let mut answer = Vec::new();
     while !answer.ends_with(b"\n") && answer.len() < MAX_LINE {
@@ -33,12 +33,17 @@ pub(super) fn ask(mut stream: impl Read + Write) -> io::Result<Shown> {
         stream.read_exact(&mut byte)?;
         answer.extend(byte);
     }
-    let known = [Shown::InFront, Shown::Marked].into_iter().find(|shown| shown.as_line() == answer);
+    let known =
+        [ShowWindowOutcome::InFront, ShowWindowOutcome::Marked].into_iter().find(|shown| shown.as_line() == answer);
     known.ok_or_else(|| io::ErrorKind::InvalidData.into())
 }
 
 /// Answers one request, and tells `on_request` before.
-pub(super) async fn answer(mut stream: impl AsyncRead + AsyncWrite + Unpin, shown: Shown, on_request: Arc<impl Fn()>) {
+pub(super) async fn answer(
+    mut stream: impl AsyncRead + AsyncWrite + Unpin,
+    shown: ShowWindowOutcome,
+    on_request: Arc<impl Fn()>,
+) {
     let exchange = async {
         let mut request = [0; REQUEST.len()];
         stream.read_exact(&mut request).await?;

@@ -21,7 +21,7 @@ use pipe as system;
 #[cfg(unix)]
 use socket as system;
 
-pub use exchange::Shown;
+pub use exchange::ShowWindowOutcome;
 use exchange::ask;
 pub use system::StartRequests;
 
@@ -29,17 +29,17 @@ pub use system::StartRequests;
 ///
 /// Fails if no window has it open: then a command of the command line works on the workspace, or it is open on another
 /// computer.
-pub fn show_running_window(root: &Path) -> io::Result<Shown> {
+pub fn show_running_window(root: &Path) -> io::Result<ShowWindowOutcome> {
     let (sender, answer) = mpsc::channel();
     let root = root.to_owned();
     // Pipes and sockets do not bound every step by themselves.
     thread::Builder::new().name("running window".to_owned()).spawn(move || {
         let _ = sender.send(system::connect(&root).and_then(ask));
     })?;
-    answer.recv_timeout(PATIENCE).unwrap_or_else(|_| Err(io::ErrorKind::TimedOut.into()))
+    answer.recv_timeout(WAIT_LIMIT).unwrap_or_else(|_| Err(io::ErrorKind::TimedOut.into()))
 }
 
-const PATIENCE: Duration = Duration::from_secs(3);
+const WAIT_LIMIT: Duration = Duration::from_secs(3);
 
 #[cfg(test)]
 mod tests {
@@ -51,7 +51,10 @@ mod tests {
     use super::*;
     use crate::workspace::Workspace;
 
-    fn serving(workspace: &Workspace, shown: Shown) -> (tokio::runtime::Runtime, StartRequests, Arc<AtomicUsize>) {
+    fn serving(
+        workspace: &Workspace,
+        shown: ShowWindowOutcome,
+    ) -> (tokio::runtime::Runtime, StartRequests, Arc<AtomicUsize>) {
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build().unwrap();
         let lock = workspace.lock().unwrap();
         let requests = StartRequests::listen(workspace.root(), &lock).unwrap();
@@ -65,7 +68,7 @@ mod tests {
     }
 
     /// The pipe of Windows is there a moment after the task has started.
-    fn shown(root: &Path) -> io::Result<Shown> {
+    fn shown(root: &Path) -> io::Result<ShowWindowOutcome> {
         (0..50)
             .find_map(|_| show_running_window(root).ok().or_else(|| (thread::sleep(Duration::from_millis(20)), None).1))
             .ok_or_else(|| io::ErrorKind::NotFound.into())
@@ -76,7 +79,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let workspace = Workspace::new(folder.path().join("焊接"));
         assert!(show_running_window(workspace.root()).is_err(), "there is no window");
-        for answer in [Shown::InFront, Shown::Marked] {
+        for answer in [ShowWindowOutcome::InFront, ShowWindowOutcome::Marked] {
             let (runtime, requests, asked) = serving(&workspace, answer);
             assert_eq!(shown(workspace.root()).unwrap(), answer);
             assert_eq!(shown(workspace.root()).unwrap(), answer);
@@ -92,12 +95,12 @@ mod tests {
     fn strangers_and_silence_do_not_keep_it_from_answering() {
         let folder = tempfile::tempdir().unwrap();
         let workspace = Workspace::new(folder.path());
-        let (_runtime, _requests, asked) = serving(&workspace, Shown::InFront);
+        let (_runtime, _requests, asked) = serving(&workspace, ShowWindowOutcome::InFront);
         shown(workspace.root()).unwrap();
         let mut noise = system::connect(workspace.root()).unwrap();
         noise.write_all(&[b'x'; REQUEST.len()]).unwrap();
         let silent = system::connect(workspace.root()).unwrap();
-        assert_eq!(shown(workspace.root()).unwrap(), Shown::InFront);
+        assert_eq!(shown(workspace.root()).unwrap(), ShowWindowOutcome::InFront);
         assert_eq!(asked.load(Ordering::SeqCst), 2);
         drop((noise, silent));
     }

@@ -14,7 +14,7 @@ use windows_sys::Win32::Storage::FileSystem::SECURITY_IDENTIFICATION;
 use windows_sys::Win32::System::Pipes::GetNamedPipeServerProcessId;
 use windows_sys::Win32::UI::WindowsAndMessaging::AllowSetForegroundWindow;
 
-use super::exchange::{Shown, answer};
+use super::exchange::{ShowWindowOutcome, answer};
 use crate::platform::windows::access::Descriptor;
 use crate::workspace::WorkspaceLock;
 
@@ -32,7 +32,7 @@ impl StartRequests {
     /// Answers requests until it is dropped, and tells `on_request` of each. Needs a runtime when it is first polled.
     pub fn serve(
         &self,
-        shown: Shown,
+        shown: ShowWindowOutcome,
         on_request: impl Fn() + Send + Sync + 'static,
     ) -> impl Future<Output = ()> + Send + 'static {
         let (name, on_request) = (self.name.clone(), Arc::new(on_request));

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::exchange::{Shown, answer};
+use super::exchange::{ShowWindowOutcome, answer};
 use crate::workspace::WorkspaceLock;
 
 /// Waits for other starts on the workspace; its socket is removed when this is dropped.
@@ -33,7 +33,7 @@ impl StartRequests {
     /// Answers requests until it is dropped, and tells `on_request` of each. Needs a runtime when it is first polled.
     pub fn serve(
         &self,
-        shown: Shown,
+        shown: ShowWindowOutcome,
         on_request: impl Fn() + Send + Sync + 'static,
     ) -> impl Future<Output = ()> + Send + 'static {
         let listener = self.listener.try_clone();

@@ -10,9 +10,9 @@ use crate::pki::Fingerprint;
 /// The connection passwords in a vault, by the identity of their controller. An empty password is a password: the
 /// controller has none.
 #[derive(Default, Clone)]
-pub(super) struct Entries(BTreeMap<Fingerprint, SecretString>);
+pub(super) struct VaultEntries(BTreeMap<Fingerprint, SecretString>);
 
-impl Entries {
+impl VaultEntries {
     pub fn get(&self, controller: Fingerprint) -> Option<&SecretString> {
         self.0.get(&controller)
     }
@@ -64,7 +64,7 @@ impl Entries {
         bytes
     }
 
-    /// `None`: not what [`Entries::encode`] writes.
+    /// `None`: not what [`VaultEntries::encode`] writes.
     pub fn decode(bytes: &[u8]) -> Option<Self> {
         if !bytes.len().is_multiple_of(BLOCK) {
             return None;
@@ -94,15 +94,15 @@ mod tests {
     use super::*;
     use crate::model::{ErrorCode, Problem};
 
-    fn of(passwords: &[(&str, &str)]) -> Entries {
-        let mut entries = Entries::default();
+    fn of(passwords: &[(&str, &str)]) -> VaultEntries {
+        let mut entries = VaultEntries::default();
         for (controller, password) in passwords {
             assert!(entries.set(Fingerprint::of(controller.as_bytes()), &(*password).into()).unwrap());
         }
         entries
     }
 
-    fn password<'a>(entries: &'a Entries, controller: &str) -> Option<&'a str> {
+    fn password<'a>(entries: &'a VaultEntries, controller: &str) -> Option<&'a str> {
         entries.get(Fingerprint::of(controller.as_bytes())).map(|password| password.expose_secret())
     }
 
@@ -111,26 +111,26 @@ mod tests {
         let entries = of(&[("weld", "plant-password"), ("paint", ""), ("码垛", "密码 \u{1f916}")]);
         let bytes = entries.encode();
         assert_eq!(bytes.len(), of(&[("weld", "x")]).encode().len());
-        let read = Entries::decode(&bytes).unwrap();
+        let read = VaultEntries::decode(&bytes).unwrap();
         assert_eq!(password(&read, "weld"), Some("plant-password"));
         assert_eq!(password(&read, "paint"), Some(""), "no password is an answer");
         assert_eq!(password(&read, "码垛"), Some("密码 \u{1f916}"));
         assert_eq!(password(&read, "nobody"), None);
-        assert_eq!(Entries::decode(&Entries::default().encode()).unwrap().len(), 0);
+        assert_eq!(VaultEntries::decode(&VaultEntries::default().encode()).unwrap().len(), 0);
     }
 
     #[test]
     fn what_was_not_encoded_is_not_decoded() {
         let bytes = of(&[("weld", "plant-password")]).encode();
         for length in 0..bytes.len() {
-            assert!(Entries::decode(&bytes[..length]).is_none(), "{length}");
+            assert!(VaultEntries::decode(&bytes[..length]).is_none(), "{length}");
         }
         for (at, to) in [(0, 0xff), (36, 0xff), (38, 0xff), (bytes.len() - 1, 1)] {
             let mut changed = bytes.to_vec();
             changed[at] = to;
-            assert!(Entries::decode(&changed).is_none(), "{at}");
+            assert!(VaultEntries::decode(&changed).is_none(), "{at}");
         }
-        assert!(Entries::decode(&[&bytes[..], &[0; 1024]].concat()).is_none());
+        assert!(VaultEntries::decode(&[&bytes[..], &[0; 1024]].concat()).is_none());
     }
 
     #[test]
@@ -147,6 +147,6 @@ mod tests {
         }
         assert!(matches!(entries.set(Fingerprint::of(b"one more"), &"".into()), Err(VaultError::TooMany)));
         assert!(entries.set(controller, &"b".into()).unwrap(), "one that is there may change");
-        assert_eq!(Entries::decode(&entries.encode()).unwrap().len(), MAX_VAULT_PASSWORDS);
+        assert_eq!(VaultEntries::decode(&entries.encode()).unwrap().len(), MAX_VAULT_PASSWORDS);
     }
 }

@@ -25,7 +25,7 @@ pub(super) struct VaultFile {
 
 /// Why bytes are not a vault.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum NotAVault {
+pub(super) enum VaultFormatError {
     Damaged(String),
     Version(u32),
 }
@@ -37,24 +37,24 @@ const FORMAT: &str = "opcua-configurator-vault";
 pub(super) const MAX_VAULT_BYTES: u64 = 32 * 1024 * 1024;
 
 /// What the key must be, and what was sealed.
-pub(super) fn parse(bytes: &[u8]) -> Result<Sealed, NotAVault> {
+pub(super) fn parse(bytes: &[u8]) -> Result<Sealed, VaultFormatError> {
     /// What every version has.
     #[derive(Deserialize)]
-    struct Head {
+    struct VaultHeader {
         format: String,
         version: u32,
     }
-    let damaged = |reason: &str| NotAVault::Damaged(reason.to_owned());
-    let place = |e: serde_json::Error| NotAVault::Damaged(format!("line {}, column {}", e.line(), e.column()));
+    let damaged = |reason: &str| VaultFormatError::Damaged(reason.to_owned());
+    let place = |e: serde_json::Error| VaultFormatError::Damaged(format!("line {}, column {}", e.line(), e.column()));
     if bytes.len() as u64 > MAX_VAULT_BYTES {
-        return Err(NotAVault::Damaged(format!("it has more than {MAX_VAULT_BYTES} bytes")));
+        return Err(VaultFormatError::Damaged(format!("it has more than {MAX_VAULT_BYTES} bytes")));
     }
-    let head: Head = serde_json::from_slice(bytes).map_err(place)?;
+    let head: VaultHeader = serde_json::from_slice(bytes).map_err(place)?;
     if head.format != FORMAT {
         return Err(damaged("another format"));
     }
     if head.version != VERSION {
-        return Err(NotAVault::Version(head.version));
+        return Err(VaultFormatError::Version(head.version));
     }
     let file: VaultFile = serde_json::from_slice(bytes).map_err(place)?;
     let sealed = Sealed {

@@ -30,8 +30,8 @@ pub use limits::{MAX_VAULT_PASSWORD_BYTES, MAX_VAULT_PASSWORDS};
 
 use super::{WorkspaceError, atomic, check_passphrase, read_bounded, write_atomic};
 use crate::pki::{Fingerprint, SealCost, SealError, Sealed, SealingKey};
-use entries::Entries;
-use file::NotAVault;
+use entries::VaultEntries;
+use file::VaultFormatError;
 
 /// The vault of a workspace, whether there is one or not.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -64,7 +64,7 @@ impl VaultFiles {
         if self.exists() {
             return Err(VaultError::Exists(self.path()));
         }
-        let vault = Vault { files: self.clone(), key, entries: Entries::default() };
+        let vault = Vault { files: self.clone(), key, entries: VaultEntries::default() };
         vault.write(&vault.entries, &vault.key)?;
         Ok(vault)
     }
@@ -92,18 +92,18 @@ impl VaultFiles {
             Err(source) => return Err(WorkspaceError::Unreadable { path, source }.into()),
         };
         file::parse(&bytes).map_err(|error| match error {
-            NotAVault::Damaged(reason) => VaultError::Damaged { path, reason },
-            NotAVault::Version(version) => VaultError::Version { path, version },
+            VaultFormatError::Damaged(reason) => VaultError::Damaged { path, reason },
+            VaultFormatError::Version(version) => VaultError::Version { path, version },
         })
     }
 
-    fn entries(&self, sealed: &Sealed, key: &SealingKey) -> Result<Entries, VaultError> {
+    fn entries(&self, sealed: &Sealed, key: &SealingKey) -> Result<VaultEntries, VaultError> {
         let plain = file::open(sealed, key).map_err(|error| match error {
             SealError::NotOpened => VaultError::WrongPassphrase(self.path()),
             other => VaultError::Seal(other),
         })?;
         let damaged = || VaultError::Damaged { path: self.path(), reason: "its entries".to_owned() };
-        Entries::decode(&plain).ok_or_else(damaged)
+        VaultEntries::decode(&plain).ok_or_else(damaged)
     }
 }
 
@@ -112,7 +112,7 @@ pub struct Vault {
     files: VaultFiles,
     key: SealingKey,
     /// As they were when the file was read or written last.
-    entries: Entries,
+    entries: VaultEntries,
 }
 
 impl std::fmt::Debug for Vault {
@@ -187,7 +187,7 @@ impl Vault {
     }
 
     /// `change` says whether it changed anything.
-    fn update(&mut self, change: impl FnOnce(&mut Entries) -> Result<bool, VaultError>) -> Result<(), VaultError> {
+    fn update(&mut self, change: impl FnOnce(&mut VaultEntries) -> Result<bool, VaultError>) -> Result<(), VaultError> {
         let _lock = self.files.lock()?;
         let mut entries = self.read()?;
         if change(&mut entries)? {
@@ -197,7 +197,7 @@ impl Vault {
         Ok(())
     }
 
-    fn read(&self) -> Result<Entries, VaultError> {
+    fn read(&self) -> Result<VaultEntries, VaultError> {
         let sealed = self.files.read()?;
         if !self.key.has_salt_of(&sealed) {
             return Err(VaultError::PassphraseChanged(self.files.path()));
@@ -205,7 +205,7 @@ impl Vault {
         self.files.entries(&sealed, &self.key)
     }
 
-    fn write(&self, entries: &Entries, key: &SealingKey) -> Result<(), VaultError> {
+    fn write(&self, entries: &VaultEntries, key: &SealingKey) -> Result<(), VaultError> {
         let bytes = file::write(&entries.encode(), key).map_err(VaultError::Seal)?;
         Ok(write_atomic(&self.files.path(), &bytes)?)
     }

@@ -10,5 +10,5 @@ mod state;
 mod store;
 
 pub use faults::Faults;
-pub use state::{State, OperatingContext};
+pub use state::{ControllerState, OperatingContext};
 pub use store::{Store, StoreError};

@@ -12,7 +12,7 @@ use rcgen::{
     PKCS_RSA_SHA256, RsaKeySize, SanType,
 };
 
-use crate::common::desk::Desk;
+use crate::common::command_line_test::CommandLineTest;
 
 const MAKE: [&str; 12] = [
     "cert",
@@ -28,7 +28,7 @@ const MAKE: [&str; 12] = [
     "--yes",
     "cell",
 ];
-const PATIENCE: Duration = Duration::from_secs(60);
+const WAIT_LIMIT: Duration = Duration::from_secs(60);
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_refused_client_is_told_why_only_by_controllers_that_are_started_so() {
@@ -36,11 +36,11 @@ async fn a_refused_client_is_told_why_only_by_controllers_that_are_started_so() 
     let open = running(&["--detailed-status", "--allow-unknown-revocation"]);
     let folder = tempfile::tempdir().unwrap();
     let authority = make_client_and_authority(folder.path());
-    for (desk, told) in
+    for (cli, told) in
         [(&usual, StatusCode::BadSecurityChecksFailed), (&open, StatusCode::BadCertificateChainIncomplete)]
     {
-        assert_eq!(connect(desk, folder.path()).await, Err(told));
-        let trusted = desk.json(&["clients", "add", "--yes", "--list", "trusted", authority.to_str().unwrap(), "cell"]);
+        assert_eq!(connect(cli, folder.path()).await, Err(told));
+        let trusted = cli.json(&["clients", "add", "--yes", "--list", "trusted", authority.to_str().unwrap(), "cell"]);
         assert_eq!(trusted.0, Some(0), "{trusted:?}");
     }
     // The CA has given no revocation list.
@@ -49,18 +49,18 @@ async fn a_refused_client_is_told_why_only_by_controllers_that_are_started_so() 
 }
 
 /// One controller with a running server; `more` are arguments of `virtual`.
-fn running(more: &[&str]) -> Desk {
-    let desk = Desk::with(1, &[&["--seed", "3", "--firmware", "current"], more].concat());
-    assert_eq!(desk.add(0, "cell").0, Some(0));
+fn running(more: &[&str]) -> CommandLineTest {
+    let cli = CommandLineTest::with(1, &[&["--seed", "3", "--firmware", "current"], more].concat());
+    assert_eq!(cli.add(0, "cell").0, Some(0));
     for arguments in [
         &["settings", "set", "--policies", "Basic256Sha256", "--tokens", "anonymous", "--yes", "cell"][..],
         &MAKE,
         &["start", "cell"],
     ] {
-        let (code, lines) = desk.json(arguments);
+        let (code, lines) = cli.json(arguments);
         assert_eq!(code, Some(0), "{arguments:?}: {lines:?}");
     }
-    desk
+    cli
 }
 
 /// A client's key and certificate where the library looks for them, and the file with the CA that issued it.
@@ -97,7 +97,7 @@ fn make_client_and_authority(folder: &Path) -> std::path::PathBuf {
     authority_file
 }
 
-async fn connect(desk: &Desk, pki: &Path) -> Result<(), StatusCode> {
+async fn connect(cli: &CommandLineTest, pki: &Path) -> Result<(), StatusCode> {
     let mut client = ClientBuilder::new()
         .application_name("client")
         .application_uri("urn:client")
@@ -110,17 +110,17 @@ async fn connect(desk: &Desk, pki: &Path) -> Result<(), StatusCode> {
         .session_retry_limit(0)
         .client()
         .unwrap();
-    let url = desk.ready[0]["opcua"].as_str().unwrap();
+    let url = cli.ready[0]["opcua"].as_str().unwrap();
     let token = UserTokenPolicy { token_type: UserTokenType::Anonymous, ..Default::default() };
     let endpoint = (url, SecurityPolicy::Basic256Sha256.to_str(), MessageSecurityMode::SignAndEncrypt, token);
     let dialling = client.connect_to_matching_endpoint(endpoint, IdentityToken::Anonymous);
-    let (session, events) = tokio::time::timeout(PATIENCE, dialling).await.unwrap().map_err(|e| e.status())?;
+    let (session, events) = tokio::time::timeout(WAIT_LIMIT, dialling).await.unwrap().map_err(|e| e.status())?;
     let mut events = events.spawn();
     tokio::select! {
         _ = session.wait_for_connection() => {}
         status = &mut events => return Err(status.unwrap()),
-        () = tokio::time::sleep(PATIENCE) => panic!("neither connected nor refused"),
+        () = tokio::time::sleep(WAIT_LIMIT) => panic!("neither connected nor refused"),
     }
-    let _ = tokio::time::timeout(PATIENCE, session.disconnect()).await;
+    let _ = tokio::time::timeout(WAIT_LIMIT, session.disconnect()).await;
     Ok(())
 }

@@ -12,7 +12,7 @@ use opcua_configurator::pki::{Certificate, Crl};
 use opcua_configurator::workspace::Workspace;
 use serde_json::Value;
 
-use crate::common::desk::{self, DONE, Desk, assert_error, program};
+use crate::common::command_line_test::{self, CommandLineTest, DONE, assert_error, program};
 use crate::common::process::{Finished, Running};
 use crate::interop::peers::OpenSsl;
 
@@ -393,7 +393,10 @@ fn a_ca_killed_at_any_moment_forgets_nothing() {
             .map(|i| i["serial_number"].as_str().unwrap().to_owned())
             .collect();
         assert!(known.is_superset(&serials), "one was forgotten");
-        for file in desk::walk(&office.ca_file("")).iter().filter(|file| file.parent().unwrap().ends_with("issued")) {
+        for file in command_line_test::walk(&office.ca_file(""))
+            .iter()
+            .filter(|file| file.parent().unwrap().ends_with("issued"))
+        {
             let temporary = file.file_name().unwrap().to_string_lossy().starts_with(".writing-");
             assert!(temporary || known.contains(&*file.file_stem().unwrap().to_string_lossy()), "{}", file.display());
         }
@@ -410,13 +413,13 @@ fn a_ca_killed_at_any_moment_forgets_nothing() {
 
 #[test]
 fn controllers_get_ca_signed_certificates_in_one_command() {
-    let desk = Desk::with(3, &["--seed", "3", "--firmware", "mixed"]);
+    let cli = CommandLineTest::with(3, &["--seed", "3", "--firmware", "mixed"]);
     for (index, name) in ["weld", "paint", "glue"].into_iter().enumerate() {
-        assert_eq!(desk.add(index, name).0, Some(0));
+        assert_eq!(cli.add(index, name).0, Some(0));
     }
-    let passphrase = desk.file("passphrase");
+    let passphrase = cli.file("passphrase");
     fs::write(&passphrase, PASSPHRASE).unwrap();
-    let ca = |arguments: &[&str]| desk.json(&[&["ca"], arguments, &["--passphrase-file", &passphrase]].concat());
+    let ca = |arguments: &[&str]| cli.json(&[&["ca"], arguments, &["--passphrase-file", &passphrase]].concat());
     assert_error(&ca(&["sign-controllers", "--yes", "--all"]).1, "no-authority");
     assert_eq!(ca(&["init", "--cn", "Plant CA", "--bits", "2048"]).0, Some(0));
     assert_error(&ca(&["sign-controllers", "--all"]).1, "not-confirmed");
@@ -426,7 +429,7 @@ fn controllers_get_ca_signed_certificates_in_one_command() {
         assert_eq!(code, Some(0), "{lines:?}");
         lines
     };
-    let issued = || desk.json(&["ca", "show"]).1[0]["result"]["issued"].as_array().unwrap().clone();
+    let issued = || cli.json(&["ca", "show"]).1[0]["result"]["issued"].as_array().unwrap().clone();
     let first = sign(&["--all"]);
     assert_eq!((first.len(), issued().len()), (3, 3));
     for line in &first {
@@ -436,17 +439,17 @@ fn controllers_get_ca_signed_certificates_in_one_command() {
         let entry = issued().into_iter().find(|issued| issued["serial_number"] == *serial).unwrap();
         assert_eq!(entry["controller"]["name"], line["controller"]);
     }
-    let (code, started) = desk.json(&["start", "--all"]);
+    let (code, started) = cli.json(&["start", "--all"]);
     assert_eq!(code, Some(0), "{started:?}");
 
     // Once more changes nothing, neither in the CA nor in the controllers.
     let revisions =
         |lines: Vec<Value>| lines.into_iter().map(|line| line["result"]["revision"].clone()).collect::<Vec<_>>();
-    let before = revisions(desk.json(&["info", "--all"]).1);
+    let before = revisions(cli.json(&["info", "--all"]).1);
     let certificates =
         |lines: &[Value]| -> Vec<_> { lines.iter().map(|l| l["result"]["certificate"].clone()).collect() };
     assert_eq!(certificates(&sign(&["--all"])), certificates(&first));
-    assert_eq!((issued().len(), revisions(desk.json(&["info", "--all"]).1)), (3, before));
+    assert_eq!((issued().len(), revisions(cli.json(&["info", "--all"]).1)), (3, before));
 
     // A renewal is another certificate for the same key, a new key another request.
     let renewed = sign(&["--renew", "weld"]);
@@ -460,15 +463,15 @@ fn controllers_get_ca_signed_certificates_in_one_command() {
 
 #[test]
 fn controllers_learn_of_the_ca_and_of_what_it_revoked() {
-    let desk = Desk::with(2, &["--seed", "3", "--firmware", "mixed"]);
+    let cli = CommandLineTest::with(2, &["--seed", "3", "--firmware", "mixed"]);
     for (index, name) in ["weld", "paint"].into_iter().enumerate() {
-        assert_eq!(desk.add(index, name).0, Some(0));
+        assert_eq!(cli.add(index, name).0, Some(0));
     }
-    let passphrase = desk.file("passphrase");
+    let passphrase = cli.file("passphrase");
     fs::write(&passphrase, PASSPHRASE).unwrap();
-    let ca = |arguments: &[&str]| desk.json(&[&["ca"], arguments, &["--passphrase-file", &passphrase]].concat());
+    let ca = |arguments: &[&str]| cli.json(&[&["ca"], arguments, &["--passphrase-file", &passphrase]].concat());
     assert_eq!(ca(&["init", "--cn", "Plant CA", "--bits", "2048", "--intermediate"]).0, Some(0));
-    let number = || desk.json(&["ca", "show"]).1[0]["result"]["ca"]["crl"]["number"].clone();
+    let number = || cli.json(&["ca", "show"]).1[0]["result"]["ca"]["crl"]["number"].clone();
     let first = number();
     assert_error(&ca(&["crl", "--push", "weld"]).1, "not-confirmed");
     assert_error(&ca(&["crl", "--yes", "--push"]).1, "unknown-controller");
@@ -491,10 +494,10 @@ fn controllers_learn_of_the_ca_and_of_what_it_revoked() {
     assert_eq!(counts(&[&push[..], &["--trust"]].concat()), ([2, 0, 2], [2, 2, 2]));
 
     assert_eq!(ca(&["sign-controllers", "--yes", "weld"]).0, Some(0));
-    let serial = desk.json(&["ca", "show"]).1[0]["result"]["issued"][0]["serial_number"].as_str().unwrap().to_owned();
+    let serial = cli.json(&["ca", "show"]).1[0]["result"]["issued"][0]["serial_number"].as_str().unwrap().to_owned();
     assert_eq!(ca(&["revoke", &serial, "--reason", "cessationOfOperation"]).0, Some(0));
     assert_eq!(ca(&push).0, Some(0));
-    let (_, held) = desk.json(&["crl", "list", "--all"]);
+    let (_, held) = cli.json(&["crl", "list", "--all"]);
     for line in held {
         let crls = line["result"]["crls"].as_array().unwrap();
         let entries: u64 = crls.iter().map(|crl| crl["crl"]["entries"].as_u64().unwrap()).sum();

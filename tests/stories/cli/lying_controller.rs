@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use opcua_configurator::model::{ClientList, ErrorCode, Problem};
-use opcua_configurator::session::{Connector as _, ControllerSession, ManagementConnector, Timeouts};
+use opcua_configurator::session::{Connector as _, ControllerSession, ManagementConnector, ManagementTimeouts};
 use serde_json::{Value, json};
 
-use crate::common::desk::program;
+use crate::common::command_line_test::program;
 use crate::common::https;
 use crate::common::process::{Finished, Running};
 
@@ -61,7 +61,7 @@ impl Liar {
     }
 
     fn session(&self) -> Box<dyn ControllerSession> {
-        let timeouts = Timeouts { connect: DEADLINE, read: DEADLINE, change: DEADLINE };
+        let timeouts = ManagementTimeouts { connect: DEADLINE, read: DEADLINE, change: DEADLINE };
         let address = self.address.parse().unwrap();
         let connector = ManagementConnector { timeouts };
         let connecting = async { connector.connect(&address, self.fingerprint, &"".into()).await };

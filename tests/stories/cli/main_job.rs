@@ -6,18 +6,18 @@ use std::time::Duration;
 
 use serde_json::Value;
 
-use crate::common::desk::{DONE, Desk, assert_error, program, walk};
+use crate::common::command_line_test::{CommandLineTest, DONE, assert_error, program, walk};
 use crate::common::process::Running;
 
 #[test]
 fn from_an_empty_workspace_to_three_running_servers() {
-    let desk = Desk::start(3);
+    let cli = CommandLineTest::start(3);
     for (index, name) in ["weld", "paint", "码垛"].iter().enumerate() {
-        assert_eq!(desk.add(index, name).0, Some(0));
+        assert_eq!(cli.add(index, name).0, Some(0));
     }
-    let listed = desk.run(&["controllers", "list"]);
+    let listed = cli.run(&["controllers", "list"]);
     assert!(listed.stdout.contains("码垛") && listed.code == Some(0), "{}", listed.stdout);
-    let (code, made) = desk.json(&[
+    let (code, made) = cli.json(&[
         "cert",
         "self-signed",
         "--country",
@@ -36,36 +36,36 @@ fn from_an_empty_workspace_to_three_running_servers() {
         "--all",
     ]);
     assert_eq!((code, made.len()), (Some(0), 3), "{made:?}");
-    let user_password = desk.file("user-password");
+    let user_password = cli.file("user-password");
     for arguments in [
         &["settings", "set", "--policies", "Basic256Sha256", "--tokens", "username", "--yes", "--all"][..],
         &["users", "add", "operator1", "--password-file", &user_password, "--yes", "--all"],
         &["start", "--all"],
     ] {
-        let (code, lines) = desk.json(arguments);
+        let (code, lines) = cli.json(arguments);
         assert_eq!(code, Some(0), "{lines:?}");
     }
-    let (_, infos) = desk.json(&["info", "--all"]);
+    let (_, infos) = cli.json(&["info", "--all"]);
     assert!(infos.iter().all(|line| line["result"]["status"] == "Run"), "{infos:?}");
-    let (_, users) = desk.json(&["users", "list", "weld"]);
+    let (_, users) = cli.json(&["users", "list", "weld"]);
     assert_eq!(users[0]["result"]["users"][0], "operator1");
-    let (_, settings) = desk.json(&["settings", "show", "weld"]);
+    let (_, settings) = cli.json(&["settings", "show", "weld"]);
     assert_eq!(settings[0]["result"]["security_policies"], serde_json::json!(["Basic256Sha256"]));
-    let table = desk.run(&["info", "weld", "paint"]);
+    let table = cli.run(&["info", "weld", "paint"]);
     assert!(table.stdout.lines().next().unwrap().starts_with("NAME "), "{}", table.stdout);
     assert_eq!(table.stdout.lines().count(), 3);
-    let (code, removed) = desk.json(&["users", "remove", "operator1", "weld", "paint", "--yes"]);
+    let (code, removed) = cli.json(&["users", "remove", "operator1", "weld", "paint", "--yes"]);
     assert_eq!((code, removed.len()), (Some(0), 2));
-    assert_eq!(desk.json(&["stop", "--yes", "--all"]).0, Some(0));
-    assert_eq!(desk.json(&["controllers", "remove", "paint"]).0, Some(0));
-    assert_eq!(desk.json(&["controllers", "list"]).1.len(), 2);
+    assert_eq!(cli.json(&["stop", "--yes", "--all"]).0, Some(0));
+    assert_eq!(cli.json(&["controllers", "remove", "paint"]).0, Some(0));
+    assert_eq!(cli.json(&["controllers", "list"]).1.len(), 2);
 }
 
 #[test]
 fn a_request_that_is_wrong_sends_nothing_and_ends_with_2() {
-    let desk = Desk::start(2);
-    assert_eq!((desk.add(0, "weld").0, desk.add(1, "paint").0), (Some(0), Some(0)));
-    let user_password = desk.file("user-password");
+    let cli = CommandLineTest::start(2);
+    assert_eq!((cli.add(0, "weld").0, cli.add(1, "paint").0), (Some(0), Some(0)));
+    let user_password = cli.file("user-password");
     for (arguments, code) in [
         (&["start", "wled"][..], "unknown-controller"),
         (&["settings", "set", "--port", "80", "--yes", "weld"], "bad-port"),
@@ -91,19 +91,19 @@ fn a_request_that_is_wrong_sends_nothing_and_ends_with_2() {
         (&["controllers", "add", "x", "10.0.0.1", "--series", "RC90", "--fingerprint", "12"], "bad-fingerprint"),
         (&["controllers", "remove", "nobody"], "unknown-controller"),
     ] {
-        let (exit, lines) = desk.json(arguments);
+        let (exit, lines) = cli.json(arguments);
         assert_eq!(exit, Some(2), "{arguments:?} {lines:?}");
         assert_error(&lines, code);
     }
-    assert_eq!(desk.run(&["no-such-command"]).code, Some(2));
-    assert_eq!(desk.json(&["info", "weld"]).1[0]["result"]["revision"], 1, "nothing was changed");
+    assert_eq!(cli.run(&["no-such-command"]).code, Some(2));
+    assert_eq!(cli.json(&["info", "weld"]).1[0]["result"]["revision"], 1, "nothing was changed");
 }
 
 #[test]
 fn a_controller_that_fails_ends_with_1_and_says_why() {
-    let desk = Desk::start(1);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
-    let (code, lines) = desk.json(&["start", "weld"]);
+    let cli = CommandLineTest::start(1);
+    assert_eq!(cli.add(0, "weld").0, Some(0));
+    let (code, lines) = cli.json(&["start", "weld"]);
     assert_eq!(code, Some(1));
     assert_error(&lines, "7931");
     for (arguments, error) in [
@@ -111,36 +111,36 @@ fn a_controller_that_fails_ends_with_1_and_says_why() {
         (&["cert", "export", "--yes", "weld"], "certificate-not-stored"),
         (&["cert", "import-ca", "--yes", "weld"], "file-not-found"),
     ] {
-        let (code, lines) = desk.json(arguments);
+        let (code, lines) = cli.json(arguments);
         assert_eq!(code, Some(1), "{arguments:?} {lines:?}");
         assert_error(&lines, error);
     }
-    let people = desk.run(&["--lang", "zh", "start", "weld"]);
+    let people = cli.run(&["--lang", "zh", "start", "weld"]);
     assert!(people.stderr.contains("未配置服务器证书"), "{}", people.stderr);
-    let table = desk.run(&["info", "weld", "--lang", "zh"]).stdout;
+    let table = cli.run(&["info", "weld", "--lang", "zh"]).stdout;
     assert!(table.contains("状态") && table.contains("错误 (7931)") && !table.contains("STATUS"), "{table}");
-    let help = desk.run(&["--lang", "zh", "settings", "set", "--help"]).stdout;
+    let help = cli.run(&["--lang", "zh", "settings", "set", "--help"]).stdout;
     assert!(help.contains("用法：") && help.contains("删除控制器中的服务器日志"), "{help}");
-    fs::write(desk.folder.path().join("password"), "wrong").unwrap();
-    let (code, lines) = desk.json(&["info", "weld"]);
+    fs::write(cli.folder.path().join("password"), "wrong").unwrap();
+    let (code, lines) = cli.json(&["info", "weld"]);
     assert_eq!(code, Some(1));
     assert_error(&lines, "wrong-password");
     let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let nowhere = listener.local_addr().unwrap().to_string();
     drop(listener);
     let add = ["controllers", "add", "x", &nowhere, "--series", "RC90", "--trust-on-first-use"];
-    let (code, lines) = desk.json(&add);
+    let (code, lines) = cli.json(&add);
     assert_eq!(code, Some(1));
     assert_error(&lines, "unreachable");
 }
 
 #[test]
 fn a_password_is_read_from_standard_input_and_shown_nowhere() {
-    let desk = Desk::start(1);
-    let ready = &desk.ready[0];
+    let cli = CommandLineTest::start(1);
+    let ready = &cli.ready[0];
     let mut child = program()
         .arg("--workspace")
-        .arg(desk.workspace())
+        .arg(cli.workspace())
         .args(["-vvv", "controllers", "add", "weld", ready["management"].as_str().unwrap(), "--series", "RC800"])
         .args(["--trust-on-first-use", "--password-file", "-"])
         .stdin(std::process::Stdio::piped())
@@ -153,7 +153,7 @@ fn a_password_is_read_from_standard_input_and_shown_nowhere() {
     let (out, err) = (String::from_utf8_lossy(&output.stdout), String::from_utf8_lossy(&output.stderr));
     assert!(output.status.success(), "{err}");
     assert!(!err.is_empty() && !out.contains("plant-password") && !err.contains("plant-password"));
-    for entry in walk(&desk.workspace()) {
+    for entry in walk(&cli.workspace()) {
         let text = String::from_utf8_lossy(&fs::read(&entry).unwrap()).into_owned();
         assert!(!text.contains("plant-password"), "{}", entry.display());
     }
@@ -161,15 +161,15 @@ fn a_password_is_read_from_standard_input_and_shown_nowhere() {
 
 #[test]
 fn a_damaged_configuration_is_kept_and_said_so() {
-    let desk = Desk::start(1);
-    fs::create_dir_all(desk.workspace()).unwrap();
-    let file = desk.workspace().join("epson_opcua_config.json");
+    let cli = CommandLineTest::start(1);
+    fs::create_dir_all(cli.workspace()).unwrap();
+    let file = cli.workspace().join("epson_opcua_config.json");
     fs::write(&file, "{\"version\":1,\"controllers\":[{").unwrap();
-    let finished = desk.run(&["controllers", "list"]);
+    let finished = cli.run(&["controllers", "list"]);
     assert_eq!(finished.code, Some(0));
     assert!(finished.stderr.contains("configuration file was damaged"), "{}", finished.stderr);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
-    let kept = walk(&desk.workspace()).into_iter().find(|p| p.to_string_lossy().contains("damaged")).unwrap();
+    assert_eq!(cli.add(0, "weld").0, Some(0));
+    let kept = walk(&cli.workspace()).into_iter().find(|p| p.to_string_lossy().contains("damaged")).unwrap();
     assert_eq!(fs::read_to_string(kept).unwrap(), "{\"version\":1,\"controllers\":[{");
 }
 
@@ -177,35 +177,35 @@ fn a_damaged_configuration_is_kept_and_said_so() {
 #[cfg(unix)]
 #[test]
 fn a_full_disk_leaves_the_configuration_as_it_was() {
-    let desk = Desk::start(2);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
-    let file = desk.workspace().join("epson_opcua_config.json");
+    let cli = CommandLineTest::start(2);
+    assert_eq!(cli.add(0, "weld").0, Some(0));
+    let file = cli.workspace().join("epson_opcua_config.json");
     let before = fs::read(&file).unwrap();
-    let ready = &desk.ready[1];
+    let ready = &cli.ready[1];
     let finished = Running::start(
         Command::new("sh")
             .args(["-c", "trap '' XFSZ; ulimit -f 1; exec \"$@\"", "sh", env!("CARGO_BIN_EXE_opcua-configurator")])
             .env("RUST_BACKTRACE", "0")
             .arg("--workspace")
-            .arg(desk.workspace())
+            .arg(cli.workspace())
             .args(["--json", "controllers", "add", "paint", ready["management"].as_str().unwrap()])
-            .args(["--series", "RC800", "--trust-on-first-use", "--password-file", &desk.file("password")]),
+            .args(["--series", "RC800", "--trust-on-first-use", "--password-file", &cli.file("password")]),
     )
     .unwrap()
     .finish(DONE);
     let line: Value = serde_json::from_str(finished.stdout.lines().next().unwrap()).unwrap();
     assert_error(&[line], "workspace-full");
     assert_eq!(fs::read(&file).unwrap(), before);
-    assert_eq!(desk.json(&["controllers", "list"]).1.len(), 1);
+    assert_eq!(cli.json(&["controllers", "list"]).1.len(), 1);
 }
 
 #[test]
 fn an_app_killed_in_mid_job_leaves_pc_and_controllers_whole() {
-    let desk = Desk::start(3);
+    let cli = CommandLineTest::start(3);
     for index in 0..3 {
-        assert_eq!(desk.add(index, &format!("cell{index}")).0, Some(0));
+        assert_eq!(cli.add(index, &format!("cell{index}")).0, Some(0));
     }
-    assert_eq!(desk.run(&["backup", "on"]).code, Some(0));
+    assert_eq!(cli.run(&["backup", "on"]).code, Some(0));
     let make = [
         "cert",
         "self-signed",
@@ -221,22 +221,22 @@ fn an_app_killed_in_mid_job_leaves_pc_and_controllers_whole() {
         "--all",
     ];
     for milliseconds in [50, 150, 300, 600] {
-        let job = Running::start(desk.command().args(make)).unwrap();
+        let job = Running::start(cli.command().args(make)).unwrap();
         std::thread::sleep(Duration::from_millis(milliseconds));
         drop(job);
-        let (code, infos) = desk.json(&["info", "--all"]);
+        let (code, infos) = cli.json(&["info", "--all"]);
         assert_eq!((code, infos.len()), (Some(0), 3), "{infos:?}");
-        for file in walk(&desk.workspace()).iter().filter(|f| f.extension().is_some_and(|e| e == "der")) {
+        for file in walk(&cli.workspace()).iter().filter(|f| f.extension().is_some_and(|e| e == "der")) {
             let whole = opcua_configurator::pki::Certificate::from_der(&fs::read(file).unwrap());
             assert!(whole.is_ok(), "{} is half-written", file.display());
         }
     }
     // A controller may still be at the change of the killed job, and then says that it was changed meanwhile.
-    let (_, lines) = desk.json(&make);
+    let (_, lines) = cli.json(&make);
     for line in lines.iter().filter(|line| line["ok"] == false) {
         assert_error(std::slice::from_ref(line), "changed-meanwhile");
     }
-    let (code, lines) = desk.json(&make);
+    let (code, lines) = cli.json(&make);
     assert_eq!(code, Some(0), "the job can simply be repeated: {lines:?}");
 }
 
@@ -290,21 +290,21 @@ fn controllers_killed_in_mid_change_come_back_whole() {
 
 #[test]
 fn one_workspace_is_for_one_program_at_a_time() {
-    let desk = Desk::start(1);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
-    let held = opcua_configurator::workspace::Workspace::new(desk.workspace()).lock().unwrap();
-    let (exit, lines) = desk.json(&["controllers", "remove", "weld"]);
+    let cli = CommandLineTest::start(1);
+    assert_eq!(cli.add(0, "weld").0, Some(0));
+    let held = opcua_configurator::workspace::Workspace::new(cli.workspace()).lock().unwrap();
+    let (exit, lines) = cli.json(&["controllers", "remove", "weld"]);
     assert_eq!(exit, Some(2));
     assert_error(&lines, "workspace-busy");
     drop(held);
-    assert_eq!(desk.json(&["controllers", "remove", "weld"]).0, Some(0));
+    assert_eq!(cli.json(&["controllers", "remove", "weld"]).0, Some(0));
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn a_window_without_a_display_says_so() {
-    let desk = Desk::start(1);
-    let mut command = desk.command();
+    let cli = CommandLineTest::start(1);
+    let mut command = cli.command();
     command.arg("--json").env_remove("DISPLAY").env_remove("WAYLAND_DISPLAY").env_remove("WAYLAND_SOCKET");
     let finished = Running::start(&mut command).unwrap().finish(DONE);
     assert_eq!(finished.code, Some(2), "{}", finished.stderr);

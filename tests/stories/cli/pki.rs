@@ -30,7 +30,7 @@ fn show(folder: &Path, arguments: &[&str]) -> Vec<Value> {
 }
 
 /// A CA and an application it issued, in `trusted/ca.der`, `crls/ca.crl`, `app.pem` and `app.key`.
-fn plant(folder: &Path) {
+fn fleet(folder: &Path) {
     for name in ["trusted", "issuers", "crls"] {
         fs::create_dir(folder.join(name)).unwrap();
     }
@@ -90,7 +90,7 @@ fn crl(ca: &Issuer<'_, KeyPair>, revoked: &[u64]) -> Vec<u8> {
 fn verify_prints_the_opc_ua_status_and_says_why() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    plant(folder);
+    fleet(folder);
     fs::create_dir(folder.join("none")).unwrap();
     fs::create_dir(folder.join("revoked")).unwrap();
     fs::rename(folder.join("revoked.crl"), folder.join("revoked/ca.crl")).unwrap();
@@ -202,7 +202,7 @@ fn the_reason_decides_what_is_said_and_not_the_status() {
 fn a_wrong_request_is_no_verdict() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    plant(folder);
+    fleet(folder);
     fs::write(folder.join("issuers/empty.der"), "").unwrap();
     for arguments in [
         &["--trusted", "trusted", "--issuers", "issuers", "--crls", "crls", "app.pem"][..],
@@ -224,7 +224,7 @@ fn a_wrong_request_is_no_verdict() {
 fn show_tells_everything_public_and_no_secret() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    plant(folder);
+    fleet(folder);
     let shown = show(folder, &["app.pem"]);
     let app = &shown[0];
     assert_eq!((shown.len(), &app["kind"]), (1, &Value::from("certificate")));
@@ -262,7 +262,7 @@ fn show_tells_everything_public_and_no_secret() {
 fn show_reads_what_openssl_writes() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    plant(folder);
+    fleet(folder);
     fs::write(folder.join("password"), "secret\n").unwrap();
     let openssl = |arguments: &str| {
         let mut command = Command::new("openssl");

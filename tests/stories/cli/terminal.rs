@@ -14,7 +14,7 @@ use parking_lot::Mutex;
 use rcgen::SanType;
 
 use crate::common::ca::Ca;
-use crate::common::desk::{DONE, Desk, program, walk};
+use crate::common::command_line_test::{CommandLineTest, DONE, program, walk};
 use crate::common::process::{Finished, Running};
 
 /// Both ends of a terminal: the keyboard, and what a program reads from.
@@ -38,7 +38,7 @@ fn echoes(terminal: &File) -> bool {
     unsafe { settings.assume_init() }.c_lflag & libc::ECHO != 0
 }
 
-impl Desk {
+impl CommandLineTest {
     /// Runs with a terminal on which this is typed.
     fn typing(&self, typed: &str, arguments: &[&str]) -> Finished {
         let (mut keyboard, program) = terminal();
@@ -98,19 +98,19 @@ impl Desk {
 
 #[test]
 fn warnings_about_a_certificate_are_asked_in_the_persons_language_and_not_demanded_again() {
-    let desk = Desk::start(1);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
+    let cli = CommandLineTest::start(1);
+    assert_eq!(cli.add(0, "weld").0, Some(0));
     let subject = ["--country", "jp", "--state", "Nagano", "--locality", "Suwa", "--organisation", "Example"];
-    let asked = desk.typing("y\n", &[&["cert", "csr"][..], &subject, &["weld"]].concat());
+    let asked = cli.typing("y\n", &[&["cert", "csr"][..], &subject, &["weld"]].concat());
     assert_eq!(asked.code, Some(0), "{}", asked.stderr);
-    let csr = Csr::from_any(&fs::read(desk.found("3_csr.der").unwrap()).unwrap()).unwrap();
+    let csr = Csr::from_any(&fs::read(cli.found("3_csr.der").unwrap()).unwrap()).unwrap();
     let nowhere = |p: &mut rcgen::CertificateParams| p.subject_alt_names.retain(|n| matches!(n, SanType::URI(_)));
-    let file = desk.file("from the CA.der");
+    let file = cli.file("from the CA.der");
     fs::write(&file, Ca::new().sign_changed(&csr, nowhere)).unwrap();
     let import = ["--lang", "zh", "cert", "import-ca", "--file", &file, "weld"];
-    let kind = |desk: &Desk| desk.json(&["info", "weld"]).1[0]["result"]["certificate"]["type"].clone();
+    let kind = |cli: &CommandLineTest| cli.json(&["info", "weld"]).1[0]["result"]["certificate"]["type"].clone();
 
-    let refused = desk.typing("n\n", &import);
+    let refused = cli.typing("n\n", &import);
     assert_eq!(refused.code, Some(2));
     assert!(
         refused.stderr.contains("weld: 警告: ") && refused.stderr.contains("是否继续？[y/N]"),
@@ -118,38 +118,38 @@ fn warnings_about_a_certificate_are_asked_in_the_persons_language_and_not_demand
         refused.stderr
     );
     assert!(refused.stderr.contains("客户端可能对以上各项发出警告"), "{}", refused.stderr);
-    assert_ne!(kind(&desk), "ca-signed");
+    assert_ne!(kind(&cli), "ca-signed");
 
     // Without a terminal, as ever: nothing is asked.
-    let nobody = desk.run(&import[2..]);
+    let nobody = cli.run(&import[2..]);
     assert_eq!(nobody.code, Some(2), "{}", nobody.stderr);
 
-    let agreed = desk.typing("y\n", &import);
+    let agreed = cli.typing("y\n", &import);
     assert_eq!(agreed.code, Some(0), "{}", agreed.stderr);
     assert!(agreed.stdout.contains("Plant CA"), "{}", agreed.stdout);
 
     // One that clients would refuse is not asked about.
     let nobody = |p: &mut rcgen::CertificateParams| p.subject_alt_names.retain(|n| !matches!(n, SanType::URI(_)));
     fs::write(&file, Ca::new().sign_changed(&csr, nobody)).unwrap();
-    let bad = desk.typing("y\n", &import);
+    let bad = cli.typing("y\n", &import);
     assert_eq!(bad.code, Some(1), "{}", bad.stderr);
     assert!(bad.stderr.contains("weld: 错误: ") && !bad.stderr.contains("是否继续"), "{}", bad.stderr);
 }
 
 #[test]
 fn an_import_of_settings_says_that_it_may_replace_the_keys() {
-    let desk = Desk::start(1);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
-    let asked = desk.typing("n\n", &["import-settings", "weld"]);
+    let cli = CommandLineTest::start(1);
+    assert_eq!(cli.add(0, "weld").0, Some(0));
+    let asked = cli.typing("n\n", &["import-settings", "weld"]);
     assert_eq!(asked.code, Some(2));
     assert!(asked.stderr.contains("activation keys if it holds any"), "{}", asked.stderr);
 }
 
 #[test]
 fn a_stop_and_a_request_say_that_the_server_stays_stopped() {
-    let desk = Desk::with(1, &["--firmware", "legacy"]);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
-    let stop = desk.typing("n\n", &["stop", "weld"]);
+    let cli = CommandLineTest::with(1, &["--firmware", "legacy"]);
+    assert_eq!(cli.add(0, "weld").0, Some(0));
+    let stop = cli.typing("n\n", &["stop", "weld"]);
     assert_eq!(stop.code, Some(2));
     assert!(
         stop.stderr.contains("The OPC UA server is stopped.") && !stop.stderr.contains("started again"),
@@ -157,30 +157,30 @@ fn a_stop_and_a_request_say_that_the_server_stays_stopped() {
         stop.stderr
     );
     let subject = ["--country", "jp", "--state", "Nagano", "--locality", "Suwa", "--organisation", "Example"];
-    let request = desk.typing("n\n", &[&["cert", "csr"][..], &subject, &["weld"]].concat());
+    let request = cli.typing("n\n", &[&["cert", "csr"][..], &subject, &["weld"]].concat());
     assert!(request.stderr.contains("stays stopped until another certificate"), "{}", request.stderr);
-    let chinese = desk.typing("n\n", &["--lang", "zh", "stop", "weld"]);
+    let chinese = cli.typing("n\n", &["--lang", "zh", "stop", "weld"]);
     assert!(chinese.stderr.contains("将停止 OPC UA 服务器"), "{}", chinese.stderr);
 }
 
 #[test]
 fn the_passphrase_of_the_vault_is_asked_for_and_not_shown() {
-    let desk = Desk::start(1);
-    assert_eq!(desk.add(0, "weld").0, Some(0));
+    let cli = CommandLineTest::start(1);
+    assert_eq!(cli.add(0, "weld").0, Some(0));
     let (first, again) = ("Passphrase of the vault: ", "The same again: ");
-    let (code, shown) = desk.answering(&[(first, "correct horse"), (again, "correct house")], &["vault", "init"]);
+    let (code, shown) = cli.answering(&[(first, "correct horse"), (again, "correct house")], &["vault", "init"]);
     assert!(code == Some(2) && shown.contains("differ"), "{shown}");
-    let (code, shown) = desk.answering(&[(first, "correct horse"), (again, "correct horse")], &["vault", "init"]);
+    let (code, shown) = cli.answering(&[(first, "correct horse"), (again, "correct horse")], &["vault", "init"]);
     assert!(code == Some(0) && !shown.contains("horse"), "{shown}");
-    fs::write(desk.folder.path().join("list.csv"), "Name,Password\nweld,plant-password\n").unwrap();
-    let list = desk.file("list.csv");
-    assert_eq!(desk.answering(&[(first, "correct horse")], &["vault", "import", &list]).0, Some(0));
+    fs::write(cli.folder.path().join("list.csv"), "Name,Password\nweld,plant-password\n").unwrap();
+    let list = cli.file("list.csv");
+    assert_eq!(cli.answering(&[(first, "correct horse")], &["vault", "import", &list]).0, Some(0));
 
-    let (code, shown) = desk.answering(&[(first, "correct horse")], &["info", "weld"]);
+    let (code, shown) = cli.answering(&[(first, "correct horse")], &["info", "weld"]);
     assert_eq!(code, Some(0), "{shown}");
-    let (code, shown) = desk.answering(&[(first, "correct house")], &["info", "weld"]);
+    let (code, shown) = cli.answering(&[(first, "correct house")], &["info", "weld"]);
     assert!(code == Some(2) && shown.contains("does not open the vault"), "{shown}");
     // Who has no passphrase presses Enter.
-    let (code, shown) = desk.answering(&[(first, "")], &["info", "weld"]);
+    let (code, shown) = cli.answering(&[(first, "")], &["info", "weld"]);
     assert!(code == Some(1) && shown.contains("connection password is not known"), "{shown}");
 }

@@ -4,7 +4,7 @@ use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
-use crate::common::desk::{DONE, Desk, assert_error, program};
+use crate::common::command_line_test::{CommandLineTest, DONE, assert_error, program};
 use crate::common::process::Running;
 
 /// Switches all controllers of the fleet.
@@ -17,14 +17,14 @@ fn switch(data: &str, arguments: &[&str]) -> Vec<Value> {
 }
 
 /// Repeats a command until it ends as expected: switches are looked at twice a second.
-fn until(desk: &Desk, arguments: &[&str], holds: impl Fn(&Value) -> bool) {
+fn until(cli: &CommandLineTest, arguments: &[&str], holds: impl Fn(&Value) -> bool) {
     let end = Instant::now() + Duration::from_secs(60);
     loop {
         // A server that was started before the switch was seen would stay so.
         if arguments[0] == "start" {
-            desk.json(&["stop", "cell", "--yes"]);
+            cli.json(&["stop", "cell", "--yes"]);
         }
-        let (_, lines) = desk.json(arguments);
+        let (_, lines) = cli.json(arguments);
         if holds(&lines[0]) {
             return;
         }
@@ -36,25 +36,25 @@ fn until(desk: &Desk, arguments: &[&str], holds: impl Fn(&Value) -> bool) {
 fn faults_are_switched_from_another_process() {
     let folder = tempfile::tempdir().unwrap();
     let data = folder.path().join("fleet").display().to_string();
-    let desk = Desk::with(1, &["--firmware", "current", "--data", &data]);
-    assert_eq!(desk.add(0, "cell").0, Some(0));
-    let serial = desk.ready[0]["serial"].as_str().unwrap();
+    let cli = CommandLineTest::with(1, &["--firmware", "current", "--data", &data]);
+    assert_eq!(cli.add(0, "cell").0, Some(0));
+    let serial = cli.ready[0]["serial"].as_str().unwrap();
     let names = ["--country", "JP", "--state", "x", "--locality", "x", "--organisation", "x"];
-    assert_eq!(desk.json(&[&["cert", "self-signed", "--yes", "cell"][..], &names].concat()).0, Some(0));
+    assert_eq!(cli.json(&[&["cert", "self-signed", "--yes", "cell"][..], &names].concat()).0, Some(0));
 
     let refused = |code: &'static str| move |line: &Value| line["error"]["code"] == code;
     let shown = switch(&data, &["--task-running", "on", serial]);
     assert_eq!((&shown[0]["serial"], &shown[0]["task_running"]), (&serial.into(), &true.into()));
-    until(&desk, &["start", "cell"], refused("task-running"));
-    assert_eq!(desk.json(&["info", "cell"]).0, Some(0), "questions are answered");
+    until(&cli, &["start", "cell"], refused("task-running"));
+    assert_eq!(cli.json(&["info", "cell"]).0, Some(0), "questions are answered");
     switch(&data, &["--task-running", "off", "--teach-pendant", "on", "--all"]);
-    until(&desk, &["start", "cell"], refused("teach-pendant-connected"));
+    until(&cli, &["start", "cell"], refused("teach-pendant-connected"));
     switch(&data, &["--teach-pendant", "off", "--server-error", "on", "--all"]);
-    until(&desk, &["start", "cell"], refused("580"));
-    until(&desk, &["info", "cell"], |line| line["result"]["error"] == "580" && line["result"]["status"] == "Error");
-    assert!(desk.run(&["info", "cell"]).stdout.contains("Error (580)"));
+    until(&cli, &["start", "cell"], refused("580"));
+    until(&cli, &["info", "cell"], |line| line["result"]["error"] == "580" && line["result"]["status"] == "Error");
+    assert!(cli.run(&["info", "cell"]).stdout.contains("Error (580)"));
     switch(&data, &["--server-error", "off", "--all"]);
-    until(&desk, &["start", "cell"], |line| line["result"]["status"] == "Run");
+    until(&cli, &["start", "cell"], |line| line["result"]["status"] == "Run");
 
     assert_eq!(switch(&data, &["--all"])[0]["server_error"], false, "without a switch it shows them");
     let mut unknown = program();

@@ -7,7 +7,9 @@
 use std::path::Path;
 
 use opcua_configurator::model::CertificateStatus::{self, *};
-use opcua_configurator::pki::{Certificate, Crl, Presented, Rejection, Role, TrustLists, TrustPolicy};
+use opcua_configurator::pki::{
+    Certificate, CertificateRejection, Crl, PeerRole, PresentedCertificate, TrustLists, TrustPolicy,
+};
 
 /// What is not valid, and how.
 const INVALID: &[(&str, CertificateStatus)] = &[
@@ -58,10 +60,10 @@ fn every_chain_of_pkits_is_valid_or_invalid_as_it_is_called() {
     for (name, certificate) in &ends {
         let is_invalid = INVALID.iter().any(|(invalid, _)| invalid == name);
         assert_eq!(is_invalid, name.starts_with("Invalid"), "the table does not fit {name}");
-        let presented = Presented {
+        let presented = PresentedCertificate {
             certificate,
             chain: &[],
-            role: Role::Either,
+            role: PeerRole::Either,
             now: "2020-01-01T00:00:00Z".parse().expect("a time"),
             application_uri: None,
             host: None,
@@ -69,7 +71,7 @@ fn every_chain_of_pkits_is_valid_or_invalid_as_it_is_called() {
         };
         let judged = lists.validate(&presented, &TrustPolicy::default());
         let expected = INVALID.iter().find(|(invalid, _)| invalid == name).map(|(_, status)| *status);
-        if judged.as_ref().err().map(Rejection::status) != expected {
+        if judged.as_ref().err().map(CertificateRejection::status) != expected {
             wrong.push(format!("{name}: {judged:?} instead of {expected:?}"));
         }
     }

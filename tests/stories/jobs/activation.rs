@@ -3,18 +3,18 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use opcua_configurator::jobs::{Activate, JobEvent, KeySource, Report, StartServer, Summary};
+use opcua_configurator::jobs::{Activate, ControllerReport, JobEvent, JobSummary, KeySource, StartServer};
 use opcua_configurator::model::ErrorCode;
 use opcua_configurator::model::activation::{ActivationFile, FIRST_LINE, parse};
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware, demo_keys};
 use tokio_util::sync::CancellationToken;
 
-use crate::common::plant::{self, Plant};
+use crate::common::test_fleet::{self, TestFleet};
 
 /// An activation file for the first `count` controllers, with `edit` on each line.
-fn file(plant: &Plant, count: usize, edit: impl Fn(usize, String) -> String) -> Arc<ActivationFile> {
+fn file(fleet: &TestFleet, count: usize, edit: impl Fn(usize, String) -> String) -> Arc<ActivationFile> {
     let line = |index: usize| {
-        let serial = plant.controller(index).serial();
+        let serial = fleet.controller(index).serial();
         let keys = demo_keys(&serial);
         edit(index, format!("{serial},{},{}\r\n", keys.licence, keys.activation))
     };
@@ -26,40 +26,40 @@ fn from(file: &Arc<ActivationFile>) -> Activate {
     Activate { keys: KeySource::File(file.clone()) }
 }
 
-fn code<O>(report: &Report<O>) -> Option<ErrorCode> {
+fn code<O>(report: &ControllerReport<O>) -> Option<ErrorCode> {
     report.result.as_ref().err().map(|problem| problem.code)
 }
 
-fn activated(plant: &Plant, index: usize) -> bool {
-    plant.controller(index).info().activated
+fn activated(fleet: &TestFleet, index: usize) -> bool {
+    fleet.controller(index).info().activated
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn fifty_controllers_from_one_file_with_five_bad_lines_one_cable_pulled_and_a_cancel() {
     const COUNT: usize = 50;
-    let plant = Plant::not_activated(COUNT).await;
-    let file = file(&plant, COUNT, |index, line| match index {
+    let fleet = TestFleet::not_activated(COUNT).await;
+    let file = file(&fleet, COUNT, |index, line| match index {
         3 => line.replacen(',', ";", 2),
         11 => line.replace("\r\n", "!\r\n"),
         19 => String::new(),
         27 => line.repeat(2),
         // Well-formed, but the keys of another controller.
         35 => {
-            let keys = demo_keys(&plant.controller(36).serial());
-            format!("{},{},{}\r\n", plant.controller(35).serial(), keys.licence, keys.activation)
+            let keys = demo_keys(&fleet.controller(36).serial());
+            format!("{},{},{}\r\n", fleet.controller(35).serial(), keys.licence, keys.activation)
         }
         _ => line,
     });
     let lines: Vec<usize> = file.mistakes().iter().map(|mistake| mistake.line).collect();
     assert_eq!(lines, [5, 13, 28, 29]);
-    plant.controller(44).shutdown().await;
+    fleet.controller(44).shutdown().await;
 
     // Once cancelled, what is done stays done, and is said so.
-    let mut context = plant.context();
+    let mut context = fleet.context();
     context.parallelism = 4;
     let (cancel, finished) = (CancellationToken::new(), Arc::new(AtomicUsize::new(0)));
     let (stop, count) = (cancel.clone(), finished.clone());
-    let (reports, summary) = plant::run(plant.listed(), from(&file), context, cancel, move |event| {
+    let (reports, summary) = test_fleet::run(fleet.listed(), from(&file), context, cancel, move |event| {
         if matches!(event, JobEvent::Finished { .. }) && count.fetch_add(1, Ordering::Relaxed) == 9 {
             stop.cancel();
         }
@@ -68,13 +68,13 @@ async fn fifty_controllers_from_one_file_with_five_bad_lines_one_cable_pulled_an
     assert!(summary.done >= 5 && summary.not_started >= COUNT - 20, "{summary:?}");
     assert_eq!(summary.done + summary.failed + summary.not_started, COUNT);
     for (index, report) in reports.iter().enumerate() {
-        assert_eq!(report.result.is_ok(), activated(&plant, index), "what is said of controller {index} is so");
+        assert_eq!(report.result.is_ok(), activated(&fleet, index), "what is said of controller {index} is so");
     }
 
     // And simply done again.
     let (reports, summary) =
-        plant::run(plant.listed(), from(&file), plant.context(), CancellationToken::new(), |_| {}).await;
-    assert_eq!(summary, Summary { done: COUNT - 6, failed: 6, not_started: 0 });
+        test_fleet::run(fleet.listed(), from(&file), fleet.context(), CancellationToken::new(), |_| {}).await;
+    assert_eq!(summary, JobSummary { done: COUNT - 6, failed: 6, not_started: 0 });
     for (index, report) in reports.iter().enumerate() {
         let expected = match index {
             3 | 11 | 19 | 27 => Some(ErrorCode::NotInFile),
@@ -84,8 +84,8 @@ async fn fifty_controllers_from_one_file_with_five_bad_lines_one_cable_pulled_an
         };
         assert_eq!(code(report), expected, "controller {index}: {report:?}");
         if index != 44 {
-            assert_eq!(activated(&plant, index), expected.is_none());
-            let changes = plant.controller(index).info().revision.number() - 1;
+            assert_eq!(activated(&fleet, index), expected.is_none());
+            let changes = fleet.controller(index).info().revision.number() - 1;
             assert!(if expected.is_none() { (1..=2).contains(&changes) } else { changes == 0 }, "{index}: {changes}");
         }
     }
@@ -95,28 +95,28 @@ async fn fifty_controllers_from_one_file_with_five_bad_lines_one_cable_pulled_an
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_controller_that_is_known_not_to_be_in_the_file_is_not_even_asked() {
-    let plant = Plant::not_activated(2).await;
-    let file = file(&plant, 1, |_, line| line);
-    let mut listed = plant.listed();
+    let fleet = TestFleet::not_activated(2).await;
+    let file = file(&fleet, 1, |_, line| line);
+    let mut listed = fleet.listed();
     for (index, controller) in listed.iter_mut().enumerate() {
-        controller.known = Some(plant.controller(index).info());
+        controller.known = Some(fleet.controller(index).info());
     }
-    plant.controller(1).shutdown().await;
-    let (reports, _) = plant::run(listed, from(&file), plant.context(), CancellationToken::new(), |_| {}).await;
+    fleet.controller(1).shutdown().await;
+    let (reports, _) = test_fleet::run(listed, from(&file), fleet.context(), CancellationToken::new(), |_| {}).await;
     assert_eq!([code(&reports[0]), code(&reports[1])], [None, Some(ErrorCode::NotInFile)]);
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn without_keys_the_server_says_why_it_does_not_start() {
-    let plant = Plant::not_activated(1).await;
-    let start = plant.run(StartServer).await;
+    let fleet = TestFleet::not_activated(1).await;
+    let start = fleet.run(StartServer).await;
     assert_eq!(code(&start[0]), Some(ErrorCode::NotActivated));
     assert!(start[0].info.as_ref().is_some_and(|info| !info.activated && info.error == Some(ErrorCode::NotActivated)));
-    let keys = demo_keys(&plant.controller(0).serial());
-    let reports = plant.run(Activate { keys: KeySource::Typed(keys) }).await;
+    let keys = demo_keys(&fleet.controller(0).serial());
+    let reports = fleet.run(Activate { keys: KeySource::Typed(keys) }).await;
     assert!(reports[0].info.as_ref().is_some_and(|info| info.activated), "{reports:?}");
     assert_eq!(
-        code(&plant.run(StartServer).await[0]),
+        code(&fleet.run(StartServer).await[0]),
         Some(ErrorCode::NoCertificate),
         "the next thing that is missing"
     );
@@ -124,26 +124,26 @@ async fn without_keys_the_server_says_why_it_does_not_start() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn current_firmware_and_wrong_keys_are_refused_and_change_nothing() {
-    let plant = Plant::start(2, FleetFirmware::Mixed).await;
+    let fleet = TestFleet::start(2, FleetFirmware::Mixed).await;
     let strange = demo_keys(&"R7A9999999".parse().unwrap());
-    let before: Vec<_> = (0..2).map(|index| plant.controller(index).state()).collect();
-    let reports = plant.run(Activate { keys: KeySource::Typed(strange) }).await;
+    let before: Vec<_> = (0..2).map(|index| fleet.controller(index).state()).collect();
+    let reports = fleet.run(Activate { keys: KeySource::Typed(strange) }).await;
     assert_eq!([code(&reports[0]), code(&reports[1])], [Some(ErrorCode::WrongKeys), Some(ErrorCode::FirmwareTooNew)]);
     for (index, before) in before.iter().enumerate() {
-        assert_eq!(plant.controller(index).state(), *before);
+        assert_eq!(fleet.controller(index).state(), *before);
     }
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn an_activation_whose_answer_was_lost_is_found_in_the_row() {
-    let plant = Plant::not_activated(1).await;
-    let file = file(&plant, 1, |_, line| line);
-    plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::BeforeApply));
-    let reports = plant.run(from(&file)).await;
+    let fleet = TestFleet::not_activated(1).await;
+    let file = file(&fleet, 1, |_, line| line);
+    fleet.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::BeforeApply));
+    let reports = fleet.run(from(&file)).await;
     assert_eq!(code(&reports[0]), Some(ErrorCode::ConnectionLost));
-    assert!(!activated(&plant, 0));
-    plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
-    let reports = plant.run(from(&file)).await;
+    assert!(!activated(&fleet, 0));
+    fleet.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
+    let reports = fleet.run(from(&file)).await;
     assert_eq!(code(&reports[0]), Some(ErrorCode::AnswerLost));
     assert!(reports[0].info.as_ref().is_some_and(|info| info.activated));
 }

@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use opcua_configurator::jobs::{
-    CaCertificateSource, CertificateRestored, CheckCertificateBackup, CreateCsr, CsrFields, ExportSelfSigned,
-    ExportSettings, ImportCaCertificate, Operation, OperationOutput, Report, RestoreCertificate, SelectCertificateType,
-    SelfSigned, SelfSignedFields, StartServer,
+    BackupRestored, CaSignedSource, CheckBackup, ControllerReport, CreateCsr, CsrFields, ExportSelfSigned,
+    ExportSettings, ImportCaSigned, Operation, OperationOutput, RestoreBackup, SelectCertificateType, SelfSigned,
+    SelfSignedFields, StartServer,
 };
 use opcua_configurator::model::{CertificateType, ErrorCode, FileFormat, KeyLength, ServerStatus, Validity};
 use opcua_configurator::pki::{Certificate, Csr, pkcs12_read, pkcs12_read_key};
@@ -16,25 +16,25 @@ use opcua_configurator::workspace::{BackupKind, CertificateFiles, KeyBackupSourc
 use secrecy::SecretString;
 
 use crate::common::ca::Ca;
-use crate::common::plant::{PASSWORD, Plant};
+use crate::common::test_fleet::{PASSWORD, TestFleet};
 
 /// One controller, and the folder its files go to.
 struct Bench {
-    plant: Plant,
+    fleet: TestFleet,
     folder: tempfile::TempDir,
 }
 
 impl Bench {
     async fn new(firmware: FleetFirmware) -> Self {
-        Self { plant: Plant::start(1, firmware).await, folder: tempfile::tempdir().unwrap() }
+        Self { fleet: TestFleet::start(1, firmware).await, folder: tempfile::tempdir().unwrap() }
     }
 
     fn files(&self) -> CertificateFiles {
         Workspace::new(self.folder.path()).certificate_files()
     }
 
-    async fn run<O: OperationOutput>(&self, operation: impl Operation<Output = O> + 'static) -> Report<O> {
-        self.plant.run(operation).await.remove(0)
+    async fn run<O: OperationOutput>(&self, operation: impl Operation<Output = O> + 'static) -> ControllerReport<O> {
+        self.fleet.run(operation).await.remove(0)
     }
 
     async fn done<O: OperationOutput>(&self, operation: impl Operation<Output = O> + 'static) -> O {
@@ -74,16 +74,16 @@ impl Bench {
         ExportSelfSigned { format, files: self.files() }
     }
 
-    fn import(&self) -> ImportCaCertificate {
-        ImportCaCertificate { source: CaCertificateSource::Folder(self.files()), accept_warnings: false }
+    fn import(&self) -> ImportCaSigned {
+        ImportCaSigned { source: CaSignedSource::Folder(self.files()), accept_warnings: false }
     }
 
-    fn restore(&self, kind: BackupKind) -> RestoreCertificate {
+    fn restore(&self, kind: BackupKind) -> RestoreBackup {
         let source = KeyBackupSource { files: self.files(), kind, chosen: None };
-        RestoreCertificate { source, password: None, accept_warnings: false }
+        RestoreBackup { source, password: None, accept_warnings: false }
     }
 
-    fn restore_from(&self, kind: BackupKind, file: &Path) -> RestoreCertificate {
+    fn restore_from(&self, kind: BackupKind, file: &Path) -> RestoreBackup {
         let mut restore = self.restore(kind);
         restore.source.chosen = Some(file.to_owned());
         restore
@@ -91,7 +91,7 @@ impl Bench {
 
     /// A file below the controller's `Cert`.
     fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(self.plant.controller(0).serial().as_str()).join("Cert").join(name)
+        self.folder.path().join(self.fleet.controller(0).serial().as_str()).join("Cert").join(name)
     }
 
     /// The files below the controller's `Cert`, dates of folders left out.
@@ -126,12 +126,12 @@ impl Bench {
     }
 
     fn in_use(&self) -> Option<(CertificateType, Vec<u8>)> {
-        let state = self.plant.controller(0).state();
+        let state = self.fleet.controller(0).state();
         state.selected_certificate().map(|pair| (state.selected, pair.certificate.0.clone()))
     }
 
     fn status(&self) -> ServerStatus {
-        self.plant.controller(0).info().status
+        self.fleet.controller(0).info().status
     }
 }
 
@@ -247,11 +247,10 @@ async fn every_backup_of_a_key_is_put_back_as_what_it_was_made_as() {
     bench.done(CreateCsr { files, ..bench.csr(false) }).await;
     assert_eq!(bench.refused(SelectCertificateType(CertificateType::CaSigned)).await, ErrorCode::CertificateNotStored);
 
-    let checked =
-        bench.done(CheckCertificateBackup { source: bench.restore(BackupKind::SelfSigned).source, password: None });
+    let checked = bench.done(CheckBackup { source: bench.restore(BackupKind::SelfSigned).source, password: None });
     assert!(checked.await.summary.is_some());
     let restored = bench.done(bench.restore(BackupKind::SelfSigned)).await;
-    let CertificateRestored { summary: Some(summary), findings } = restored else { panic!("{restored:?}") };
+    let BackupRestored { summary: Some(summary), findings } = restored else { panic!("{restored:?}") };
     assert_eq!(findings, []);
     assert_eq!(bench.in_use(), Some(self_signed.clone()), "type 1, and in use");
     assert_eq!(summary, Certificate::from_der(&self_signed.1).unwrap().summary());
@@ -294,9 +293,9 @@ async fn what_cannot_be_put_back_changes_nothing() {
     bench.done(bench.self_signed(true)).await;
     bench.done(bench.csr(true)).await;
     bench.done(StartServer).await;
-    let before = bench.plant.controller(0).state();
+    let before = bench.fleet.controller(0).state();
     for kind in kinds {
-        let wrong = RestoreCertificate { password: Some("wrong".into()), ..bench.restore(kind) };
+        let wrong = RestoreBackup { password: Some("wrong".into()), ..bench.restore(kind) };
         assert_eq!(bench.refused(wrong).await, ErrorCode::WrongKeyPassword);
     }
     // Each under the other's type.
@@ -304,13 +303,12 @@ async fn what_cannot_be_put_back_changes_nothing() {
     assert_eq!(bench.refused(bench.restore_from(kinds[0], &keys[1])).await, ErrorCode::BadCertificate);
     assert_eq!(bench.refused(bench.restore_from(kinds[1], &keys[0])).await, ErrorCode::FileNotFound);
     // That of another controller.
-    let other = Plant::start(2, FleetFirmware::Legacy).await;
-    let of_second =
-        RestoreCertificate { source: bench.restore_from(kinds[0], &keys[0]).source, ..bench.restore(kinds[0]) };
+    let other = TestFleet::start(2, FleetFirmware::Legacy).await;
+    let of_second = RestoreBackup { source: bench.restore_from(kinds[0], &keys[0]).source, ..bench.restore(kinds[0]) };
     let report = &other.run(of_second).await[1];
     assert_eq!(report.result.as_ref().unwrap_err().code, ErrorCode::Preflight, "{report:?}");
 
-    let faults = bench.plant.controller(0).faults();
+    let faults = bench.fleet.controller(0).faults();
     faults.update(|f| f.disk_full = true);
     for kind in kinds {
         assert_eq!(bench.refused(bench.restore(kind)).await, ErrorCode::DiskFull);
@@ -318,7 +316,7 @@ async fn what_cannot_be_put_back_changes_nothing() {
     faults.update(|f| f.disk_full = false);
     faults.update(|f| f.drop_next_change = Some(DropPoint::BeforeApply));
     assert_eq!(bench.refused(bench.restore(BackupKind::CaSigned)).await, ErrorCode::ConnectionLost);
-    assert_eq!(bench.plant.controller(0).state(), before);
+    assert_eq!(bench.fleet.controller(0).state(), before);
     assert_eq!(bench.status(), ServerStatus::Run);
 
     let current = Bench::new(FleetFirmware::Current).await;
@@ -329,16 +327,18 @@ async fn what_cannot_be_put_back_changes_nothing() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn an_empty_connection_password_protects_no_file() {
-    let bench =
-        Bench { plant: Plant::without_password(1, FleetFirmware::Legacy).await, folder: tempfile::tempdir().unwrap() };
-    let revision = bench.plant.controller(0).info().revision;
+    let bench = Bench {
+        fleet: TestFleet::without_password(1, FleetFirmware::Legacy).await,
+        folder: tempfile::tempdir().unwrap(),
+    };
+    let revision = bench.fleet.controller(0).info().revision;
     let files = Workspace::new(bench.folder.path()).settings_files();
     let export = |passphrase| ExportSettings { files: files.clone(), passphrase };
     assert_eq!(bench.refused(bench.self_signed(true)).await, ErrorCode::UnprotectedFile);
     assert_eq!(bench.refused(bench.csr(true)).await, ErrorCode::UnprotectedFile);
     assert_eq!(bench.refused(export(None)).await, ErrorCode::UnprotectedFile);
-    assert_eq!(bench.plant.controller(0).info().revision, revision, "nothing was changed");
-    assert!(!bench.folder.path().join(bench.plant.controller(0).serial().as_str()).exists());
+    assert_eq!(bench.fleet.controller(0).info().revision, revision, "nothing was changed");
+    assert!(!bench.folder.path().join(bench.fleet.controller(0).serial().as_str()).exists());
 
     // What needs no protection, or has another, is done.
     bench.done(bench.self_signed(false)).await;
@@ -347,16 +347,18 @@ async fn an_empty_connection_password_protects_no_file() {
     bench.done(export(Some("correct horse".into()))).await;
 
     // The controller seals nothing under an empty passphrase either.
-    let listed = &bench.plant.listed()[0];
+    let listed = &bench.fleet.listed()[0];
     let (fingerprint, empty) = (listed.fingerprint.unwrap(), SecretString::default());
-    let mut session = bench.plant.connector.connect(&listed.address, fingerprint, &empty.clone().into()).await.unwrap();
+    let mut session = bench.fleet.connector.connect(&listed.address, fingerprint, &empty.clone().into()).await.unwrap();
     let refused = session.export_settings(empty).await.unwrap_err();
     assert_eq!(refused.code, ErrorCode::BadPassphrase);
     session.close().await;
 
     // Keys of current firmware do not come to the PC, so there is nothing to protect.
-    let current =
-        Bench { plant: Plant::without_password(1, FleetFirmware::Current).await, folder: tempfile::tempdir().unwrap() };
+    let current = Bench {
+        fleet: TestFleet::without_password(1, FleetFirmware::Current).await,
+        folder: tempfile::tempdir().unwrap(),
+    };
     current.done(current.self_signed(true)).await;
     current.done(current.csr(true)).await;
     assert_eq!(current.listing(), ["CSR/3_csr.der", "SelfSigned/1_cert.der"]);

@@ -8,20 +8,20 @@ use std::sync::Arc;
 
 use chrono::Utc;
 use opcua_configurator::jobs::{
-    Activate, AddTrust, AddUser, CaCertificateSource, CheckCaCertificate, CheckCertificateBackup, Confirmation,
-    CreateCsr, CsrFields, Destination, ExportSelfSigned, ExportSettings, GetInfo, ImportCaCertificate, ImportSettings,
-    ImportUserCertificate, KeySource, ListCertificates, ListTrust, ListUsers, LogPart, MoveClients, Operation,
-    OperationOutput, PushAuthority, ReadLog, ReadSettings, RemoveClients, RemoveCrls, RemoveUsers, RestoreCertificate,
-    SelectCertificateType, SelfSigned, SelfSignedFields, ServerEffect, SetSettings, SettingsChange, SharedAuthority,
-    SignCsrs, StartServer, StopServer, TrustConfigurator, TrustFile, UndoTrust, UserCertificateFiles, Verify,
+    Activate, AddTrust, AddUser, BasicSettingsChange, CaSignedSource, CheckBackup, CheckCaSigned, Confirmation,
+    CreateCsr, CsrFields, Destination, ExportSelfSigned, ExportSettings, GetInfo, ImportCaSigned, ImportSettings,
+    ImportUserSpecified, KeySource, ListCertificates, ListTrust, ListUsers, LogPart, MoveClients, Operation,
+    OperationOutput, PushAuthority, ReadBasicSettings, ReadLog, RemoveClients, RemoveCrls, RemoveUsers, RestoreBackup,
+    SelectCertificateType, SelfSigned, SelfSignedFields, ServerEffect, SetBasicSettings, SharedAuthority, SignCsrs,
+    StartServer, StopServer, TrustConfigurator, TrustFile, UndoTrust, UserSpecifiedFiles, Verify,
 };
 use opcua_configurator::model::{
-    AuthorityRequest, AuthorityValidity, CertificateType, ClientList, Credential, FileFormat, KeyLength, ServerPort,
-    ServerSettings, ServerStatus, Subject, UserPassword, UserTokenPolicy, Validity,
+    AuthorityRequest, AuthorityValidity, CertificateType, ClientList, FileFormat, KeyLength, ServerPort,
+    ServerSettings, ServerStatus, Subject, UserCredential, UserPassword, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::{Bundle, Certificate, Crl, Csr};
 use opcua_configurator::session::opcua_client::ConnectTimeouts;
-use opcua_configurator::virtual_controller::{FleetFirmware, State, demo_keys};
+use opcua_configurator::virtual_controller::{ControllerState, FleetFirmware, demo_keys};
 use opcua_configurator::workspace::authority::{DEFAULT_CRL_DAYS, NewAuthority};
 use opcua_configurator::workspace::{BackupKind, CertificateFiles, KeyBackupSource, Workspace};
 
@@ -37,14 +37,14 @@ enum Seen {
 use Seen::{CutOff, Restarted, Stopped, Undisturbed};
 
 use crate::common::ca::Ca;
-use crate::common::clients::{Authority, Client, Identity};
-use crate::common::plant::{PASSWORD, Plant};
+use crate::common::clients::{Authority, Client, TestApplication};
+use crate::common::test_fleet::{PASSWORD, TestFleet};
 
 /// One controller, its client, and the files on the PC.
 struct Watch {
-    plant: Plant,
+    fleet: TestFleet,
     folder: tempfile::TempDir,
-    trusted: Identity,
+    trusted: TestApplication,
     client: Option<Client>,
     /// What happened at least once and was said.
     happened: BTreeSet<&'static str>,
@@ -71,16 +71,16 @@ fn added(name: &str, certificates: &[&Certificate], crls: &[&Crl]) -> AddTrust {
 impl Watch {
     async fn new(firmware: FleetFirmware) -> Self {
         let watch = Self {
-            plant: Plant::start(1, firmware).await,
+            fleet: TestFleet::start(1, firmware).await,
             folder: tempfile::tempdir().unwrap(),
-            trusted: Identity::new("watcher"),
+            trusted: TestApplication::new("watcher"),
             client: None,
             happened: BTreeSet::new(),
         };
         watch.run(watch.self_signed(false)).await;
         let tokens = BTreeSet::from([UserTokenPolicy::Anonymous, UserTokenPolicy::UserName]);
-        let change = SettingsChange { user_tokens: Some(tokens), ..SettingsChange::default() };
-        watch.run(SetSettings { change, ..SetSettings::default() }).await;
+        let change = BasicSettingsChange { user_tokens: Some(tokens), ..BasicSettingsChange::default() };
+        watch.run(SetBasicSettings { change, ..SetBasicSettings::default() }).await;
         watch.run(added("watcher.der", &[&watch.trusted.certificate], &[])).await;
         watch
     }
@@ -93,13 +93,13 @@ impl Watch {
         self.workspace().certificate_files()
     }
 
-    fn state(&self) -> Arc<State> {
-        self.plant.controller(0).state()
+    fn state(&self) -> Arc<ControllerState> {
+        self.fleet.controller(0).state()
     }
 
     /// Another engineer's work, of which nothing is asked but that it succeeds.
     async fn run<O: OperationOutput>(&self, operation: impl Operation<Output = O> + 'static) -> O {
-        self.plant.run(operation).await.remove(0).result.unwrap()
+        self.fleet.run(operation).await.remove(0).result.unwrap()
     }
 
     fn self_signed(&self, backup: bool) -> SelfSigned {
@@ -116,20 +116,20 @@ impl Watch {
     }
 
     fn cert(&self, name: &str) -> PathBuf {
-        self.folder.path().join(self.plant.controller(0).serial().as_str()).join("Cert").join(name)
+        self.folder.path().join(self.fleet.controller(0).serial().as_str()).join("Cert").join(name)
     }
 
     /// What a CA makes of the controller's request, put where the import looks for it.
-    fn issue(&self, ca: &Ca) -> CaCertificateSource {
+    fn issue(&self, ca: &Ca) -> CaSignedSource {
         let csr = Csr::from_der(&self.state().csr.as_ref().unwrap().csr.0).unwrap();
         fs::create_dir_all(self.cert("CASigned")).unwrap();
         fs::write(self.cert("CASigned/from_ca.der"), ca.sign(&csr)).unwrap();
-        CaCertificateSource::Folder(self.files())
+        CaSignedSource::Folder(self.files())
     }
 
     async fn import(&self, ca: &Ca) {
         let source = self.issue(ca);
-        self.run(ImportCaCertificate { source, accept_warnings: false }).await;
+        self.run(ImportCaSigned { source, accept_warnings: false }).await;
     }
 
     async fn log_size(&self) -> u64 {
@@ -154,14 +154,14 @@ impl Watch {
     }
 
     /// The server runs, and somebody is connected.
-    async fn connect(&mut self, identity: Option<&Identity>) {
+    async fn connect(&mut self, identity: Option<&TestApplication>) {
         if let Some(client) = self.client.take() {
             client.close().await;
         }
-        if self.plant.controller(0).info().status != ServerStatus::Run {
+        if self.fleet.controller(0).info().status != ServerStatus::Run {
             self.run(StartServer).await;
         }
-        let endpoint = self.plant.controller(0).info().endpoint;
+        let endpoint = self.fleet.controller(0).info().endpoint;
         let client = Client::connect(&endpoint, identity.unwrap_or(&self.trusted)).await.unwrap();
         assert!(client.is_answered().await);
         self.client = Some(client);
@@ -185,7 +185,7 @@ impl Watch {
         let (before, log, disk) = (self.state(), self.log_size().await, self.on_disk());
         let outcome = self.run(operation).await;
         let (after, log_after, disk_after) = (self.state(), self.log_size().await, self.on_disk());
-        let status = self.plant.controller(0).info().status;
+        let status = self.fleet.controller(0).info().status;
         let client = self.client.take().unwrap();
         let seen = match (status, client.is_answered().await) {
             (ServerStatus::Run, true) => Undisturbed,
@@ -232,7 +232,7 @@ impl Watch {
             &[(stops, "stops"), (invalidates_ca_signed, "invalidates"), (replaces_request, "replaces request")],
         );
         must(seen == CutOff, &[(disconnects_clients, "disconnects")]);
-        let in_use = |state: &State| state.selected_certificate().map(|pair| pair.certificate.0.clone());
+        let in_use = |state: &ControllerState| state.selected_certificate().map(|pair| pair.certificate.0.clone());
         must(
             in_use(&after).is_some() && in_use(&before) != in_use(&after),
             &[(replaces_certificate, "replaces certificate"), (changes_certificate, "changes certificate")],
@@ -241,7 +241,7 @@ impl Watch {
             before.csr.is_some() && before.csr != after.csr,
             &[(invalidates_ca_signed, "replaces csr"), (replaces_request, "restores csr")],
         );
-        let reached = |state: &State| {
+        let reached = |state: &ControllerState| {
             let ServerSettings { port, security_policies, user_tokens, .. } = &state.settings;
             (*port, security_policies.clone(), user_tokens.clone())
         };
@@ -264,33 +264,37 @@ impl Watch {
     /// What reads only.
     async fn questions(&mut self) {
         self.check("get info", GetInfo, Undisturbed).await;
-        self.check("read settings", ReadSettings, Undisturbed).await;
+        self.check("read settings", ReadBasicSettings, Undisturbed).await;
         self.check("list users", ListUsers, Undisturbed).await;
         self.check("list certificates", ListCertificates, Undisturbed).await;
         self.check("list trust", ListTrust, Undisturbed).await;
         self.check("read log", ReadLog { part: LogPart::From(0) }, Undisturbed).await;
         let identity = self.workspace().own_identity();
-        let patience = ConnectTimeouts::default();
-        self.check("verify", Verify { identity, login: None, trust_first: false, patience }, Undisturbed).await;
+        let timeouts = ConnectTimeouts::default();
+        self.check("verify", Verify { identity, login: None, trust_first: false, timeouts }, Undisturbed).await;
         self.check("start", StartServer, Undisturbed).await;
     }
 
     async fn settings_and_users(&mut self) {
-        let set = |change| SetSettings {
+        let set = |change| SetBasicSettings {
             change,
             log_password: Some(ServerSettings::LOG_PASSWORD.to_owned()),
-            ..SetSettings::default()
+            ..SetBasicSettings::default()
         };
         let free = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         let port = Some(ServerPort::try_from(free).unwrap());
-        self.check("port", set(SettingsChange { port, ..SettingsChange::default() }), Restarted).await;
-        let log = |on| set(SettingsChange { server_log: Some(on), ..SettingsChange::default() });
+        self.check("port", set(BasicSettingsChange { port, ..BasicSettingsChange::default() }), Restarted).await;
+        let log = |on| set(BasicSettingsChange { server_log: Some(on), ..BasicSettingsChange::default() });
         self.check("log on", log(true), Restarted).await;
         self.run(log(false)).await;
-        self.check("delete log", set(SettingsChange { delete_log: true, ..SettingsChange::default() }), Restarted)
-            .await;
+        self.check(
+            "delete log",
+            set(BasicSettingsChange { delete_log: true, ..BasicSettingsChange::default() }),
+            Restarted,
+        )
+        .await;
         let name: opcua_configurator::model::UserName = "operator1".parse().unwrap();
-        let credential = Credential { name: name.clone(), password: UserPassword::new("Passw0rd1").unwrap() };
+        let credential = UserCredential { name: name.clone(), password: UserPassword::new("Passw0rd1").unwrap() };
         self.check("add user", AddUser { credential, based_on: None }, Restarted).await;
         self.check("remove user", RemoveUsers { names: vec![name], based_on: None }, Restarted).await;
         self.check("stop", StopServer, Stopped).await;
@@ -306,8 +310,8 @@ impl Watch {
 
         self.check("first csr", self.csr(false), Undisturbed).await;
         let source = self.issue(&ca);
-        self.check("check ca", CheckCaCertificate(source.clone()), Undisturbed).await;
-        self.check("import ca", ImportCaCertificate { source, accept_warnings: false }, Restarted).await;
+        self.check("check ca", CheckCaSigned(source.clone()), Undisturbed).await;
+        self.check("import ca", ImportCaSigned { source, accept_warnings: false }, Restarted).await;
         self.check("select", SelectCertificateType(CertificateType::SelfSigned), Restarted).await;
         self.check("csr beside another in use", self.csr(false), Undisturbed).await;
         self.import(&ca).await;
@@ -345,7 +349,7 @@ impl Watch {
         assert!(!self.run(sign).await.moved_aside.is_empty());
         client.ended().await;
         assert!(self.state().csr != before.csr);
-        assert_eq!(self.plant.controller(0).info().status, ServerStatus::Run, "started again on every firmware");
+        assert_eq!(self.fleet.controller(0).info().status, ServerStatus::Run, "started again on every firmware");
         assert_eq!(said.server, ServerEffect::Restarts);
         assert!(said.replaces_certificate && said.invalidates_ca_signed && said.moves_files_aside);
         self.check("push authority", push, Undisturbed).await;
@@ -354,11 +358,11 @@ impl Watch {
     /// What only legacy firmware has.
     async fn legacy(&mut self) {
         let ca = Ca::new();
-        let keys = demo_keys(&self.plant.controller(0).serial());
+        let keys = demo_keys(&self.fleet.controller(0).serial());
         self.check("activate", Activate { keys: KeySource::Typed(keys) }, Restarted).await;
         self.run(self.self_signed(true)).await;
-        let user = ImportUserCertificate {
-            files: UserCertificateFiles::Pfx(self.cert("SelfSigned/1_key.pfx")),
+        let user = ImportUserSpecified {
+            files: UserSpecifiedFiles::Pfx(self.cert("SelfSigned/1_key.pfx")),
             password: Some(PASSWORD.into()),
             accept_warnings: true,
         };
@@ -370,20 +374,17 @@ impl Watch {
         self.check("export again", export, Undisturbed).await;
         let free = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().port();
         let port = Some(ServerPort::try_from(free).unwrap());
-        let change = SettingsChange { port, ..SettingsChange::default() };
-        self.run(SetSettings { change, ..SetSettings::default() }).await;
+        let change = BasicSettingsChange { port, ..BasicSettingsChange::default() };
+        self.run(SetBasicSettings { change, ..SetBasicSettings::default() }).await;
         self.connect(None).await;
         let import = ImportSettings { files: self.workspace().settings_files(), passphrase: None };
         self.check("import", import, Restarted).await;
 
         let source = |kind| KeyBackupSource { files: self.files(), kind, chosen: None };
         let (own, request) = (source(BackupKind::SelfSigned), source(BackupKind::CaSigned));
-        let restore = |source: &KeyBackupSource| RestoreCertificate {
-            source: source.clone(),
-            password: None,
-            accept_warnings: false,
-        };
-        self.check("check backup", CheckCertificateBackup { source: own.clone(), password: None }, Undisturbed).await;
+        let restore =
+            |source: &KeyBackupSource| RestoreBackup { source: source.clone(), password: None, accept_warnings: false };
+        self.check("check backup", CheckBackup { source: own.clone(), password: None }, Undisturbed).await;
         self.check("restore self-signed", restore(&own), Restarted).await;
         self.run(self.csr(true)).await;
         self.import(&ca).await;
@@ -404,7 +405,7 @@ impl Watch {
         let client = self.client.take().unwrap();
         self.run(restore(&request)).await;
         client.ended().await;
-        assert_eq!(self.plant.controller(0).info().status, ServerStatus::Stop);
+        assert_eq!(self.fleet.controller(0).info().status, ServerStatus::Stop);
         assert!(said.replaces_request, "that a server may stop for want of a certificate");
         self.run(SelectCertificateType(CertificateType::SelfSigned)).await;
     }
@@ -412,7 +413,7 @@ impl Watch {
     async fn trust(&mut self) {
         let identity = self.workspace().own_identity();
         self.check("trust the configurator", TrustConfigurator { identity }, Undisturbed).await;
-        let (other, own) = (Identity::new("other"), self.trusted.thumbprint());
+        let (other, own) = (TestApplication::new("other"), self.trusted.thumbprint());
         self.check("add", added("other.der", &[&other.certificate], &[]), Undisturbed).await;
         let relist = |from, to, thumbprint| MoveClients {
             from,
@@ -429,7 +430,7 @@ impl Watch {
         let remove = RemoveClients { list: Some(trusted), thumbprints: vec![own], based_on: None };
         self.check("remove", remove, CutOff).await;
         let change = self.run(added("watcher.der", &[&self.trusted.certificate], &[])).await;
-        let undo = UndoTrust([(self.plant.listed()[0].name.clone(), change.undo.unwrap())].into());
+        let undo = UndoTrust([(self.fleet.listed()[0].name.clone(), change.undo.unwrap())].into());
         self.check("undo", undo, CutOff).await;
         self.run(added("watcher.der", &[&self.trusted.certificate], &[])).await;
 

@@ -6,18 +6,19 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use opcua_configurator::jobs::{
-    AddUser, Done, GetInfo, JobContext, OperationOutput, Report, SelfSigned, SelfSignedFields, StartServer, StopServer,
+    AddUser, ControllerReport, GetInfo, JobContext, NoOutput, OperationOutput, SelfSigned, SelfSignedFields,
+    StartServer, StopServer,
 };
 use opcua_configurator::model::{
-    Address, Capabilities, Changed, ControllerInfo, Credential, Credentials, ErrorCode, KeyLength, Problem,
-    RevisionToken, ServerStatus, UserName, UserPassword, Validity,
+    Address, Capabilities, Changed, ControllerInfo, Credentials, ErrorCode, KeyLength, Problem, RevisionToken,
+    ServerStatus, UserCredential, UserName, UserPassword, Validity,
 };
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::session::{Connector, ControllerSession, ManagementConnector, Timeouts};
+use opcua_configurator::session::{Connector, ControllerSession, ManagementConnector, ManagementTimeouts};
 use opcua_configurator::virtual_controller::FleetFirmware;
 use tokio_util::sync::CancellationToken;
 
-use crate::common::plant::{self, Plant};
+use crate::common::test_fleet::{self, TestFleet};
 
 /// What the network loses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -97,7 +98,7 @@ impl ControllerSession for Troubled {
         self.real.users().await
     }
 
-    async fn add_user(&mut self, based_on: RevisionToken, user: Credential) -> Result<Changed, Problem> {
+    async fn add_user(&mut self, based_on: RevisionToken, user: UserCredential) -> Result<Changed, Problem> {
         self.changed = true;
         self.real.add_user(based_on, user).await
     }
@@ -109,24 +110,24 @@ impl ControllerSession for Troubled {
 
 fn user(name: &str) -> AddUser {
     AddUser {
-        credential: Credential { name: name.parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() },
+        credential: UserCredential { name: name.parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() },
         based_on: None,
     }
 }
 
 async fn in_trouble<O: OperationOutput>(
-    plant: &Plant,
+    fleet: &TestFleet,
     trouble: Trouble,
     operation: impl opcua_configurator::jobs::Operation<Output = O> + 'static,
-) -> Report<O> {
-    let network = Network { real: plant.connector, trouble, sessions: AtomicUsize::new(0) };
-    let context = JobContext::new(Arc::new(network), plant.passwords.clone(), 1);
-    let (mut reports, _) = plant::run(plant.listed(), operation, context, CancellationToken::new(), |_| {}).await;
+) -> ControllerReport<O> {
+    let network = Network { real: fleet.connector, trouble, sessions: AtomicUsize::new(0) };
+    let context = JobContext::new(Arc::new(network), fleet.passwords.clone(), 1);
+    let (mut reports, _) = test_fleet::run(fleet.listed(), operation, context, CancellationToken::new(), |_| {}).await;
     reports.remove(0)
 }
 
-async fn with_certificate() -> Plant {
-    let plant = Plant::start(1, FleetFirmware::Legacy).await;
+async fn with_certificate() -> TestFleet {
+    let fleet = TestFleet::start(1, FleetFirmware::Legacy).await;
     let fields = SelfSignedFields {
         common_name: None,
         country: String::new(),
@@ -136,66 +137,67 @@ async fn with_certificate() -> Plant {
         key_length: KeyLength::Rsa2048,
         validity: Validity::try_from(1).unwrap(),
     };
-    let made = plant.run(SelfSigned { fields, backup: None }).await;
+    let made = fleet.run(SelfSigned { fields, backup: None }).await;
     assert!(made[0].result.is_ok(), "{made:?}");
-    plant
+    fleet
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_start_whose_answer_was_lost_is_done_if_the_server_runs() {
-    let plant = with_certificate().await;
+    let fleet = with_certificate().await;
     for (operation, status) in [(true, ServerStatus::Run), (false, ServerStatus::Stop)] {
         let report = if operation {
-            in_trouble(&plant, Trouble::Status, StartServer).await
+            in_trouble(&fleet, Trouble::Status, StartServer).await
         } else {
-            in_trouble(&plant, Trouble::Status, StopServer).await
+            in_trouble(&fleet, Trouble::Status, StopServer).await
         };
-        assert_eq!(report.result, Ok(Done));
+        assert_eq!(report.result, Ok(NoOutput));
         assert_eq!(report.info.map(|info| info.status), Some(status));
     }
     // One that was not done is not said to be.
-    plant.controller(0).faults().update(|faults| faults.refuse = true);
-    let report = in_trouble(&plant, Trouble::Status, StartServer).await;
+    fleet.controller(0).faults().update(|faults| faults.refuse = true);
+    let report = in_trouble(&fleet, Trouble::Status, StartServer).await;
     assert_eq!(report.result.unwrap_err().code, ErrorCode::Timeout);
     assert_eq!(report.info.map(|info| info.status), Some(ServerStatus::Stop));
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_change_that_was_done_is_not_said_to_have_failed_because_nothing_can_be_read_afterwards() {
-    let plant = with_certificate().await;
-    let before = plant.controller(0).info().revision.number();
-    let report = in_trouble(&plant, Trouble::Reading, user("operator1")).await;
-    assert_eq!(report.result, Ok(Done));
+    let fleet = with_certificate().await;
+    let before = fleet.controller(0).info().revision.number();
+    let report = in_trouble(&fleet, Trouble::Reading, user("operator1")).await;
+    assert_eq!(report.result, Ok(NoOutput));
     assert_eq!(report.info.map(|info| info.revision.number()), Some(before + 1), "read with another session");
 
-    let report = in_trouble(&plant, Trouble::EveryReading, user("operator2")).await;
-    assert_eq!((report.result, report.info), (Ok(Done), None));
-    assert_eq!(plant.controller(0).info().revision.number(), before + 2);
+    let report = in_trouble(&fleet, Trouble::EveryReading, user("operator2")).await;
+    assert_eq!((report.result, report.info), (Ok(NoOutput), None));
+    assert_eq!(fleet.controller(0).info().revision.number(), before + 2);
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn information_that_cannot_be_read_is_no_information() {
-    let plant = Plant::start(1, FleetFirmware::Legacy).await;
-    plant.controller(0).faults().update(|faults| faults.latency = Duration::from_millis(600));
-    let reports = plant.run(GetInfo).await;
+    let fleet = TestFleet::start(1, FleetFirmware::Legacy).await;
+    fleet.controller(0).faults().update(|faults| faults.latency = Duration::from_millis(600));
+    let reports = fleet.run(GetInfo).await;
     assert!(reports[0].result.is_ok(), "slow is not silent: {reports:?}");
-    let timeouts = Timeouts { read: Duration::from_millis(300), ..plant.connector.timeouts };
-    let silent = JobContext::new(Arc::new(ManagementConnector { timeouts }), plant.passwords.clone(), 1);
-    let (reports, _) = plant::run(plant.listed(), GetInfo, silent, CancellationToken::new(), |_| {}).await;
+    let timeouts = ManagementTimeouts { read: Duration::from_millis(300), ..fleet.connector.timeouts };
+    let silent = JobContext::new(Arc::new(ManagementConnector { timeouts }), fleet.passwords.clone(), 1);
+    let (reports, _) = test_fleet::run(fleet.listed(), GetInfo, silent, CancellationToken::new(), |_| {}).await;
     assert_eq!(reports[0].result.as_ref().unwrap_err().code, ErrorCode::Timeout);
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_change_that_was_not_waited_for_is_looked_for() {
-    let plant = Plant::start(1, FleetFirmware::Legacy).await;
-    let before = plant.controller(0).info().revision.number();
-    plant.controller(0).faults().update(|faults| faults.latency = Duration::from_millis(700));
+    let fleet = TestFleet::start(1, FleetFirmware::Legacy).await;
+    let before = fleet.controller(0).info().revision.number();
+    fleet.controller(0).faults().update(|faults| faults.latency = Duration::from_millis(700));
     // Readings take their time, a change is given up too early.
-    let timeouts = Timeouts { change: Duration::from_millis(200), ..plant.connector.timeouts };
-    let hasty = JobContext::new(Arc::new(ManagementConnector { timeouts }), plant.passwords.clone(), 1);
-    let (reports, _) = plant::run(plant.listed(), user("operator1"), hasty, CancellationToken::new(), |_| {}).await;
+    let timeouts = ManagementTimeouts { change: Duration::from_millis(200), ..fleet.connector.timeouts };
+    let hasty = JobContext::new(Arc::new(ManagementConnector { timeouts }), fleet.passwords.clone(), 1);
+    let (reports, _) =
+        test_fleet::run(fleet.listed(), user("operator1"), hasty, CancellationToken::new(), |_| {}).await;
     let problem = reports[0].result.as_ref().unwrap_err();
-    let after = plant.controller(0).info().revision.number();
+    let after = fleet.controller(0).info().revision.number();
     // What is said is what is so.
     match problem.code {
         ErrorCode::AnswerLost => assert_eq!(after, before + 1),

@@ -3,28 +3,29 @@
 use std::time::Duration;
 
 use opcua_configurator::jobs::{
-    AddUser, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer, StopServer, TrustConfigurator,
+    AddUser, BasicSettingsChange, SelfSigned, SelfSignedFields, SetBasicSettings, StartServer, StopServer,
+    TrustConfigurator,
 };
 use opcua_configurator::model::opcua::{NodeId, QualifiedName, Value};
 use opcua_configurator::model::{
-    Credential, Credentials, ErrorCode, KeyLength, Problem, SecurityPolicy, UserPassword, UserTokenPolicy, Validity,
+    Credentials, ErrorCode, KeyLength, Problem, SecurityPolicy, UserCredential, UserPassword, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::Certificate;
 use opcua_configurator::session::Connector as _;
 use opcua_configurator::session::opcua_client::{
-    ClientSession, ConnectTimeouts, ControllerServer, Login, OpcUaClient, SubscriptionIntervals, Target,
+    ClientSession, ConnectTimeouts, ControllerServer, OpcUaClient, ServerLocation, SubscriptionIntervals, UserLogin,
 };
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::Workspace;
 
-use crate::common::plant::{self, Plant};
+use crate::common::test_fleet::{self, TestFleet};
 
 const LIMIT: Duration = Duration::from_secs(60);
 const CURRENT_TIME: NodeId = NodeId::numeric(0, 2258);
 const STATE: NodeId = NodeId::numeric(0, 2259);
 
 struct Server {
-    plant: Plant,
+    fleet: TestFleet,
     folder: tempfile::TempDir,
 }
 
@@ -40,13 +41,13 @@ impl Server {
     /// A server with a certificate, one policy and one user.
     async fn stopped(user_tokens: impl IntoIterator<Item = UserTokenPolicy>) -> Self {
         let server =
-            Self { plant: Plant::start(1, FleetFirmware::Current).await, folder: tempfile::tempdir().unwrap() };
-        let change = SettingsChange {
+            Self { fleet: TestFleet::start(1, FleetFirmware::Current).await, folder: tempfile::tempdir().unwrap() };
+        let change = BasicSettingsChange {
             security_policies: Some([SecurityPolicy::Basic256Sha256].into()),
             user_tokens: Some(user_tokens.into_iter().collect()),
-            ..SettingsChange::default()
+            ..BasicSettingsChange::default()
         };
-        server.run(SetSettings { change, ..SetSettings::default() }).await;
+        server.run(SetBasicSettings { change, ..SetBasicSettings::default() }).await;
         let fields = SelfSignedFields {
             common_name: None,
             country: "JP".into(),
@@ -58,7 +59,7 @@ impl Server {
         };
         server.run(SelfSigned { fields, backup: None }).await;
         let credential =
-            Credential { name: "operator1".parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() };
+            UserCredential { name: "operator1".parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() };
         server.run(AddUser { credential, based_on: None }).await;
         server
     }
@@ -68,12 +69,12 @@ impl Server {
     }
 
     async fn run(&self, operation: impl opcua_configurator::jobs::Operation + 'static) {
-        for report in self.plant.run(operation).await {
+        for report in self.fleet.run(operation).await {
             assert!(report.result.is_ok(), "{report:?}");
         }
     }
 
-    async fn connect(&self, login: &Login) -> Result<ClientSession, Problem> {
+    async fn connect(&self, login: &UserLogin) -> Result<ClientSession, Problem> {
         let server = self.find().await?;
         Ok(server.connect(&self.client(), login).await?)
     }
@@ -90,18 +91,18 @@ impl Server {
 
     /// The server, as the controller describes it.
     async fn find(&self) -> Result<ControllerServer, Problem> {
-        let controller = self.plant.listed().remove(0);
+        let controller = self.fleet.listed().remove(0);
         let (fingerprint, host) = (controller.fingerprint.unwrap(), controller.address.host().to_owned());
-        let password = Credentials::ConnectionPassword(plant::PASSWORD.into());
-        let mut session = self.plant.connector.connect(&controller.address, fingerprint, &password).await?;
+        let password = Credentials::ConnectionPassword(test_fleet::PASSWORD.into());
+        let mut session = self.fleet.connector.connect(&controller.address, fingerprint, &password).await?;
         let found = ControllerServer::find(session.as_mut(), &host).await;
         session.close().await;
         found
     }
 }
 
-fn user(password: &str) -> Login {
-    Login::User { name: "operator1".into(), password: password.into() }
+fn user(password: &str) -> UserLogin {
+    UserLogin::User { name: "operator1".into(), password: password.into() }
 }
 
 async fn within<T>(future: impl Future<Output = T>) -> T {
@@ -111,7 +112,7 @@ async fn within<T>(future: impl Future<Output = T>) -> T {
 #[tokio::test(flavor = "multi_thread")]
 async fn values_are_read_browsed_written_and_watched_until_the_server_stops() {
     let server = Server::running().await;
-    let session = within(server.connect(&Login::Anonymous)).await.unwrap();
+    let session = within(server.connect(&UserLogin::Anonymous)).await.unwrap();
 
     let values = within(session.read(&[STATE, CURRENT_TIME, NodeId::numeric(7, 7)])).await.unwrap();
     assert_eq!(values[0].value, Value::Int32(0));
@@ -154,19 +155,19 @@ async fn values_are_read_browsed_written_and_watched_until_the_server_stops() {
 #[tokio::test(flavor = "multi_thread")]
 async fn every_reason_for_no_session_has_its_own_error() {
     let server = Server::stopped(UserTokenPolicy::ALL).await;
-    let refused = async |login: &Login| within(server.connect(login)).await.map(|_| ()).unwrap_err().code;
-    assert_eq!(refused(&Login::Anonymous).await, ErrorCode::ServerNotRunning);
+    let refused = async |login: &UserLogin| within(server.connect(login)).await.map(|_| ()).unwrap_err().code;
+    assert_eq!(refused(&UserLogin::Anonymous).await, ErrorCode::ServerNotRunning);
     server.run(StartServer).await;
-    assert_eq!(refused(&Login::Anonymous).await, ErrorCode::ConfiguratorNotTrusted);
+    assert_eq!(refused(&UserLogin::Anonymous).await, ErrorCode::ConfiguratorNotTrusted);
     server.trust().await;
     assert_eq!(refused(&user("Wr0ngPassword")).await, ErrorCode::OpcUaLoginRefused);
     within(server.connect(&user("Passw0rd1"))).await.unwrap().close().await;
 
     let found = server.find().await.unwrap();
     let other = ControllerServer { certificate: server.client_certificate(), ..found.clone() };
-    let refused = within(other.connect(&server.client(), &Login::Anonymous)).await.unwrap_err();
+    let refused = within(other.connect(&server.client(), &UserLogin::Anonymous)).await.unwrap_err();
     assert_eq!(Problem::from(refused).code, ErrorCode::NoSuitableEndpoint);
-    let closed = Target { port: 1, ..found.target };
-    let refused = ControllerServer { target: closed, ..found }.connect(&server.client(), &Login::Anonymous).await;
+    let closed = ServerLocation { port: 1, ..found.target };
+    let refused = ControllerServer { target: closed, ..found }.connect(&server.client(), &UserLogin::Anonymous).await;
     assert_eq!(Problem::from(refused.unwrap_err()).code, ErrorCode::OpcUaConnectionFailed);
 }

@@ -7,12 +7,13 @@ use std::time::Duration;
 
 use async_trait::async_trait;
 use opcua_configurator::jobs::{
-    AddUser, CertificateMade, GetInfo, JobContext, JobController, JobEvent, ListUsers, RemoveUsers, Report, SelfSigned,
-    SelfSignedFields, SetSettings, SettingsChange, StartServer, Step, StopServer, Summary,
+    AddUser, BasicSettingsChange, CertificateMade, ControllerReport, GetInfo, JobContext, JobController, JobEvent,
+    JobStep, JobSummary, ListUsers, RemoveUsers, SelfSigned, SelfSignedFields, SetBasicSettings, StartServer,
+    StopServer,
 };
 use opcua_configurator::model::{
-    Address, Capabilities, ConnectionKind, ControllerInfo, Credential, Credentials, ErrorCode, KeyLength, Problem,
-    SecurityPolicy, ServerStatus, UserPassword, UserTokenPolicy, Validity,
+    Address, Capabilities, ConnectionKind, ControllerInfo, Credentials, ErrorCode, KeyLength, Problem, SecurityPolicy,
+    ServerStatus, UserCredential, UserPassword, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::session::{Connector, ControllerSession};
@@ -21,11 +22,11 @@ use opcua_configurator::workspace::{MemoryPasswords, PasswordError, Passwords, W
 use parking_lot::Mutex;
 use tokio_util::sync::CancellationToken;
 
-use crate::common::plant::{self, Plant};
+use crate::common::test_fleet::{self, TestFleet};
 
 fn user(name: &str) -> AddUser {
     AddUser {
-        credential: Credential { name: name.parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() },
+        credential: UserCredential { name: name.parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() },
         based_on: None,
     }
 }
@@ -45,56 +46,56 @@ fn certificate() -> SelfSigned {
     }
 }
 
-fn policies(list: &[SecurityPolicy]) -> SetSettings {
-    let change = SettingsChange {
+fn policies(list: &[SecurityPolicy]) -> SetBasicSettings {
+    let change = BasicSettingsChange {
         security_policies: Some(list.iter().copied().collect()),
         user_tokens: Some(BTreeSet::from([UserTokenPolicy::UserName])),
-        ..SettingsChange::default()
+        ..BasicSettingsChange::default()
     };
-    SetSettings { change, ..SetSettings::default() }
+    SetBasicSettings { change, ..SetBasicSettings::default() }
 }
 
-fn codes<O>(reports: &[Report<O>]) -> Vec<Option<ErrorCode>> {
+fn codes<O>(reports: &[ControllerReport<O>]) -> Vec<Option<ErrorCode>> {
     reports.iter().map(|r| r.result.as_ref().err().map(|p| p.code)).collect()
 }
 
-fn status<O>(report: &Report<O>) -> ServerStatus {
+fn status<O>(report: &ControllerReport<O>) -> ServerStatus {
     report.info.as_ref().expect("information").status
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn from_an_empty_controller_to_a_running_server() {
-    let plant = Plant::start(3, FleetFirmware::Mixed).await;
-    let reports = plant.run(StartServer).await;
+    let fleet = TestFleet::start(3, FleetFirmware::Mixed).await;
+    let reports = fleet.run(StartServer).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::NoCertificate); 3]);
     assert_eq!(status(&reports[0]), ServerStatus::Error);
-    for report in plant.run(certificate()).await {
+    for report in fleet.run(certificate()).await {
         let Ok(CertificateMade { summary, .. }) = &report.result else { panic!("{report:?}") };
         let info = report.info.expect("information");
         assert_eq!(summary.issued_to, info.application_name);
         assert_eq!(summary.application_uri, Some(format!("urn:{}", info.application_name)));
         assert_eq!(info.certificate.map(|c| c.summary), Some(summary.clone()));
     }
-    assert_eq!(codes(&plant.run(policies(&[SecurityPolicy::Basic256Sha256])).await), [None; 3]);
-    assert_eq!(codes(&plant.run(user("operator1")).await), [None; 3]);
-    let reports = plant.run(StartServer).await;
+    assert_eq!(codes(&fleet.run(policies(&[SecurityPolicy::Basic256Sha256])).await), [None; 3]);
+    assert_eq!(codes(&fleet.run(user("operator1")).await), [None; 3]);
+    let reports = fleet.run(StartServer).await;
     assert!(reports.iter().all(|r| status(r) == ServerStatus::Run), "{reports:?}");
     // A change stops a running server and starts it again.
-    let reports = plant.run(user("operator2")).await;
+    let reports = fleet.run(user("operator2")).await;
     assert!(reports.iter().all(|r| r.result.is_ok() && status(r) == ServerStatus::Run), "{reports:?}");
-    let reports = plant.run(StopServer).await;
+    let reports = fleet.run(StopServer).await;
     assert!(reports.iter().all(|r| status(r) == ServerStatus::Stop), "{reports:?}");
-    let reports = plant.run(RemoveUsers { names: vec!["operator1".parse().unwrap()], based_on: None }).await;
+    let reports = fleet.run(RemoveUsers { names: vec!["operator1".parse().unwrap()], based_on: None }).await;
     assert!(reports.iter().all(|r| r.result.is_ok() && status(r) == ServerStatus::Stop), "{reports:?}");
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn one_failing_never_stops_the_others() {
-    let plant = Plant::start(4, FleetFirmware::Current).await;
-    plant.controller(0).faults().update(|f| f.task_running = true);
-    plant.controller(1).faults().update(|f| f.teach_pendant_connected = true);
-    plant.controller(2).shutdown().await;
-    let reports = plant.run(user("operator1")).await;
+    let fleet = TestFleet::start(4, FleetFirmware::Current).await;
+    fleet.controller(0).faults().update(|f| f.task_running = true);
+    fleet.controller(1).faults().update(|f| f.teach_pendant_connected = true);
+    fleet.controller(2).shutdown().await;
+    let reports = fleet.run(user("operator1")).await;
     assert_eq!(
         codes(&reports),
         [Some(ErrorCode::TaskRunning), Some(ErrorCode::TeachPendantConnected), Some(ErrorCode::Unreachable), None]
@@ -105,16 +106,16 @@ async fn one_failing_never_stops_the_others() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn wrong_and_missing_passwords_and_fingerprints_are_told_apart() {
-    let plant = Plant::start(3, FleetFirmware::Current).await;
-    plant.passwords.set(plant.controller(0).fingerprint(), "wrong".into()).unwrap();
-    plant.passwords.forget(plant.controller(1).fingerprint());
-    let mut listed = plant.listed();
-    listed[2].fingerprint = Some(plant::nobody());
-    plant.passwords.set(plant::nobody(), plant::PASSWORD.into()).unwrap();
+    let fleet = TestFleet::start(3, FleetFirmware::Current).await;
+    fleet.passwords.set(fleet.controller(0).fingerprint(), "wrong".into()).unwrap();
+    fleet.passwords.forget(fleet.controller(1).fingerprint());
+    let mut listed = fleet.listed();
+    listed[2].fingerprint = Some(test_fleet::nobody());
+    fleet.passwords.set(test_fleet::nobody(), test_fleet::PASSWORD.into()).unwrap();
     let mut unconfirmed = listed[1].clone();
     unconfirmed.fingerprint = None;
     listed.push(unconfirmed);
-    let (reports, summary) = plant::run(listed, GetInfo, plant.context(), CancellationToken::new(), |_| {}).await;
+    let (reports, summary) = test_fleet::run(listed, GetInfo, fleet.context(), CancellationToken::new(), |_| {}).await;
     assert_eq!(
         codes(&reports),
         [
@@ -124,115 +125,115 @@ async fn wrong_and_missing_passwords_and_fingerprints_are_told_apart() {
             Some(ErrorCode::FingerprintUnknown)
         ]
     );
-    assert_eq!(summary, Summary { done: 0, failed: 4, not_started: 0 });
+    assert_eq!(summary, JobSummary { done: 0, failed: 4, not_started: 0 });
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_connection_lost_before_the_change_leaves_the_controller_as_it_was() {
-    let plant = Plant::start(1, FleetFirmware::Legacy).await;
-    plant.run(certificate()).await;
-    plant.run(StartServer).await;
-    let before = plant.controller(0).info();
-    plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::BeforeApply));
-    let reports = plant.run(user("operator1")).await;
+    let fleet = TestFleet::start(1, FleetFirmware::Legacy).await;
+    fleet.run(certificate()).await;
+    fleet.run(StartServer).await;
+    let before = fleet.controller(0).info();
+    fleet.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::BeforeApply));
+    let reports = fleet.run(user("operator1")).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::ConnectionLost)]);
     let detail = reports[0].result.as_ref().unwrap_err().detail.clone().unwrap();
     assert!(detail.contains("not applied when it was read again"), "{detail}");
-    let after = plant.controller(0).info();
+    let after = fleet.controller(0).info();
     assert_eq!((after.revision, after.status), (before.revision, ServerStatus::Run));
-    let users = plant.run(ListUsers).await;
+    let users = fleet.run(ListUsers).await;
     assert!(matches!(&users[0].result, Ok(users) if users.value.is_empty()), "{users:?}");
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_lost_answer_is_said_to_be_lost_and_the_row_shows_what_was_done() {
-    let plant = Plant::start(1, FleetFirmware::Current).await;
-    let before = plant.controller(0).info().revision.number();
-    plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
-    let reports = plant.run(user("operator1")).await;
+    let fleet = TestFleet::start(1, FleetFirmware::Current).await;
+    let before = fleet.controller(0).info().revision.number();
+    fleet.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
+    let reports = fleet.run(user("operator1")).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::AnswerLost)]);
     assert_eq!(reports[0].info.as_ref().map(|i| i.revision.number()), Some(before + 1));
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_key_the_security_policies_do_not_allow_keeps_the_server_from_starting() {
-    let plant = Plant::start(1, FleetFirmware::Legacy).await;
+    let fleet = TestFleet::start(1, FleetFirmware::Legacy).await;
     let fields = SelfSignedFields { key_length: KeyLength::Rsa4096, ..certificate().fields };
-    assert_eq!(codes(&plant.run(policies(&[SecurityPolicy::Basic256Sha256])).await), [None]);
-    assert_eq!(codes(&plant.run(SelfSigned { fields, backup: None }).await), [None]);
-    assert_eq!(codes(&plant.run(policies(&[SecurityPolicy::Basic128Rsa15])).await), [None]);
-    assert_eq!(codes(&plant.run(StartServer).await), [Some(ErrorCode::InvalidParameter)]);
-    assert_eq!(plant.controller(0).info().error, Some(ErrorCode::InvalidParameter));
+    assert_eq!(codes(&fleet.run(policies(&[SecurityPolicy::Basic256Sha256])).await), [None]);
+    assert_eq!(codes(&fleet.run(SelfSigned { fields, backup: None }).await), [None]);
+    assert_eq!(codes(&fleet.run(policies(&[SecurityPolicy::Basic128Rsa15])).await), [None]);
+    assert_eq!(codes(&fleet.run(StartServer).await), [Some(ErrorCode::InvalidParameter)]);
+    assert_eq!(fleet.controller(0).info().error, Some(ErrorCode::InvalidParameter));
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_second_configurator_is_noticed() {
-    let plant = Plant::start(1, FleetFirmware::Current).await;
-    let seen = plant.controller(0).info().revision;
-    plant.run(user("operator1")).await;
+    let fleet = TestFleet::start(1, FleetFirmware::Current).await;
+    let seen = fleet.controller(0).info().revision;
+    fleet.run(user("operator1")).await;
     let mut late = policies(&[SecurityPolicy::Basic256Sha256]);
     late.based_on = Some(seen);
-    assert_eq!(codes(&plant.run(late).await), [Some(ErrorCode::ChangedMeanwhile)]);
-    assert_eq!(plant.controller(0).info().revision.number(), seen.number() + 1, "nothing was changed");
+    assert_eq!(codes(&fleet.run(late).await), [Some(ErrorCode::ChangedMeanwhile)]);
+    assert_eq!(fleet.controller(0).info().revision.number(), seen.number() + 1, "nothing was changed");
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_full_disk_in_the_controller_changes_nothing() {
-    let plant = Plant::start(1, FleetFirmware::Legacy).await;
-    plant.run(certificate()).await;
-    plant.run(StartServer).await;
-    let before = plant.controller(0).info();
-    plant.controller(0).faults().update(|f| f.disk_full = true);
-    let reports = plant.run(certificate()).await;
+    let fleet = TestFleet::start(1, FleetFirmware::Legacy).await;
+    fleet.run(certificate()).await;
+    fleet.run(StartServer).await;
+    let before = fleet.controller(0).info();
+    fleet.controller(0).faults().update(|f| f.disk_full = true);
+    let reports = fleet.run(certificate()).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::DiskFull)]);
-    let after = plant.controller(0).info();
+    let after = fleet.controller(0).info();
     assert_eq!((after.certificate, after.status), (before.certificate, ServerStatus::Run));
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_port_that_is_taken_is_refused_before_and_after() {
-    let plant = Plant::start(1, FleetFirmware::Current).await;
-    let used = plant.controller(0).info().used_ports[0];
-    let change = SettingsChange { port: Some(used.try_into().unwrap()), ..SettingsChange::default() };
-    let operation = SetSettings { change, ..SetSettings::default() };
-    assert_eq!(codes(&plant.run(operation.clone()).await), [Some(ErrorCode::PortConflict)], "by the controller");
-    let mut listed = plant.listed();
-    listed[0].known = Some(plant.controller(0).info());
-    plant.controller(0).shutdown().await;
-    let (reports, _) = plant::run(listed, operation, plant.context(), CancellationToken::new(), |_| {}).await;
+    let fleet = TestFleet::start(1, FleetFirmware::Current).await;
+    let used = fleet.controller(0).info().used_ports[0];
+    let change = BasicSettingsChange { port: Some(used.try_into().unwrap()), ..BasicSettingsChange::default() };
+    let operation = SetBasicSettings { change, ..SetBasicSettings::default() };
+    assert_eq!(codes(&fleet.run(operation.clone()).await), [Some(ErrorCode::PortConflict)], "by the controller");
+    let mut listed = fleet.listed();
+    listed[0].known = Some(fleet.controller(0).info());
+    fleet.controller(0).shutdown().await;
+    let (reports, _) = test_fleet::run(listed, operation, fleet.context(), CancellationToken::new(), |_| {}).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::PortConflict)], "without asking it");
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn cancel_stops_after_the_step_in_hand() {
-    let plant = Plant::start(6, FleetFirmware::Current).await;
+    let fleet = TestFleet::start(6, FleetFirmware::Current).await;
     for index in 0..6 {
-        plant.controller(index).faults().update(|f| f.latency = Duration::from_millis(150));
+        fleet.controller(index).faults().update(|f| f.latency = Duration::from_millis(150));
     }
-    let mut context = plant.context();
+    let mut context = fleet.context();
     context.parallelism = 2;
     let cancel = CancellationToken::new();
     let stop = cancel.clone();
-    let (reports, summary) = plant::run(plant.listed(), user("operator1"), context, cancel, move |event| {
-        if matches!(event, JobEvent::Step { step: Step::Apply, .. }) {
+    let (reports, summary) = test_fleet::run(fleet.listed(), user("operator1"), context, cancel, move |event| {
+        if matches!(event, JobEvent::Step { step: JobStep::Apply, .. }) {
             stop.cancel();
         }
     })
     .await;
     assert!(summary.done >= 1 && summary.not_started >= 4 && summary.failed == 0, "{summary:?}");
     for (index, report) in reports.iter().enumerate() {
-        let has_user = !plant.controller(index).state().users.is_empty();
+        let has_user = !fleet.controller(index).state().users.is_empty();
         assert_eq!(report.result.is_ok(), has_user, "what is said of controller {index} is what was done");
     }
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_slow_controller_does_not_hold_up_the_others() {
-    let plant = Plant::start(3, FleetFirmware::Current).await;
-    plant.controller(0).faults().update(|f| f.latency = Duration::from_millis(1500));
+    let fleet = TestFleet::start(3, FleetFirmware::Current).await;
+    fleet.controller(0).faults().update(|f| f.latency = Duration::from_millis(1500));
     let order = std::sync::Arc::new(parking_lot::Mutex::new(Vec::new()));
     let seen = order.clone();
-    plant::run(plant.listed(), GetInfo, plant.context(), CancellationToken::new(), move |event| {
+    test_fleet::run(fleet.listed(), GetInfo, fleet.context(), CancellationToken::new(), move |event| {
         if let JobEvent::Finished { index, .. } = event {
             seen.lock().push(*index);
         }
@@ -243,22 +244,22 @@ async fn a_slow_controller_does_not_hold_up_the_others() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_backup_holds_the_certificate_and_for_legacy_firmware_the_key() {
-    let plant = Plant::start(2, FleetFirmware::Mixed).await;
+    let fleet = TestFleet::start(2, FleetFirmware::Mixed).await;
     let folder = tempfile::tempdir().unwrap();
     let files = Workspace::new(folder.path()).certificate_files();
     for (index, report) in
-        plant.run(SelfSigned { backup: Some(files.clone()), ..certificate() }).await.into_iter().enumerate()
+        fleet.run(SelfSigned { backup: Some(files.clone()), ..certificate() }).await.into_iter().enumerate()
     {
         let Ok(CertificateMade { saved: Some(saved), .. }) = report.result else { panic!("{report:?}") };
         let info = report.info.unwrap();
         assert_eq!(saved.certificate, files.self_signed_folder(&info.serial).join("1_cert.der"));
         let certificate = opcua_configurator::pki::Certificate::from_der(&std::fs::read(saved.certificate).unwrap());
         assert_eq!(Some(certificate.unwrap().summary()), info.certificate.map(|c| c.summary));
-        let legacy = plant.controller(index).firmware().to_string().starts_with('7');
+        let legacy = fleet.controller(index).firmware().to_string().starts_with('7');
         assert_eq!(saved.key.is_some(), legacy);
         if let Some(key) = saved.key {
             let pfx = std::fs::read(&key).unwrap();
-            assert!(opcua_configurator::pki::pkcs12_read(&pfx, plant::PASSWORD).is_ok());
+            assert!(opcua_configurator::pki::pkcs12_read(&pfx, test_fleet::PASSWORD).is_ok());
             #[cfg(unix)]
             {
                 use std::os::unix::fs::PermissionsExt as _;
@@ -271,15 +272,15 @@ async fn a_backup_holds_the_certificate_and_for_legacy_firmware_the_key() {
 /// A certificate in use whose backup is missing is what nobody wants: find out first.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_backup_that_cannot_be_written_stops_before_the_controller_is_changed() {
-    let plant = Plant::start(1, FleetFirmware::Legacy).await;
+    let fleet = TestFleet::start(1, FleetFirmware::Legacy).await;
     let folder = tempfile::tempdir().unwrap();
     let in_the_way = folder.path().join("file");
     std::fs::write(&in_the_way, "x").unwrap();
     let files = Workspace::new(&in_the_way).certificate_files();
-    let before = plant.controller(0).info().revision.number();
-    let reports = plant.run(SelfSigned { backup: Some(files), ..certificate() }).await;
+    let before = fleet.controller(0).info().revision.number();
+    let reports = fleet.run(SelfSigned { backup: Some(files), ..certificate() }).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::WorkspaceReadOnly)]);
-    assert_eq!(plant.controller(0).info().revision.number(), before);
+    assert_eq!(fleet.controller(0).info().revision.number(), before);
 }
 
 /// Stands in for every controller: sessions whose information and goodbye the test decides.
@@ -301,7 +302,7 @@ impl Stand {
 
     fn context(self: &Arc<Self>, parallelism: usize) -> JobContext {
         let passwords = MemoryPasswords::default();
-        passwords.set(plant::nobody(), "".into()).unwrap();
+        passwords.set(test_fleet::nobody(), "".into()).unwrap();
         JobContext::new(Arc::new(StandIn(self.clone())), Arc::new(passwords), parallelism)
     }
 }
@@ -312,7 +313,7 @@ fn crowd(count: usize) -> Vec<JobController> {
         name: format!("cell {n}").parse().unwrap(),
         address: format!("10.0.0.{n}").parse().unwrap(),
         connection: ConnectionKind::Management,
-        fingerprint: Some(plant::nobody()),
+        fingerprint: Some(test_fleet::nobody()),
         known: None,
     };
     (1..=count).map(nth).collect()
@@ -360,13 +361,13 @@ impl ControllerSession for StandIn {
 }
 
 async fn some_info() -> ControllerInfo {
-    Plant::start(1, FleetFirmware::Current).await.controller(0).info()
+    TestFleet::start(1, FleetFirmware::Current).await.controller(0).info()
 }
 
 #[tokio::test(flavor = "multi_thread")]
 async fn controllers_have_their_turns_in_list_order() {
     let stand = Arc::new(Stand::new(Ok(some_info().await)));
-    let (_, summary) = plant::run(crowd(200), GetInfo, stand.context(1), CancellationToken::new(), |_| {}).await;
+    let (_, summary) = test_fleet::run(crowd(200), GetInfo, stand.context(1), CancellationToken::new(), |_| {}).await;
     assert_eq!(summary.done, 200);
     let in_order: Vec<String> = crowd(200).iter().map(|c| c.address.to_string()).collect();
     assert_eq!(*stand.met.lock(), in_order);
@@ -377,7 +378,8 @@ async fn controllers_have_their_turns_in_list_order() {
 async fn information_that_cannot_be_read_is_explained() {
     for problem in [ErrorCode::Timeout.into(), Problem::with_detail(ErrorCode::NotAController, "line 1")] {
         let stand = Arc::new(Stand::new(Err(problem.clone())));
-        let (reports, _) = plant::run(crowd(1), GetInfo, stand.context(16), CancellationToken::new(), |_| {}).await;
+        let (reports, _) =
+            test_fleet::run(crowd(1), GetInfo, stand.context(16), CancellationToken::new(), |_| {}).await;
         assert_eq!(reports[0].result, Err(problem));
     }
 }
@@ -387,10 +389,10 @@ async fn information_that_cannot_be_read_is_explained() {
 async fn the_next_turn_begins_before_the_last_goodbye_is_said() {
     let info = some_info().await;
     let stand = Arc::new(Stand { goodbye_after: 2, ..Stand::new(Ok(info.clone())) });
-    let (reports, _) = plant::run(crowd(2), GetInfo, stand.context(1), CancellationToken::new(), |_| {}).await;
+    let (reports, _) = test_fleet::run(crowd(2), GetInfo, stand.context(1), CancellationToken::new(), |_| {}).await;
     assert_eq!(codes(&reports), [None; 2]);
     let stand = Arc::new(Stand::new(Ok(info)));
-    plant::run(crowd(100), GetInfo, stand.context(4), CancellationToken::new(), |_| {}).await;
+    test_fleet::run(crowd(100), GetInfo, stand.context(4), CancellationToken::new(), |_| {}).await;
     assert!((1..=4).contains(&stand.most_closing.load(Ordering::SeqCst)), "{:?}", stand.most_closing);
     assert_eq!(stand.closing.load(Ordering::SeqCst), 0, "the job ends with the last goodbye");
 }
@@ -420,11 +422,11 @@ async fn a_cancel_does_not_wait_for_a_locked_keyring() {
         tokio::time::sleep(Duration::from_millis(50)).await;
         stop.cancel();
     });
-    let job = plant::run(crowd(3), GetInfo, context, cancel, |_| {});
+    let job = test_fleet::run(crowd(3), GetInfo, context, cancel, |_| {});
     let (reports, summary) = tokio::time::timeout(Duration::from_secs(20), job).await.expect("cancelled");
     for report in &reports {
         assert_eq!(report.result.as_ref().unwrap_err().code, ErrorCode::Cancelled);
     }
-    assert_eq!(summary, Summary { not_started: 3, ..Summary::default() });
+    assert_eq!(summary, JobSummary { not_started: 3, ..JobSummary::default() });
     drop(home);
 }

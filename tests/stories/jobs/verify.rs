@@ -4,11 +4,11 @@ use std::net::SocketAddr;
 use std::time::{Duration, Instant};
 
 use opcua_configurator::jobs::{
-    AddUser, NotTried, Refusal, RefusalDetails, SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer,
-    TokenOutcome, TrustConfigurator, Verify, VerifyFinding, VerifyReport,
+    AddUser, BasicSettingsChange, ConnectRefusal, NotTried, RefusalDetails, SelfSigned, SelfSignedFields,
+    SetBasicSettings, StartServer, TokenOutcome, TrustConfigurator, Verify, VerifyFinding, VerifyReport,
 };
 use opcua_configurator::model::{
-    CertificateStatus, Credential, KeyLength, SecurityPolicy, ServerStatus, UserPassword, UserTokenPolicy, Validity,
+    CertificateStatus, KeyLength, SecurityPolicy, ServerStatus, UserCredential, UserPassword, UserTokenPolicy, Validity,
 };
 use opcua_configurator::session::opcua_client::{ConnectTimeouts, TokenKind};
 use opcua_configurator::virtual_controller::FleetFirmware;
@@ -17,7 +17,7 @@ use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::{TcpListener, TcpStream};
 use tokio_util::sync::CancellationToken;
 
-use crate::common::plant::{self, Plant};
+use crate::common::test_fleet::{self, TestFleet};
 
 fn certificate(bits: KeyLength) -> SelfSigned {
     SelfSigned {
@@ -34,13 +34,13 @@ fn certificate(bits: KeyLength) -> SelfSigned {
     }
 }
 
-fn credential(password: &str) -> Credential {
-    Credential { name: "operator1".parse().unwrap(), password: UserPassword::new(password).unwrap() }
+fn credential(password: &str) -> UserCredential {
+    UserCredential { name: "operator1".parse().unwrap(), password: UserPassword::new(password).unwrap() }
 }
 
 /// A plant and a desk beside it.
 struct Cell {
-    plant: Plant,
+    fleet: TestFleet,
     folder: tempfile::TempDir,
 }
 
@@ -53,20 +53,20 @@ impl Cell {
     }
 
     async fn stopped(count: usize, firmware: FleetFirmware, policies: &[SecurityPolicy]) -> Self {
-        let cell = Self { plant: Plant::start(count, firmware).await, folder: tempfile::tempdir().unwrap() };
-        let change = SettingsChange {
+        let cell = Self { fleet: TestFleet::start(count, firmware).await, folder: tempfile::tempdir().unwrap() };
+        let change = BasicSettingsChange {
             security_policies: Some(policies.iter().copied().collect()),
             user_tokens: Some(UserTokenPolicy::ALL.into()),
-            ..SettingsChange::default()
+            ..BasicSettingsChange::default()
         };
-        cell.run(SetSettings { change, ..SetSettings::default() }).await;
+        cell.run(SetBasicSettings { change, ..SetBasicSettings::default() }).await;
         cell.run(certificate(KeyLength::Rsa2048)).await;
         cell.run(AddUser { credential: credential("Passw0rd1"), based_on: None }).await;
         cell
     }
 
     async fn run(&self, operation: impl opcua_configurator::jobs::Operation + 'static) {
-        for report in self.plant.run(operation).await {
+        for report in self.fleet.run(operation).await {
             assert!(report.result.is_ok(), "{report:?}");
         }
     }
@@ -76,12 +76,12 @@ impl Cell {
             identity: Workspace::new(self.folder.path()).own_identity(),
             login: login.map(credential),
             trust_first: false,
-            patience: ConnectTimeouts { connect: Duration::from_secs(2), attempt: Duration::from_secs(4) },
+            timeouts: ConnectTimeouts { connect: Duration::from_secs(2), attempt: Duration::from_secs(4) },
         }
     }
 
     async fn reports(&self, login: Option<&str>) -> Vec<VerifyReport> {
-        self.plant.run(self.verify(login)).await.into_iter().map(|report| report.result.unwrap()).collect()
+        self.fleet.run(self.verify(login)).await.into_iter().map(|report| report.result.unwrap()).collect()
     }
 
     async fn report(&self, login: Option<&str>) -> VerifyReport {
@@ -119,8 +119,9 @@ async fn an_unknown_configurator_is_refused_at_every_secured_endpoint() {
         assert_eq!(report.counts().work, 2, "{report:?}");
         for endpoint in report.endpoints.iter().filter(|endpoint| endpoint.name() != "None") {
             for token in &endpoint.tokens {
-                let TokenOutcome::Fails(Refusal::OwnCertificate(Some(RefusalDetails { status, reason, .. }))) =
-                    &token.verdict
+                let TokenOutcome::Fails(ConnectRefusal::OwnCertificate(Some(RefusalDetails {
+                    status, reason, ..
+                }))) = &token.verdict
                 else {
                     panic!("{token:?}")
                 };
@@ -134,11 +135,11 @@ async fn an_unknown_configurator_is_refused_at_every_secured_endpoint() {
 #[tokio::test(flavor = "multi_thread")]
 async fn once_it_is_trusted_the_configurator_gets_in_everywhere() {
     let cell = Cell::running(2, FleetFirmware::Mixed, &SecurityPolicy::ALL).await;
-    let patience = ConnectTimeouts::default();
+    let timeouts = ConnectTimeouts::default();
     cell.run(TrustConfigurator { identity: Workspace::new(cell.folder.path()).own_identity() }).await;
     for report in cell
-        .plant
-        .run(Verify { patience, ..cell.verify(Some("Passw0rd1")) })
+        .fleet
+        .run(Verify { timeouts, ..cell.verify(Some("Passw0rd1")) })
         .await
         .into_iter()
         .map(|report| report.result.unwrap())
@@ -146,11 +147,11 @@ async fn once_it_is_trusted_the_configurator_gets_in_everywhere() {
         assert!(report.all_works(), "{report:?}");
         assert_eq!((report.counts().work, report.endpoints.len()), (22, 11));
     }
-    let trust_first = Verify { trust_first: true, patience, ..cell.verify(None) };
-    for report in cell.plant.run(trust_first).await.into_iter().map(|report| report.result.unwrap()) {
+    let trust_first = Verify { trust_first: true, timeouts, ..cell.verify(None) };
+    for report in cell.fleet.run(trust_first).await.into_iter().map(|report| report.result.unwrap()) {
         assert_eq!((report.counts().work, report.counts().not_tried), (11, 11), "trusting twice does no harm");
     }
-    assert_eq!(cell.plant.controller(0).state().trusted.len(), 1);
+    assert_eq!(cell.fleet.controller(0).state().trusted.len(), 1);
 }
 
 #[tokio::test(flavor = "multi_thread")]
@@ -158,7 +159,7 @@ async fn a_wrong_password_is_sent_once() {
     let cell = Cell::running(1, FleetFirmware::Current, &[SecurityPolicy::None]).await;
     for _ in 0..4 {
         let report = cell.report(Some("Passw0rd2")).await;
-        assert_eq!(*verdict(&report, "None", TokenKind::UserName), TokenOutcome::Fails(Refusal::Password));
+        assert_eq!(*verdict(&report, "None", TokenKind::UserName), TokenOutcome::Fails(ConnectRefusal::Password));
         assert_eq!(*verdict(&report, "None", TokenKind::Anonymous), TokenOutcome::Works);
     }
     assert!(cell.report(Some("Passw0rd1")).await.all_works(), "four wrong ones lock nobody out");
@@ -175,11 +176,11 @@ async fn a_stopped_server_is_said_to_be_stopped() {
 #[tokio::test(flavor = "multi_thread")]
 async fn another_name_for_the_same_controller_is_noticed() {
     let cell = Cell::running(1, FleetFirmware::Current, &[SecurityPolicy::Basic256Sha256]).await;
-    let mut listed = cell.plant.listed();
+    let mut listed = cell.fleet.listed();
     let port = listed[0].address.port();
     listed[0].address = format!("localhost:{port}").parse().unwrap();
     let (mut reports, _) =
-        plant::run(listed, cell.verify(None), cell.plant.context(), CancellationToken::new(), |_| {}).await;
+        test_fleet::run(listed, cell.verify(None), cell.fleet.context(), CancellationToken::new(), |_| {}).await;
     let report = reports.remove(0).result.unwrap();
     assert!(report.url.starts_with("opc.tcp://localhost:"), "{}", report.url);
     let other = report.findings.iter().find(|finding| matches!(finding, VerifyFinding::OtherAddress { .. }));
@@ -195,11 +196,11 @@ async fn a_clock_that_is_wrong_is_noticed_and_named_as_the_reason() {
     let cell = Cell::running(1, FleetFirmware::Current, &[SecurityPolicy::Basic256Sha256]).await;
     cell.run(TrustConfigurator { identity: Workspace::new(cell.folder.path()).own_identity() }).await;
     assert!(cell.report(None).await.all_works());
-    cell.plant.controller(0).faults().update(|faults| faults.clock_offset = chrono::TimeDelta::days(4000));
+    cell.fleet.controller(0).faults().update(|faults| faults.clock_offset = chrono::TimeDelta::days(4000));
     let report = cell.report(None).await;
     assert!(report.findings.iter().any(|finding| matches!(finding, VerifyFinding::Clock(_))), "{report:?}");
     let refused = verdict(&report, "Basic256Sha256 – SignAndEncrypt", TokenKind::Anonymous);
-    let TokenOutcome::Fails(Refusal::OwnCertificate(Some(RefusalDetails { status, .. }))) = refused else {
+    let TokenOutcome::Fails(ConnectRefusal::OwnCertificate(Some(RefusalDetails { status, .. }))) = refused else {
         panic!("{refused:?}")
     };
     assert_eq!(*status, CertificateStatus::TimeInvalid);
@@ -208,9 +209,9 @@ async fn a_clock_that_is_wrong_is_noticed_and_named_as_the_reason() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn an_expired_server_certificate_is_refused() {
-    let cell = Cell { plant: Plant::start(1, FleetFirmware::Current).await, folder: tempfile::tempdir().unwrap() };
+    let cell = Cell { fleet: TestFleet::start(1, FleetFirmware::Current).await, folder: tempfile::tempdir().unwrap() };
     // Its clock stands still in the past, so that it takes its own certificate for valid.
-    cell.plant.controller(0).faults().update(|faults| faults.clock_offset = chrono::TimeDelta::days(-800));
+    cell.fleet.controller(0).faults().update(|faults| faults.clock_offset = chrono::TimeDelta::days(-800));
     cell.run(certificate(KeyLength::Rsa2048)).await;
     cell.run(StartServer).await;
     let report = cell.report(None).await;
@@ -222,9 +223,9 @@ async fn an_expired_server_certificate_is_refused() {
 #[tokio::test(flavor = "multi_thread")]
 async fn a_short_key_is_refused_by_who_wants_better() {
     let old = [SecurityPolicy::Basic128Rsa15, SecurityPolicy::Basic256];
-    let cell = Cell { plant: Plant::start(1, FleetFirmware::Legacy).await, folder: tempfile::tempdir().unwrap() };
-    let change = SettingsChange { security_policies: Some(old.into()), ..SettingsChange::default() };
-    cell.run(SetSettings { change, ..SetSettings::default() }).await;
+    let cell = Cell { fleet: TestFleet::start(1, FleetFirmware::Legacy).await, folder: tempfile::tempdir().unwrap() };
+    let change = BasicSettingsChange { security_policies: Some(old.into()), ..BasicSettingsChange::default() };
+    cell.run(SetBasicSettings { change, ..SetBasicSettings::default() }).await;
     cell.run(certificate(KeyLength::Rsa1024)).await;
     cell.run(StartServer).await;
     let report = cell.report(None).await;
@@ -248,19 +249,19 @@ async fn gateway(at: SocketAddr, to: SocketAddr) -> SocketAddr {
     address
 }
 
-fn opcua(plant: &Plant, index: usize) -> SocketAddr {
-    plant.controller(index).endpoint().trim_start_matches("opc.tcp://").parse().unwrap()
+fn opcua(fleet: &TestFleet, index: usize) -> SocketAddr {
+    fleet.controller(index).endpoint().trim_start_matches("opc.tcp://").parse().unwrap()
 }
 
 /// The report about the first controller, known by an address where only its management answers.
 async fn through_a_gateway(cell: &Cell, login: Option<&str>) -> VerifyReport {
-    let management = gateway("127.0.0.2:0".parse().unwrap(), cell.plant.controller(0).management_address()).await;
-    let mut listed = cell.plant.listed();
+    let management = gateway("127.0.0.2:0".parse().unwrap(), cell.fleet.controller(0).management_address()).await;
+    let mut listed = cell.fleet.listed();
     listed.truncate(1);
     listed[0].address = management.to_string().parse().unwrap();
     let asked = Instant::now();
     let (mut reports, _) =
-        plant::run(listed, cell.verify(login), cell.plant.context(), CancellationToken::new(), |_| {}).await;
+        test_fleet::run(listed, cell.verify(login), cell.fleet.context(), CancellationToken::new(), |_| {}).await;
     assert!(asked.elapsed() < Duration::from_secs(30), "{:?}", asked.elapsed());
     reports.remove(0).result.unwrap()
 }
@@ -268,9 +269,9 @@ async fn through_a_gateway(cell: &Cell, login: Option<&str>) -> VerifyReport {
 #[tokio::test(flavor = "multi_thread")]
 async fn who_answers_instead_of_the_server_is_found_out_in_seconds() {
     let cell = Cell::running(1, FleetFirmware::Current, &[SecurityPolicy::None]).await;
-    let at = SocketAddr::new("127.0.0.2".parse().unwrap(), opcua(&cell.plant, 0).port());
+    let at = SocketAddr::new("127.0.0.2".parse().unwrap(), opcua(&cell.fleet, 0).port());
     let report = through_a_gateway(&cell, None).await;
-    assert!(matches!(report.findings[..], [VerifyFinding::NoAnswer(Refusal::NotReachable(_))]), "{report:?}");
+    assert!(matches!(report.findings[..], [VerifyFinding::NoAnswer(ConnectRefusal::NotReachable(_))]), "{report:?}");
     for answer in [&b"HTTP/1.1 400 Bad Request\r\n\r\n"[..], b"", b"MSGF\xff\xff\xff\xff"] {
         let listener = TcpListener::bind(at).await.unwrap();
         let impostor = tokio::spawn(async move {
@@ -284,7 +285,7 @@ async fn who_answers_instead_of_the_server_is_found_out_in_seconds() {
         });
         let report = through_a_gateway(&cell, None).await;
         let [VerifyFinding::NoAnswer(refusal)] = &report.findings[..] else { panic!("{report:?}") };
-        assert!(matches!(refusal, Refusal::NotOpcUa(_) | Refusal::TimedOut), "{refusal:?}");
+        assert!(matches!(refusal, ConnectRefusal::NotOpcUa(_) | ConnectRefusal::TimedOut), "{refusal:?}");
         impostor.abort();
         let _ = impostor.await;
     }
@@ -294,8 +295,8 @@ async fn who_answers_instead_of_the_server_is_found_out_in_seconds() {
 async fn another_server_in_the_place_of_the_controllers_gets_no_password() {
     let policies = [SecurityPolicy::None, SecurityPolicy::Basic256Sha256];
     let cell = Cell::running(2, FleetFirmware::Current, &policies).await;
-    let at = SocketAddr::new("127.0.0.2".parse().unwrap(), opcua(&cell.plant, 0).port());
-    gateway(at, opcua(&cell.plant, 1)).await;
+    let at = SocketAddr::new("127.0.0.2".parse().unwrap(), opcua(&cell.fleet, 0).port());
+    gateway(at, opcua(&cell.fleet, 1)).await;
     let report = through_a_gateway(&cell, Some("Passw0rd1")).await;
     let refused = report.certificate.as_ref().unwrap().refused.clone().unwrap();
     assert_eq!(refused.status(), CertificateStatus::Untrusted, "{refused:?}");

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use opcua_configurator::model::{Address, ErrorCode};
 use opcua_configurator::pki::{Fingerprint, TlsIdentity};
-use opcua_configurator::session::{Connector as _, ManagementConnector, Timeouts};
+use opcua_configurator::session::{Connector as _, ManagementConnector, ManagementTimeouts};
 use secrecy::SecretString;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::TcpStream;
@@ -13,7 +13,7 @@ use crate::common::https::{listener, tls};
 
 fn connector() -> ManagementConnector {
     ManagementConnector {
-        timeouts: Timeouts {
+        timeouts: ManagementTimeouts {
             connect: Duration::from_secs(2),
             read: Duration::from_millis(400),
             change: Duration::from_secs(1),

@@ -9,15 +9,15 @@ use opcua_configurator::pki::Csr;
 use opcua_configurator::virtual_controller::FleetFirmware;
 
 use crate::common::ca::Ca;
-use crate::common::plant;
+use crate::common::test_fleet;
 use crate::common::window::{agree, choose, is_enabled, shows, type_into, wait_until};
-use crate::common::window_desk::{Desk, FileManager, PATIENCE, listed};
+use crate::common::window_test::{FileManager, WAIT_LIMIT, WindowTest, listed};
 
-impl Desk {
+impl WindowTest {
     fn with_legacy_controller() -> (Self, FileManager) {
-        let (mut desk, manager) = Self::with_file_manager(1, FleetFirmware::Legacy);
-        desk.click("Tick cell 1");
-        (desk, manager)
+        let (mut app, manager) = Self::with_file_manager(1, FleetFirmware::Legacy);
+        app.click("Tick cell 1");
+        (app, manager)
     }
 
     fn set_backup(&mut self) {
@@ -36,7 +36,7 @@ impl Desk {
     /// The fields of a certificate or a request, up to the agreement.
     fn fill_in(&mut self) {
         let button = ["Create and save", "Apply"];
-        wait_until(&mut self.window, PATIENCE, |window| button.iter().any(|label| is_enabled(window, label)));
+        wait_until(&mut self.window, WAIT_LIMIT, |window| button.iter().any(|label| is_enabled(window, label)));
         type_into(&mut self.window, "Organisation", "Example");
         let label = button.into_iter().find(|label| is_enabled(&self.window, label)).unwrap();
         self.click(label);
@@ -50,12 +50,12 @@ impl Desk {
     }
 
     fn certificate_in_use(&self) -> Option<(CertificateType, Vec<u8>)> {
-        let state = self.plant.controller(0).state();
+        let state = self.fleet.controller(0).state();
         state.selected_certificate().map(|pair| (state.selected, pair.certificate.0.clone()))
     }
 
     fn cert(&self, name: &str) -> PathBuf {
-        self.workspace.root().join(self.plant.controller(0).serial().as_str()).join("Cert").join(name)
+        self.workspace.root().join(self.fleet.controller(0).serial().as_str()).join("Cert").join(name)
     }
 
     /// The key that was moved aside, below a folder.
@@ -82,112 +82,112 @@ const CA_SIGNED: &str = "CSR, its key and the certificate from the CA (3_key.pfx
 
 #[test]
 fn a_former_certificate_is_kept_with_its_key_and_put_back_from_there() {
-    let (mut desk, manager) = Desk::with_legacy_controller();
-    desk.set_backup();
-    desk.fill_in_self_signed();
-    let first = desk.certificate_in_use().unwrap();
-    assert!(desk.cert("SelfSigned/1_key.pfx").is_file());
-    desk.set_backup();
-    desk.fill_in_self_signed();
-    assert_ne!(desk.certificate_in_use(), Some(first.clone()));
+    let (mut app, manager) = WindowTest::with_legacy_controller();
+    app.set_backup();
+    app.fill_in_self_signed();
+    let first = app.certificate_in_use().unwrap();
+    assert!(app.cert("SelfSigned/1_key.pfx").is_file());
+    app.set_backup();
+    app.fill_in_self_signed();
+    assert_ne!(app.certificate_in_use(), Some(first.clone()));
 
-    choose(&mut desk.window, &["Certificate", "Export self-signed…"]);
-    desk.click("Export");
-    assert!(shows(&desk.window, "and their keys, are kept: they are moved into a folder named after their date"));
-    desk.click("Export");
-    desk.wait_for("Completed");
-    assert!(shows(&desk.window, "Former files were moved to"));
-    let former = desk.former_key("SelfSigned", "1_key.pfx");
-    assert!(shows(&desk.window, &former.parent().unwrap().display().to_string()));
-    desk.open_folder(&manager, former.parent().unwrap());
-    desk.finish("1 done");
-    assert!(!desk.cert("SelfSigned/1_key.pfx").exists() && desk.cert("SelfSigned/1_cert.der").is_file());
+    choose(&mut app.window, &["Certificate", "Export self-signed…"]);
+    app.click("Export");
+    assert!(shows(&app.window, "and their keys, are kept: they are moved into a folder named after their date"));
+    app.click("Export");
+    app.wait_for("Completed");
+    assert!(shows(&app.window, "Former files were moved to"));
+    let former = app.former_key("SelfSigned", "1_key.pfx");
+    assert!(shows(&app.window, &former.parent().unwrap().display().to_string()));
+    app.open_folder(&manager, former.parent().unwrap());
+    app.finish("1 done");
+    assert!(!app.cert("SelfSigned/1_key.pfx").exists() && app.cert("SelfSigned/1_cert.der").is_file());
 
-    desk.restore(SELF_SIGNED, None, "");
-    desk.wait_for("The file to be imported was not found");
-    desk.click("Close");
-    assert!(shows(&desk.window, "Former backups are in folders named after their date"));
-    type_into(&mut desk.window, "Key file", &former.display().to_string());
-    desk.click("Restore…");
-    desk.wait_for("Issued to");
-    assert!(shows(&desk.window, "The certificate of this type in the controller is replaced"));
-    desk.click("Restore");
-    desk.finish("1 done");
-    assert_eq!(desk.certificate_in_use(), Some(first), "type 1, with its own key");
+    app.restore(SELF_SIGNED, None, "");
+    app.wait_for("The file to be imported was not found");
+    app.click("Close");
+    assert!(shows(&app.window, "Former backups are in folders named after their date"));
+    type_into(&mut app.window, "Key file", &former.display().to_string());
+    app.click("Restore…");
+    app.wait_for("Issued to");
+    assert!(shows(&app.window, "The certificate of this type in the controller is replaced"));
+    app.click("Restore");
+    app.finish("1 done");
+    assert_eq!(app.certificate_in_use(), Some(first), "type 1, with its own key");
 }
 
 #[test]
 fn a_request_comes_back_with_its_key_and_what_the_ca_issued_for_it() {
-    let (mut desk, _) = Desk::with_legacy_controller();
-    desk.set_backup();
-    desk.make_csr();
-    desk.finish("1 done");
-    let csr = Csr::from_any(&fs::read(desk.cert("CSR/3_csr.der")).unwrap()).unwrap();
-    fs::write(desk.cert("CASigned/from_ca.der"), Ca::new().sign(&csr)).unwrap();
-    desk.click("Import…");
-    desk.wait_for("Issued to");
-    desk.click("Import");
-    desk.finish("1 done");
-    let issued = desk.certificate_in_use().unwrap();
-    desk.click("Start");
-    wait_until(&mut desk.window, PATIENCE, |window| shows(window, "Run"));
+    let (mut app, _) = WindowTest::with_legacy_controller();
+    app.set_backup();
+    app.make_csr();
+    app.finish("1 done");
+    let csr = Csr::from_any(&fs::read(app.cert("CSR/3_csr.der")).unwrap()).unwrap();
+    fs::write(app.cert("CASigned/from_ca.der"), Ca::new().sign(&csr)).unwrap();
+    app.click("Import…");
+    app.wait_for("Issued to");
+    app.click("Import");
+    app.finish("1 done");
+    let issued = app.certificate_in_use().unwrap();
+    app.click("Start");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| shows(window, "Run"));
 
     // A new request stops a server that runs on the certificate, and says so first.
-    choose(&mut desk.window, &["Certificate", "Create and save", "CA signed…"]);
-    desk.click("Create CSR…");
-    wait_until(&mut desk.window, PATIENCE, |window| is_enabled(window, "Create and save"));
-    desk.click("Create and save");
+    choose(&mut app.window, &["Certificate", "Create and save", "CA signed…"]);
+    app.click("Create CSR…");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| is_enabled(window, "Create and save"));
+    app.click("Create and save");
     for said in ["a server that uses it stops, connected clients are cut off", "stays stopped until"] {
-        assert!(shows(&desk.window, said), "{said}");
+        assert!(shows(&app.window, said), "{said}");
     }
-    desk.click("Create CSR");
-    desk.wait_for("Completed");
-    assert!(shows(&desk.window, "Former files were moved to"));
-    desk.finish("1 done");
-    desk.click("Close");
-    assert_eq!(desk.plant.controller(0).info().status, ServerStatus::Stop);
-    assert!(!desk.cert("CASigned/from_ca.der").exists());
+    app.click("Create CSR");
+    app.wait_for("Completed");
+    assert!(shows(&app.window, "Former files were moved to"));
+    app.finish("1 done");
+    app.click("Close");
+    assert_eq!(app.fleet.controller(0).info().status, ServerStatus::Stop);
+    assert!(!app.cert("CASigned/from_ca.der").exists());
 
     // The one just made has a backup too, and no certificate yet.
-    desk.restore(CA_SIGNED, None, "");
-    desk.wait_for("CSR and key, without a certificate from the CA");
-    assert!(shows(&desk.window, "The CSR in the controller and its key are replaced"));
-    desk.click("Restore");
-    desk.finish("1 done");
+    app.restore(CA_SIGNED, None, "");
+    app.wait_for("CSR and key, without a certificate from the CA");
+    assert!(shows(&app.window, "The CSR in the controller and its key are replaced"));
+    app.click("Restore");
+    app.finish("1 done");
 
-    let former = desk.former_key("CASigned", "3_key.pfx");
-    desk.restore(CA_SIGNED, Some(&former), "wrong");
-    desk.wait_for("The password of the private key is wrong");
-    desk.click("Close");
-    type_into(&mut desk.window, "Password of the file", plant::PASSWORD);
-    desk.click("Restore…");
-    desk.wait_for("Issued to");
-    desk.click("Restore");
-    desk.finish("1 done");
-    assert_eq!(desk.certificate_in_use(), Some(issued));
+    let former = app.former_key("CASigned", "3_key.pfx");
+    app.restore(CA_SIGNED, Some(&former), "wrong");
+    app.wait_for("The password of the private key is wrong");
+    app.click("Close");
+    type_into(&mut app.window, "Password of the file", test_fleet::PASSWORD);
+    app.click("Restore…");
+    app.wait_for("Issued to");
+    app.click("Restore");
+    app.finish("1 done");
+    assert_eq!(app.certificate_in_use(), Some(issued));
 }
 
 #[test]
 fn an_empty_connection_password_is_refused_with_its_reason() {
-    let empty = || plant::Plant::without_password(1, FleetFirmware::Legacy);
-    let mut desk = Desk::start(empty, listed, None, |_| FileManager::default());
-    desk.click("Tick cell 1");
-    desk.set_backup();
-    desk.make_self_signed_refused();
-    choose(&mut desk.window, &["Server settings", "Export…"]);
-    assert!(shows(&desk.window, "A controller without a connection password needs a passphrase"));
-    desk.click("Export");
-    desk.click("Export");
-    desk.wait_for("The connection password is empty and protects no file");
-    assert!(shows(&desk.window, "give a passphrase"));
-    desk.click("Close");
-    choose(&mut desk.window, &["Server settings", "Export…"]);
-    type_into(&mut desk.window, "Passphrase", "correct horse");
-    desk.click("Export");
-    desk.confirm_and_finish("1 done");
+    let empty = || test_fleet::TestFleet::without_password(1, FleetFirmware::Legacy);
+    let mut app = WindowTest::start(empty, listed, None, |_| FileManager::default());
+    app.click("Tick cell 1");
+    app.set_backup();
+    app.make_self_signed_refused();
+    choose(&mut app.window, &["Server settings", "Export…"]);
+    assert!(shows(&app.window, "A controller without a connection password needs a passphrase"));
+    app.click("Export");
+    app.click("Export");
+    app.wait_for("The connection password is empty and protects no file");
+    assert!(shows(&app.window, "give a passphrase"));
+    app.click("Close");
+    choose(&mut app.window, &["Server settings", "Export…"]);
+    type_into(&mut app.window, "Passphrase", "correct horse");
+    app.click("Export");
+    app.confirm_and_finish("1 done");
 }
 
-impl Desk {
+impl WindowTest {
     fn make_self_signed_refused(&mut self) {
         choose(&mut self.window, &["Certificate", "Create and save", "Self-signed…"]);
         self.fill_in();
@@ -200,14 +200,14 @@ impl Desk {
 
 #[test]
 fn current_firmware_says_why_there_is_nothing_to_restore() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
-    desk.click("Tick cell 1");
-    desk.click("Certificate");
-    let item = desk.window.get_by_label("Restore backup…");
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    app.click("Tick cell 1");
+    app.click("Certificate");
+    let item = app.window.get_by_label("Restore backup…");
     assert!(item.accesskit_node().is_disabled());
     item.hover();
     for _ in 0..60 {
-        desk.window.step();
+        app.window.step();
     }
-    assert!(shows(&desk.window, "Only for firmware before 8.0.0"));
+    assert!(shows(&app.window, "Only for firmware before 8.0.0"));
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers};
 use opcua::types::StatusCode;
-use opcua_configurator::jobs::{SelfSigned, SelfSignedFields, SetSettings, SettingsChange, StartServer};
+use opcua_configurator::jobs::{BasicSettingsChange, SelfSigned, SelfSignedFields, SetBasicSettings, StartServer};
 use opcua_configurator::model::{ErrorCode, KeyLength, Problem, UserTokenPolicy, Validity};
 use opcua_configurator::pki::Certificate;
 use opcua_configurator::ui::picker::{FileKind, FilePicker, Picked, PickedSeveral};
@@ -18,9 +18,9 @@ use time::OffsetDateTime;
 
 use crate::common::authority::{Application, Authority, p7b};
 use crate::common::opcua_client::Client;
-use crate::common::plant::{self, Plant};
+use crate::common::test_fleet::{self, TestFleet};
 use crate::common::window::{choose, is_enabled, settle, shows, type_into, wait_until};
-use crate::common::window_desk::{Desk, PATIENCE, listed};
+use crate::common::window_test::{WAIT_LIMIT, WindowTest, listed};
 
 /// A person who always chooses all the files of a folder.
 #[derive(Debug)]
@@ -42,21 +42,21 @@ impl FilePicker for WholeFolder {
     }
 }
 
-impl Desk {
+impl WindowTest {
     /// Controllers "cell 1", "cell 2", …, all ticked; whoever chooses files chooses those of `usb`.
     fn with_usb_stick(count: usize, firmware: FleetFirmware) -> Self {
         let picker = |folder: &Path| {
             fs::create_dir(folder.join("usb")).unwrap();
             WholeFolder(folder.join("usb"))
         };
-        let mut desk = Self::start(|| Plant::start(count, firmware), listed, None, picker);
-        desk.click("Tick all");
-        desk
+        let mut app = Self::start(|| TestFleet::start(count, firmware), listed, None, picker);
+        app.click("Tick all");
+        app
     }
 
     /// The OPC UA servers run, and take anybody whose certificate they trust.
     fn running(count: usize, firmware: FleetFirmware) -> Self {
-        let desk = Self::with_usb_stick(count, firmware);
+        let app = Self::with_usb_stick(count, firmware);
         let fields = SelfSignedFields {
             common_name: None,
             country: String::new(),
@@ -66,11 +66,14 @@ impl Desk {
             key_length: KeyLength::Rsa2048,
             validity: Validity::try_from(1).unwrap(),
         };
-        desk.run(SelfSigned { fields, backup: None });
+        app.run(SelfSigned { fields, backup: None });
         let user_tokens = Some(BTreeSet::from([UserTokenPolicy::Anonymous]));
-        desk.run(SetSettings { change: SettingsChange { user_tokens, ..Default::default() }, ..Default::default() });
-        desk.run(StartServer);
-        desk
+        app.run(SetBasicSettings {
+            change: BasicSettingsChange { user_tokens, ..Default::default() },
+            ..Default::default()
+        });
+        app.run(StartServer);
+        app
     }
 
     fn clients(&mut self) {
@@ -93,7 +96,7 @@ impl Desk {
     }
 
     fn connect(&self, index: usize, application: &Application) -> Result<Client, StatusCode> {
-        let endpoint = self.plant.controller(index).endpoint();
+        let endpoint = self.fleet.controller(index).endpoint();
         self.runtime.block_on(Client::connect(&endpoint, application))
     }
 
@@ -113,7 +116,7 @@ impl Desk {
 
     /// Thumbprints in the lists of a controller: trusted, issuers.
     fn held(&self, index: usize) -> [BTreeSet<String>; 2] {
-        let state = self.plant.controller(index).state();
+        let state = self.fleet.controller(index).state();
         let trusted = state.trusted.iter().map(|listed| thumbprint(&listed.certificate.0)).collect();
         let issuers = state.issuers.iter().map(|listed| thumbprint(&listed.certificate.0)).collect();
         [trusted, issuers]
@@ -134,243 +137,242 @@ fn pem(der: &[u8]) -> String {
 
 #[test]
 fn a_client_that_knocks_appears_is_trusted_in_one_click_and_sent_away_again_by_undo() {
-    let mut desk = Desk::running(1, FleetFirmware::Current);
+    let mut app = WindowTest::running(1, FleetFirmware::Current);
     let client = Application::new("HMI line 3");
-    desk.clients();
-    desk.wait_for("No client was refused");
-    assert!(desk.connect(0, &client).is_err());
+    app.clients();
+    app.wait_for("No client was refused");
+    assert!(app.connect(0, &client).is_err());
     // Nobody asked for it.
-    desk.wait_for("1 new");
-    desk.click("Tick HMI line 3");
-    assert!(shows(&desk.window, "Neither it nor any of its issuers is in the trust list"), "why, in plain words");
-    assert!(shows(&desk.window, "127.0.0.1"));
-    desk.click("Rejected: Trust");
-    desk.wait_for("1 certificate moved from Rejected to Trusted");
-    assert!(shows(&desk.window, "Nobody was disconnected"));
-    let connected = desk.connect(0, &client).unwrap_or_else(|status| panic!("{status}"));
+    app.wait_for("1 new");
+    app.click("Tick HMI line 3");
+    assert!(shows(&app.window, "Neither it nor any of its issuers is in the trust list"), "why, in plain words");
+    assert!(shows(&app.window, "127.0.0.1"));
+    app.click("Rejected: Trust");
+    app.wait_for("1 certificate moved from Rejected to Trusted");
+    assert!(shows(&app.window, "Nobody was disconnected"));
+    let connected = app.connect(0, &client).unwrap_or_else(|status| panic!("{status}"));
 
-    desk.press(Modifiers::COMMAND, Key::Z);
-    desk.wait_for("The change was taken back");
-    assert!(shows(&desk.window, "HMI line 3 (127.0.0.1:"), "who was disconnected");
-    assert!(desk.is_cut_off(connected));
-    assert!(desk.connect(0, &client).is_err());
-    assert!(!is_enabled(&desk.window, "Undo"));
-    desk.click("Close");
-    assert!(desk.window.state().model.dialogs.is_empty());
+    app.press(Modifiers::COMMAND, Key::Z);
+    app.wait_for("The change was taken back");
+    assert!(shows(&app.window, "HMI line 3 (127.0.0.1:"), "who was disconnected");
+    assert!(app.is_cut_off(connected));
+    assert!(app.connect(0, &client).is_err());
+    assert!(!is_enabled(&app.window, "Undo"));
+    app.click("Close");
+    assert!(app.window.state().model.dialogs.is_empty());
 }
 
 #[test]
 fn files_of_any_encoding_are_sorted_into_the_right_lists_after_asking() {
-    let mut desk = Desk::with_usb_stick(1, FleetFirmware::Current);
+    let mut app = WindowTest::with_usb_stick(1, FleetFirmware::Current);
     let root = Authority::root("Plant root CA");
     let issuing = root.authority("Plant issuing CA");
     let (first, second, third) =
         (issuing.application("HMI line 1"), Application::new("HMI line 2"), Application::new("历史数据采集站"));
-    desk.put_on_stick("chain.p7b", p7b(&[&first.der, &issuing.der, &root.der]));
-    desk.put_on_stick("hmi line 2.pem", pem(&second.der));
-    desk.put_on_stick("历史.der", &third.der);
-    desk.clients();
-    desk.wait_for("Nobody is let in by a certificate yet");
-    desk.click("Trusted: Add…");
-    desk.wait_for("What goes where");
-    assert!(shows(&desk.window, "only completes the chain"));
-    assert_eq!(desk.held(0), [set(&[]), set(&[])], "nothing was sent yet");
-    desk.click("Add");
-    desk.wait_for("5 added");
+    app.put_on_stick("chain.p7b", p7b(&[&first.der, &issuing.der, &root.der]));
+    app.put_on_stick("hmi line 2.pem", pem(&second.der));
+    app.put_on_stick("历史.der", &third.der);
+    app.clients();
+    app.wait_for("Nobody is let in by a certificate yet");
+    app.click("Trusted: Add…");
+    app.wait_for("What goes where");
+    assert!(shows(&app.window, "only completes the chain"));
+    assert_eq!(app.held(0), [set(&[]), set(&[])], "nothing was sent yet");
+    app.click("Add");
+    app.wait_for("5 added");
     let expected = [set(&[&first.der, &second.der, &third.der]), set(&[&issuing.der, &root.der])];
-    assert_eq!(desk.held(0), expected);
+    assert_eq!(app.held(0), expected);
 
     // What is there already is not sent again, and what cannot be used stops the rest.
-    let wrong = desk.put_on_stick("holiday.jpg", "JFIF");
-    desk.drop_files(&[desk.folder.path().join("usb/chain.p7b"), wrong]);
-    desk.wait_for("is in the controller already");
-    desk.wait_for("The file holds no usable certificate");
-    assert!(!is_enabled(&desk.window, "Add"));
-    desk.click("Leave out: holiday.jpg");
-    assert!(!is_enabled(&desk.window, "Add"), "nothing of it is new");
-    desk.click("Cancel");
+    let wrong = app.put_on_stick("holiday.jpg", "JFIF");
+    app.drop_files(&[app.folder.path().join("usb/chain.p7b"), wrong]);
+    app.wait_for("is in the controller already");
+    app.wait_for("The file holds no usable certificate");
+    assert!(!is_enabled(&app.window, "Add"));
+    app.click("Leave out: holiday.jpg");
+    assert!(!is_enabled(&app.window, "Add"), "nothing of it is new");
+    app.click("Cancel");
 
-    desk.click("Undo");
-    desk.wait_for("The change was taken back");
-    assert_eq!(desk.held(0), [set(&[]), set(&[])]);
+    app.click("Undo");
+    app.wait_for("The change was taken back");
+    assert_eq!(app.held(0), [set(&[]), set(&[])]);
 }
 
 #[test]
 fn what_was_deleted_comes_back_by_the_keyboard_alone() {
-    let mut desk = Desk::running(1, FleetFirmware::Current);
+    let mut app = WindowTest::running(1, FleetFirmware::Current);
     let (first, second) = (Application::new("HMI line 1"), Application::new("HMI line 2"));
-    desk.clients();
-    desk.wait_for("Nobody is let in by a certificate yet");
-    let files = [desk.put_on_stick("1.der", &first.der), desk.put_on_stick("2.der", &second.der)];
-    desk.drop_files(&files);
-    desk.wait_for("What goes where");
-    desk.press(Modifiers::NONE, Key::Enter);
-    desk.wait_for("2 added");
-    let connected = desk.connect(0, &second).unwrap_or_else(|status| panic!("{status}"));
+    app.clients();
+    app.wait_for("Nobody is let in by a certificate yet");
+    let files = [app.put_on_stick("1.der", &first.der), app.put_on_stick("2.der", &second.der)];
+    app.drop_files(&files);
+    app.wait_for("What goes where");
+    app.press(Modifiers::NONE, Key::Enter);
+    app.wait_for("2 added");
+    let connected = app.connect(0, &second).unwrap_or_else(|status| panic!("{status}"));
 
-    desk.press(Modifiers::NONE, Key::ArrowDown);
-    desk.press(Modifiers::NONE, Key::ArrowDown);
-    desk.press(Modifiers::NONE, Key::Enter);
-    assert!(shows(&desk.window, "Certificate – HMI line 2"));
-    assert!(shows(&desk.window, "URI:urn:HMI:line:2"));
-    desk.press(Modifiers::NONE, Key::Escape);
-    desk.press(Modifiers::NONE, Key::Delete);
-    assert!(shows(&desk.window, "The OPC UA server goes on running"));
-    desk.press(Modifiers::NONE, Key::Enter);
-    desk.wait_for("1 certificate deleted from Trusted");
-    assert!(shows(&desk.window, "HMI line 2 (127.0.0.1:"));
-    assert!(desk.is_cut_off(connected));
-    assert_eq!(desk.held(0)[0], set(&[&first.der]));
-    assert!(desk.is_let_in(&first));
+    app.press(Modifiers::NONE, Key::ArrowDown);
+    app.press(Modifiers::NONE, Key::ArrowDown);
+    app.press(Modifiers::NONE, Key::Enter);
+    assert!(shows(&app.window, "Certificate – HMI line 2"));
+    assert!(shows(&app.window, "URI:urn:HMI:line:2"));
+    app.press(Modifiers::NONE, Key::Escape);
+    app.press(Modifiers::NONE, Key::Delete);
+    assert!(shows(&app.window, "The OPC UA server goes on running"));
+    app.press(Modifiers::NONE, Key::Enter);
+    app.wait_for("1 certificate deleted from Trusted");
+    assert!(shows(&app.window, "HMI line 2 (127.0.0.1:"));
+    assert!(app.is_cut_off(connected));
+    assert_eq!(app.held(0)[0], set(&[&first.der]));
+    assert!(app.is_let_in(&first));
 
-    desk.press(Modifiers::COMMAND, Key::Z);
-    desk.wait_for("The change was taken back");
-    assert_eq!(desk.held(0)[0], set(&[&first.der, &second.der]));
-    assert!(desk.is_let_in(&second));
+    app.press(Modifiers::COMMAND, Key::Z);
+    app.wait_for("The change was taken back");
+    assert_eq!(app.held(0)[0], set(&[&first.der, &second.der]));
+    assert!(app.is_let_in(&second));
 }
 
 #[test]
 fn limits_are_checked_before_anything_is_sent() {
-    let mut desk = Desk::with_usb_stick(1, FleetFirmware::Legacy);
+    let mut app = WindowTest::with_usb_stick(1, FleetFirmware::Legacy);
     for n in 0..11 {
-        desk.put_on_stick(&format!("{n}.der"), &Application::new(&format!("HMI {n}")).der);
+        app.put_on_stick(&format!("{n}.der"), &Application::new(&format!("HMI {n}")).der);
     }
-    desk.clients();
-    desk.wait_for("Firmware before 8.0.0 has no list of issuers");
-    assert!(!is_enabled(&desk.window, "Issuers: Add…"));
-    desk.click("Trusted: Add…");
-    desk.wait_for("More certificates than the controller can take");
-    assert!(shows(&desk.window, "11 > 10"));
-    assert!(!is_enabled(&desk.window, "Add"));
-    desk.click("Leave out: 10.der");
-    desk.click("Add");
-    desk.wait_for("10 added");
-    assert!(!is_enabled(&desk.window, "Trusted: Add…"), "the list is full");
+    app.clients();
+    app.wait_for("Firmware before 8.0.0 has no list of issuers");
+    assert!(!is_enabled(&app.window, "Issuers: Add…"));
+    app.click("Trusted: Add…");
+    app.wait_for("More certificates than the controller can take");
+    assert!(shows(&app.window, "11 > 10"));
+    assert!(!is_enabled(&app.window, "Add"));
+    app.click("Leave out: 10.der");
+    app.click("Add");
+    app.wait_for("10 added");
+    assert!(!is_enabled(&app.window, "Trusted: Add…"), "the list is full");
 }
 
 #[test]
 fn many_controllers_are_added_to_each_with_its_own_result_and_all_of_it_is_taken_back() {
-    let mut desk = Desk::with_usb_stick(2, FleetFirmware::Mixed);
+    let mut app = WindowTest::with_usb_stick(2, FleetFirmware::Mixed);
     let root = Authority::root("Plant root CA");
     let client = Application::new("HMI");
-    let files = [desk.put_on_stick("root.der", &root.der), desk.put_on_stick("hmi.der", &client.der)];
+    let files = [app.put_on_stick("root.der", &root.der), app.put_on_stick("hmi.der", &client.der)];
     // With several ticked there is only one dialog for them.
-    desk.drop_files(&files);
-    desk.wait_for("What goes where");
-    desk.click("Leave out: hmi.der");
-    desk.click("Issuers");
-    assert!(shows(&desk.window, "Firmware before 8.0.0: This function needs firmware 8.0.0 or later"));
-    desk.click("Add");
-    desk.confirm_and_finish("1 done, 1 failed");
-    let issuers: Vec<usize> = (0..2).map(|index| desk.held(index)[1].len()).collect();
+    app.drop_files(&files);
+    app.wait_for("What goes where");
+    app.click("Leave out: hmi.der");
+    app.click("Issuers");
+    assert!(shows(&app.window, "Firmware before 8.0.0: This function needs firmware 8.0.0 or later"));
+    app.click("Add");
+    app.confirm_and_finish("1 done, 1 failed");
+    let issuers: Vec<usize> = (0..2).map(|index| app.held(index)[1].len()).collect();
     assert_eq!(issuers.iter().sum::<usize>(), 1, "{issuers:?}");
 
-    desk.clients();
-    let path = desk.folder.path().join("usb/hmi.der");
-    type_into(&mut desk.window, "Files", &path.display().to_string());
-    desk.click("Read file");
-    desk.wait_for("What goes where");
-    desk.click("Add");
-    desk.click("Add certificates");
-    desk.wait_for("2 done");
-    assert_eq!([desk.held(0)[0].clone(), desk.held(1)[0].clone()], [set(&[&client.der]), set(&[&client.der])]);
-    desk.click("Undo");
-    desk.finish("2 done");
-    assert_eq!([desk.held(0)[0].len(), desk.held(1)[0].len()], [0, 0]);
+    app.clients();
+    let path = app.folder.path().join("usb/hmi.der");
+    type_into(&mut app.window, "Files", &path.display().to_string());
+    app.click("Read file");
+    app.wait_for("What goes where");
+    app.click("Add");
+    app.click("Add certificates");
+    app.wait_for("2 done");
+    assert_eq!([app.held(0)[0].clone(), app.held(1)[0].clone()], [set(&[&client.der]), set(&[&client.der])]);
+    app.click("Undo");
+    app.finish("2 done");
+    assert_eq!([app.held(0)[0].len(), app.held(1)[0].len()], [0, 0]);
 }
 
 #[test]
 fn a_crl_takes_effect_at_once_and_so_does_its_removal() {
-    let mut desk = Desk::running(1, FleetFirmware::Current);
+    let mut app = WindowTest::running(1, FleetFirmware::Current);
     let authority = Authority::root("Plant CA");
     let (good, bad) = (authority.application("HMI good"), authority.application("HMI bad"));
     let now = OffsetDateTime::now_utc();
-    desk.crls();
-    desk.wait_for("No CRLs");
+    app.crls();
+    app.wait_for("No CRLs");
     // The authority comes first, or nobody knows whose CRL it is.
-    desk.click("Close");
-    desk.clients();
-    desk.wait_for("Nobody is let in by a certificate yet");
-    let files =
-        [desk.put_on_stick("ca.der", &authority.der), desk.put_on_stick("first.crl", authority.crl(1, &[], now))];
-    desk.drop_files(&files);
-    desk.wait_for("What goes where");
-    desk.click("Trusted");
-    assert!(shows(&desk.window, "lets in every client with a certificate from it"));
-    desk.click("Add");
-    desk.wait_for("2 added");
-    desk.click("Close");
-    let connected = [&good, &bad].map(|client| desk.connect(0, client).unwrap_or_else(|status| panic!("{status}")));
+    app.click("Close");
+    app.clients();
+    app.wait_for("Nobody is let in by a certificate yet");
+    let files = [app.put_on_stick("ca.der", &authority.der), app.put_on_stick("first.crl", authority.crl(1, &[], now))];
+    app.drop_files(&files);
+    app.wait_for("What goes where");
+    app.click("Trusted");
+    assert!(shows(&app.window, "lets in every client with a certificate from it"));
+    app.click("Add");
+    app.wait_for("2 added");
+    app.click("Close");
+    let connected = [&good, &bad].map(|client| app.connect(0, client).unwrap_or_else(|status| panic!("{status}")));
     let [kept, cut] = connected;
 
-    desk.crls();
-    desk.wait_for("in use (covers Plant CA)");
+    app.crls();
+    app.wait_for("in use (covers Plant CA)");
     for name in ["first.crl", "ca.der"] {
-        fs::remove_file(desk.folder.path().join("usb").join(name)).unwrap();
+        fs::remove_file(app.folder.path().join("usb").join(name)).unwrap();
     }
-    desk.put_on_stick("second.crl", authority.crl(2, &[&bad], now));
-    desk.click("CRL: Add…");
-    desk.wait_for("replaces the older one");
-    desk.click("Add");
-    desk.wait_for("1 added");
-    assert!(shows(&desk.window, "HMI bad (127.0.0.1:"), "who was disconnected");
-    assert!(shows(&desk.window, "The authority has revoked it"), "and why");
-    assert!(desk.is_cut_off(cut));
-    assert!(!desk.is_let_in(&bad) && desk.is_let_in(&good));
-    desk.click("Tick Plant CA");
-    desk.click("Details…");
-    assert!(shows(&desk.window, "Revoked certificates"));
-    desk.click("Close");
+    app.put_on_stick("second.crl", authority.crl(2, &[&bad], now));
+    app.click("CRL: Add…");
+    app.wait_for("replaces the older one");
+    app.click("Add");
+    app.wait_for("1 added");
+    assert!(shows(&app.window, "HMI bad (127.0.0.1:"), "who was disconnected");
+    assert!(shows(&app.window, "The authority has revoked it"), "and why");
+    assert!(app.is_cut_off(cut));
+    assert!(!app.is_let_in(&bad) && app.is_let_in(&good));
+    app.click("Tick Plant CA");
+    app.click("Details…");
+    assert!(shows(&app.window, "Revoked certificates"));
+    app.click("Close");
 
-    desk.click("CRL: Delete…");
-    desk.click("Delete");
-    desk.wait_for("1 CRL deleted");
-    assert!(shows(&desk.window, "Authorities without a usable CRL: Plant CA"));
+    app.click("CRL: Delete…");
+    app.click("Delete");
+    app.wait_for("1 CRL deleted");
+    assert!(shows(&app.window, "Authorities without a usable CRL: Plant CA"));
     // Without a CRL nobody knows who was revoked.
-    assert!(desk.is_cut_off(kept));
-    desk.press(Modifiers::COMMAND, Key::Z);
-    desk.wait_for("The change was taken back");
-    assert!(!desk.is_let_in(&bad) && desk.is_let_in(&good));
+    assert!(app.is_cut_off(kept));
+    app.press(Modifiers::COMMAND, Key::Z);
+    app.wait_for("The change was taken back");
+    assert!(!app.is_let_in(&bad) && app.is_let_in(&good));
 }
 
 #[test]
 fn why_a_client_was_refused_is_explained_with_what_is_missing() {
-    let mut desk = Desk::running(1, FleetFirmware::Current);
+    let mut app = WindowTest::running(1, FleetFirmware::Current);
     let root = Authority::root("Plant root CA");
     let issuing = root.authority("Plant issuing CA");
     let client = issuing.application("HMI");
-    assert!(desk.connect(0, &client).is_err());
-    desk.clients();
-    desk.wait_for("The certificate of its issuer, CN=Plant issuing CA, is missing");
-    desk.click("Tick HMI");
-    desk.click("Details…");
-    assert!(shows(&desk.window, "CN=Plant issuing CA"));
-    assert!(shows(&desk.window, "missing: add its certificate to Issuers or Trusted"));
-    desk.click("Close");
+    assert!(app.connect(0, &client).is_err());
+    app.clients();
+    app.wait_for("The certificate of its issuer, CN=Plant issuing CA, is missing");
+    app.click("Tick HMI");
+    app.click("Details…");
+    assert!(shows(&app.window, "CN=Plant issuing CA"));
+    assert!(shows(&app.window, "missing: add its certificate to Issuers or Trusted"));
+    app.click("Close");
     let now = OffsetDateTime::now_utc();
-    desk.put_on_stick("chain.p7b", p7b(&[&issuing.der, &root.der]));
-    desk.put_on_stick("issuing.crl", issuing.crl(1, &[], now));
-    desk.put_on_stick("root.crl", root.crl(1, &[], now));
-    desk.click("Issuers: Add…");
-    desk.wait_for("What goes where");
-    desk.click("Add");
-    desk.wait_for("4 added");
-    desk.click("Rejected: Trust");
-    desk.wait_for("1 certificate moved from Rejected to Trusted");
-    assert!(desk.is_let_in(&client));
+    app.put_on_stick("chain.p7b", p7b(&[&issuing.der, &root.der]));
+    app.put_on_stick("issuing.crl", issuing.crl(1, &[], now));
+    app.put_on_stick("root.crl", root.crl(1, &[], now));
+    app.click("Issuers: Add…");
+    app.wait_for("What goes where");
+    app.click("Add");
+    app.wait_for("4 added");
+    app.click("Rejected: Trust");
+    app.wait_for("1 certificate moved from Rejected to Trusted");
+    assert!(app.is_let_in(&client));
 }
 
 #[test]
 fn somebody_elses_change_shows_by_itself_and_a_password_is_asked_for() {
-    let mut desk = Desk::with_usb_stick(1, FleetFirmware::Current);
-    desk.plant.passwords.forget(desk.plant.controller(0).fingerprint());
-    desk.clients();
-    desk.wait_for("Connection password needed");
-    type_into(&mut desk.window, "Connection password", plant::PASSWORD);
-    desk.click("OK");
-    desk.wait_for("Nobody is let in by a certificate yet");
+    let mut app = WindowTest::with_usb_stick(1, FleetFirmware::Current);
+    app.fleet.passwords.forget(app.fleet.controller(0).fingerprint());
+    app.clients();
+    app.wait_for("Connection password needed");
+    type_into(&mut app.window, "Connection password", test_fleet::PASSWORD);
+    app.click("OK");
+    app.wait_for("Nobody is let in by a certificate yet");
     let client = Application::new("HMI of somebody else");
-    desk.run(opcua_configurator::jobs::AddTrust {
+    app.run(opcua_configurator::jobs::AddTrust {
         files: Arc::new([opcua_configurator::jobs::TrustFile {
             file_name: "hmi.der".into(),
             bundle: opcua_configurator::pki::read_bundle(&client.der).unwrap(),
@@ -378,10 +380,10 @@ fn somebody_elses_change_shows_by_itself_and_a_password_is_asked_for() {
         destination: opcua_configurator::jobs::Destination::ByKind,
         based_on: None,
     });
-    desk.wait_for("HMI of somebody else");
-    type_into(&mut desk.window, "Filter by name, issuer, address or number", "nobody of that name");
-    assert!(shows(&desk.window, "Nothing matches the filter"));
-    assert!(!shows(&desk.window, "HMI of somebody else"));
-    type_into(&mut desk.window, "Filter by name, issuer, address or number", "SOMEBODY");
-    wait_until(&mut desk.window, PATIENCE, |window| shows(window, "HMI of somebody else"));
+    app.wait_for("HMI of somebody else");
+    type_into(&mut app.window, "Filter by name, issuer, address or number", "nobody of that name");
+    assert!(shows(&app.window, "Nothing matches the filter"));
+    assert!(!shows(&app.window, "HMI of somebody else"));
+    type_into(&mut app.window, "Filter by name, issuer, address or number", "SOMEBODY");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| shows(window, "HMI of somebody else"));
 }

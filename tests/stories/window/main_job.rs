@@ -5,19 +5,19 @@ use std::time::Duration;
 
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::jobs::{AddUser, SelfSigned, SelfSignedFields};
-use opcua_configurator::model::{Credential, KeyLength, Language, Problem, ServerStatus, UserPassword, Validity};
+use opcua_configurator::model::{KeyLength, Language, Problem, ServerStatus, UserCredential, UserPassword, Validity};
 use opcua_configurator::pki::Fingerprint;
-use opcua_configurator::ui::backend::{NewVirtual, VirtualFleetStarter};
-use opcua_configurator::ui::features::add_controller::AddController;
+use opcua_configurator::ui::backend::{NewVirtualController, VirtualFleetStarter};
+use opcua_configurator::ui::features::add_controller::AddControllerForm;
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{Configuration, ControllerEntry};
 
-use crate::common::plant::{self, Plant};
+use crate::common::test_fleet::{self, TestFleet};
 use crate::common::window::{choose, click, is_enabled, shows, type_into, wait_until};
-use crate::common::window_desk::{Desk, PATIENCE, listed};
+use crate::common::window_test::{WAIT_LIMIT, WindowTest, listed};
 
-impl Desk {
+impl WindowTest {
     fn statuses(&self) -> Vec<Option<ServerStatus>> {
         let rows = self.window.state().model.rows.all();
         rows.iter().map(|row| row.entry.last.as_ref().map(|last| last.info.status)).collect()
@@ -25,101 +25,101 @@ impl Desk {
 }
 
 /// Fills in the form and sends it off.
-fn fill_in_controller(desk: &mut Desk, name: &str, address: &str, password: &str) {
-    choose(&mut desk.window, &["Controller", "Add controller…"]);
-    type_into(&mut desk.window, "Name", name);
-    type_into(&mut desk.window, "IP address", address);
-    type_into(&mut desk.window, "Connection password", password);
-    desk.click("Apply");
+fn fill_in_controller(app: &mut WindowTest, name: &str, address: &str, password: &str) {
+    choose(&mut app.window, &["Controller", "Add controller…"]);
+    type_into(&mut app.window, "Name", name);
+    type_into(&mut app.window, "IP address", address);
+    type_into(&mut app.window, "Connection password", password);
+    app.click("Apply");
 }
 
-fn fill_in_certificate(desk: &mut Desk) {
-    choose(&mut desk.window, &["Certificate", "Create and save", "Self-signed…"]);
+fn fill_in_certificate(app: &mut WindowTest) {
+    choose(&mut app.window, &["Certificate", "Create and save", "Self-signed…"]);
     for (field, text) in [("State", "Nagano"), ("Locality", "Suwa"), ("Organisation", "Example")] {
-        type_into(&mut desk.window, field, text);
+        type_into(&mut app.window, field, text);
     }
 }
 
 #[test]
 fn from_an_empty_window_to_three_running_servers() {
-    let mut desk = Desk::empty(3, FleetFirmware::Mixed);
-    assert!(shows(&desk.window, "No controllers yet"));
+    let mut app = WindowTest::empty(3, FleetFirmware::Mixed);
+    assert!(shows(&app.window, "No controllers yet"));
     for (index, name) in ["weld", "paint", "码垛"].iter().enumerate() {
-        let address = desk.plant.controller(index).management_address().to_string();
-        fill_in_controller(&mut desk, name, &address, plant::PASSWORD);
-        desk.wait_for("Is this your controller?");
-        let fingerprint: Fingerprint = desk.plant.controller(index).fingerprint();
+        let address = app.fleet.controller(index).management_address().to_string();
+        fill_in_controller(&mut app, name, &address, test_fleet::PASSWORD);
+        app.wait_for("Is this your controller?");
+        let fingerprint: Fingerprint = app.fleet.controller(index).fingerprint();
         let shown = fingerprint.grouped().replace(':', " ");
-        assert!(shows(&desk.window, &shown[..23]), "the fingerprint is there to be compared");
-        desk.click("It matches, add");
-        wait_until(&mut desk.window, PATIENCE, |window| window.state().model.rows.all().len() == index + 1);
+        assert!(shows(&app.window, &shown[..23]), "the fingerprint is there to be compared");
+        app.click("It matches, add");
+        wait_until(&mut app.window, WAIT_LIMIT, |window| window.state().model.rows.all().len() == index + 1);
     }
-    desk.wait_until_saved(|configuration| configuration.controllers.len() == 3);
+    app.wait_until_saved(|configuration| configuration.controllers.len() == 3);
 
     // Sorted by name, then the other way round.
-    desk.click("Sort by name");
-    desk.click("Sort by name");
-    let top = |desk: &Desk, name: &str| desk.window.get_by_label(name).rect().top();
-    assert!(top(&desk, "weld") < top(&desk, "paint"));
+    app.click("Sort by name");
+    app.click("Sort by name");
+    let top = |app: &WindowTest, name: &str| app.window.get_by_label(name).rect().top();
+    assert!(top(&app, "weld") < top(&app, "paint"));
 
-    desk.tick(&["weld", "paint", "码垛"]);
-    fill_in_certificate(&mut desk);
-    desk.click("Create and save");
-    assert!(shows(&desk.window, "The OPC UA server is stopped"));
-    desk.confirm_and_finish("3 done");
+    app.tick(&["weld", "paint", "码垛"]);
+    fill_in_certificate(&mut app);
+    app.click("Create and save");
+    assert!(shows(&app.window, "The OPC UA server is stopped"));
+    app.confirm_and_finish("3 done");
 
-    choose(&mut desk.window, &["Server settings", "Users…"]);
-    type_into(&mut desk.window, "User name", "operator1");
-    type_into(&mut desk.window, "Password", "Passw0rd1");
-    desk.click("Add");
-    desk.confirm_and_finish("3 done");
+    choose(&mut app.window, &["Server settings", "Users…"]);
+    type_into(&mut app.window, "User name", "operator1");
+    type_into(&mut app.window, "Password", "Passw0rd1");
+    app.click("Add");
+    app.confirm_and_finish("3 done");
 
-    desk.click("Start");
-    wait_until(&mut desk.window, PATIENCE, |window| window.state().model.job.is_none());
-    assert_eq!(desk.statuses(), [Some(ServerStatus::Run); 3]);
-    assert_eq!(desk.window.query_all_by_label("Run").count(), 3);
+    app.click("Start");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| window.state().model.job.is_none());
+    assert_eq!(app.statuses(), [Some(ServerStatus::Run); 3]);
+    assert_eq!(app.window.query_all_by_label("Run").count(), 3);
     for index in 0..3 {
-        assert_eq!(desk.plant.controller(index).state().users.len(), 1);
+        assert_eq!(app.fleet.controller(index).state().users.len(), 1);
     }
 }
 
 #[test]
 fn the_settings_of_one_controller_are_read_changed_and_applied() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
-    desk.tick(&["cell 1"]);
-    choose(&mut desk.window, &["Server settings", "Basic settings…"]);
-    let port = desk.plant.controller(0).state().settings.port.to_string();
-    wait_until(&mut desk.window, PATIENCE, |window| window.query_all_by_value(&port).next().is_some());
-    desk.click("Basic256Sha256");
-    type_into(&mut desk.window, "Port", "20777");
-    desk.click("Apply");
-    desk.confirm_and_finish("1 done");
-    let state = desk.plant.controller(0).state();
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    app.tick(&["cell 1"]);
+    choose(&mut app.window, &["Server settings", "Basic settings…"]);
+    let port = app.fleet.controller(0).state().settings.port.to_string();
+    wait_until(&mut app.window, WAIT_LIMIT, |window| window.query_all_by_value(&port).next().is_some());
+    app.click("Basic256Sha256");
+    type_into(&mut app.window, "Port", "20777");
+    app.click("Apply");
+    app.confirm_and_finish("1 done");
+    let state = app.fleet.controller(0).state();
     assert_eq!(state.settings.port.get(), 20777);
     assert!(!state.settings.security_policies.iter().any(|p| p.as_str() == "Basic256Sha256"));
 }
 
 #[test]
 fn enter_confirms_a_dialog_whatever_has_the_focus_but_presses_a_focused_button() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
-    desk.tick(&["cell 1"]);
-    choose(&mut desk.window, &["Server settings", "Basic settings…"]);
-    wait_until(&mut desk.window, PATIENCE, |window| is_enabled(window, "Apply"));
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    app.tick(&["cell 1"]);
+    choose(&mut app.window, &["Server settings", "Basic settings…"]);
+    wait_until(&mut app.window, WAIT_LIMIT, |window| is_enabled(window, "Apply"));
 
-    desk.window.get_by_label("Basic256").focus();
-    desk.window.run_ok();
-    desk.window.key_press(egui::Key::Enter);
-    desk.window.run_ok();
-    assert!(shows(&desk.window, "The OPC UA server is stopped"), "the tick box had the focus");
+    app.window.get_by_label("Basic256").focus();
+    app.window.run_ok();
+    app.window.key_press(egui::Key::Enter);
+    app.window.run_ok();
+    assert!(shows(&app.window, "The OPC UA server is stopped"), "the tick box had the focus");
 
-    let cancel = desk.window.query_all_by_label("Cancel").next_back().unwrap();
+    let cancel = app.window.query_all_by_label("Cancel").next_back().unwrap();
     cancel.focus();
-    desk.window.run_ok();
-    desk.window.key_press(egui::Key::Enter);
-    desk.window.run_ok();
-    assert!(!shows(&desk.window, "The OPC UA server is stopped"), "Cancel was pressed, not Change settings");
-    assert!(is_enabled(&desk.window, "Apply"), "the form is there again");
-    let state = desk.plant.controller(0).state();
+    app.window.run_ok();
+    app.window.key_press(egui::Key::Enter);
+    app.window.run_ok();
+    assert!(!shows(&app.window, "The OPC UA server is stopped"), "Cancel was pressed, not Change settings");
+    assert!(is_enabled(&app.window, "Apply"), "the form is there again");
+    let state = app.fleet.controller(0).state();
     assert!(
         !state.settings.security_policies.iter().any(|policy| policy.as_str() == "Basic256"),
         "nothing was changed"
@@ -128,112 +128,112 @@ fn enter_confirms_a_dialog_whatever_has_the_focus_but_presses_a_focused_button()
 
 #[test]
 fn a_dialog_stays_where_it_is_when_a_warning_appears_in_it() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
-    desk.tick(&["cell 1"]);
-    choose(&mut desk.window, &["Server settings", "Basic settings…"]);
-    wait_until(&mut desk.window, PATIENCE, |window| is_enabled(window, "Apply"));
-    let top = |desk: &Desk| desk.window.query_all_by_label("Port").next().unwrap().rect().top();
-    let before = top(&desk);
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    app.tick(&["cell 1"]);
+    choose(&mut app.window, &["Server settings", "Basic settings…"]);
+    wait_until(&mut app.window, WAIT_LIMIT, |window| is_enabled(window, "Apply"));
+    let top = |app: &WindowTest| app.window.query_all_by_label("Port").next().unwrap().rect().top();
+    let before = top(&app);
     for port in ["80", "20777"] {
-        type_into(&mut desk.window, "Port", port);
-        assert_eq!(shows(&desk.window, "Enter a port from 1024 to 65535"), port == "80");
+        type_into(&mut app.window, "Port", port);
+        assert_eq!(shows(&app.window, "Enter a port from 1024 to 65535"), port == "80");
         // Half a point is rounded either way.
-        assert!((top(&desk) - before).abs() <= 1.0, "{} and {before} with port {port}", top(&desk));
+        assert!((top(&app) - before).abs() <= 1.0, "{} and {before} with port {port}", top(&app));
     }
 }
 
 #[test]
 fn a_batch_is_cancelled_in_the_middle() {
-    let mut desk = Desk::with_controllers(8, FleetFirmware::Current);
+    let mut app = WindowTest::with_controllers(8, FleetFirmware::Current);
     for index in 0..8 {
-        desk.plant.controller(index).faults().update(|f| f.latency = Duration::from_millis(300));
+        app.fleet.controller(index).faults().update(|f| f.latency = Duration::from_millis(300));
     }
-    desk.window.state_mut().model.options.parallelism = 2;
-    desk.click("Tick all");
-    choose(&mut desk.window, &["Server settings", "Users…"]);
-    type_into(&mut desk.window, "User name", "operator1");
-    type_into(&mut desk.window, "Password", "Passw0rd1");
-    desk.click("Add");
-    desk.click("Add user");
-    wait_until(&mut desk.window, PATIENCE, |window| {
+    app.window.state_mut().model.options.parallelism = 2;
+    app.click("Tick all");
+    choose(&mut app.window, &["Server settings", "Users…"]);
+    type_into(&mut app.window, "User name", "operator1");
+    type_into(&mut app.window, "Password", "Passw0rd1");
+    app.click("Add");
+    app.click("Add user");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| {
         window.state().model.job.as_ref().is_some_and(|job| job.finished >= 1)
     });
-    desk.click("Cancel");
-    assert!(shows(&desk.window, "Stop after the step in hand?"));
+    app.click("Cancel");
+    assert!(shows(&app.window, "Stop after the step in hand?"));
     // Two buttons say "Stop": the one of the question is on top.
-    desk.click("Stop");
-    desk.wait_for("Stopped");
-    let changed = (0..8).filter(|i| !desk.plant.controller(*i).state().users.is_empty()).count();
+    app.click("Stop");
+    app.wait_for("Stopped");
+    let changed = (0..8).filter(|i| !app.fleet.controller(*i).state().users.is_empty()).count();
     assert!((1..8).contains(&changed), "{changed} of 8 were changed");
-    assert!(shows(&desk.window, &format!("{changed} done")), "what is done is said so");
-    assert!(shows(&desk.window, "not started"));
+    assert!(shows(&app.window, &format!("{changed} done")), "what is done is said so");
+    assert!(shows(&app.window, "not started"));
 }
 
 #[test]
 fn adding_a_controller_explains_what_is_wrong_and_keeps_what_was_typed() {
-    let mut desk = Desk::empty(1, FleetFirmware::Current);
-    let address = desk.plant.controller(0).management_address().to_string();
-    fill_in_controller(&mut desk, "weld", &address, "wrong-password");
-    desk.wait_for("Is this your controller?");
-    desk.click("It matches, add");
-    desk.wait_for("The connection password is wrong");
-    assert!(desk.window.query_all_by_value("weld").next().is_some(), "the form is still there");
-    type_into(&mut desk.window, "Connection password", plant::PASSWORD);
-    desk.click("Apply");
-    desk.wait_for("Is this your controller?");
-    desk.click("It matches, add");
-    wait_until(&mut desk.window, PATIENCE, |window| window.state().model.rows.all().len() == 1);
+    let mut app = WindowTest::empty(1, FleetFirmware::Current);
+    let address = app.fleet.controller(0).management_address().to_string();
+    fill_in_controller(&mut app, "weld", &address, "wrong-password");
+    app.wait_for("Is this your controller?");
+    app.click("It matches, add");
+    app.wait_for("The connection password is wrong");
+    assert!(app.window.query_all_by_value("weld").next().is_some(), "the form is still there");
+    type_into(&mut app.window, "Connection password", test_fleet::PASSWORD);
+    app.click("Apply");
+    app.wait_for("Is this your controller?");
+    app.click("It matches, add");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| window.state().model.rows.all().len() == 1);
 
     // Mistakes are shown before anything is sent.
-    choose(&mut desk.window, &["Controller", "Add controller…"]);
-    type_into(&mut desk.window, "Name", "weld");
-    assert!(shows(&desk.window, "Another controller already has this name"));
-    type_into(&mut desk.window, "IP address", "10.0.0.999");
-    assert!(shows(&desk.window, "Enter an IP address or a host name"));
-    assert!(!is_enabled(&desk.window, "Apply"));
-    desk.click("Cancel");
+    choose(&mut app.window, &["Controller", "Add controller…"]);
+    type_into(&mut app.window, "Name", "weld");
+    assert!(shows(&app.window, "Another controller already has this name"));
+    type_into(&mut app.window, "IP address", "10.0.0.999");
+    assert!(shows(&app.window, "Enter an IP address or a host name"));
+    assert!(!is_enabled(&app.window, "Apply"));
+    app.click("Cancel");
 
     // Nobody there, and somebody else there.
     let silent = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let nowhere = silent.local_addr().unwrap().to_string();
     drop(silent);
-    fill_in_controller(&mut desk, "nowhere", &nowhere, "");
-    desk.wait_for("The controller cannot be reached");
-    desk.click("Cancel");
+    fill_in_controller(&mut app, "nowhere", &nowhere, "");
+    app.wait_for("The controller cannot be reached");
+    app.click("Cancel");
     let printer = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let at = printer.local_addr().unwrap().to_string();
     let printer = std::thread::spawn(move || {
         let (mut stream, _) = printer.accept().unwrap();
         std::io::Write::write_all(&mut stream, b"220 printer ready\r\n").unwrap();
     });
-    fill_in_controller(&mut desk, "printer", &at, "");
-    desk.wait_for("What answers at this address is not a controller");
+    fill_in_controller(&mut app, "printer", &at, "");
+    app.wait_for("What answers at this address is not a controller");
     printer.join().unwrap();
-    desk.click("Cancel");
-    assert_eq!(desk.window.state().model.rows.all().len(), 1);
+    app.click("Cancel");
+    assert_eq!(app.window.state().model.rows.all().len(), 1);
 }
 
 /// Runs a task on "cell 1" that must fail, and gives back the message that is shown for it.
-fn failing_start(desk: &mut Desk, message: &str) {
-    desk.tick(&["cell 1"]);
-    desk.click("Start");
-    desk.wait_for(message);
-    assert!(shows(&desk.window, "1 failed"));
-    desk.click("Close");
+fn failing_start(app: &mut WindowTest, message: &str) {
+    app.tick(&["cell 1"]);
+    app.click("Start");
+    app.wait_for(message);
+    assert!(shows(&app.window, "1 failed"));
+    app.click("Close");
 }
 
 /// The number stands in the status and is explained there, until its cause is mended.
 #[test]
 fn an_error_number_describes_the_present() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
-    failing_start(&mut desk, "No server certificate is configured");
-    assert!(shows(&desk.window, "Error (7931)"));
-    desk.window.get_by_label("Error (7931)").hover();
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    failing_start(&mut app, "No server certificate is configured");
+    assert!(shows(&app.window, "Error (7931)"));
+    app.window.get_by_label("Error (7931)").hover();
     for _ in 0..60 {
-        desk.window.step();
+        app.window.step();
     }
     for part in ["7931: No server certificate is configured", "Create or import a server certificate"] {
-        assert!(shows(&desk.window, part), "{part}");
+        assert!(shows(&app.window, part), "{part}");
     }
     let fields = SelfSignedFields {
         common_name: None,
@@ -244,249 +244,252 @@ fn an_error_number_describes_the_present() {
         key_length: KeyLength::Rsa2048,
         validity: Validity::try_from(1).unwrap(),
     };
-    desk.run(SelfSigned { fields, backup: None });
-    desk.click("Get new information");
-    wait_until(&mut desk.window, PATIENCE, |window| !shows(window, "7931"));
-    assert_eq!(desk.statuses()[0], Some(ServerStatus::Stop));
+    app.run(SelfSigned { fields, backup: None });
+    app.click("Get new information");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| !shows(window, "7931"));
+    assert_eq!(app.statuses()[0], Some(ServerStatus::Stop));
 }
 
 #[test]
 fn a_failing_controller_is_explained_with_cause_and_remedy() {
-    let mut desk = Desk::with_controllers(2, FleetFirmware::Current);
-    failing_start(&mut desk, "No server certificate is configured");
-    assert_eq!(desk.statuses()[0], Some(ServerStatus::Error));
-    desk.plant.controller(0).faults().update(|f| f.task_running = true);
-    desk.click("Start");
-    desk.wait_for("A task is running in the controller");
+    let mut app = WindowTest::with_controllers(2, FleetFirmware::Current);
+    failing_start(&mut app, "No server certificate is configured");
+    assert_eq!(app.statuses()[0], Some(ServerStatus::Error));
+    app.fleet.controller(0).faults().update(|f| f.task_running = true);
+    app.click("Start");
+    app.wait_for("A task is running in the controller");
     for part in ["Cause", "Remedy", "Wait for the task to finish"] {
-        assert!(shows(&desk.window, part), "{part}");
+        assert!(shows(&app.window, part), "{part}");
     }
-    desk.click("Close");
-    desk.plant.controller(0).faults().update(|f| f.task_running = false);
+    app.click("Close");
+    app.fleet.controller(0).faults().update(|f| f.task_running = false);
 
     // A second configurator changes the controller while its settings are on the screen.
-    choose(&mut desk.window, &["Server settings", "Basic settings…"]);
-    let port = desk.plant.controller(0).state().settings.port.to_string();
-    wait_until(&mut desk.window, PATIENCE, |window| window.query_all_by_value(&port).next().is_some());
+    choose(&mut app.window, &["Server settings", "Basic settings…"]);
+    let port = app.fleet.controller(0).state().settings.port.to_string();
+    wait_until(&mut app.window, WAIT_LIMIT, |window| window.query_all_by_value(&port).next().is_some());
     let other = AddUser {
-        credential: Credential {
+        credential: UserCredential {
             name: "operator9".parse().unwrap(),
             password: UserPassword::new("Passw0rd1").unwrap(),
         },
         based_on: None,
     };
-    assert!(desk.runtime.block_on(desk.plant.run(other))[0].result.is_ok());
-    desk.click("Apply");
-    desk.click("Change settings");
-    desk.wait_for("The controller was changed by somebody else");
-    desk.click("Close");
+    assert!(app.runtime.block_on(app.fleet.run(other))[0].result.is_ok());
+    app.click("Apply");
+    app.click("Change settings");
+    app.wait_for("The controller was changed by somebody else");
+    app.click("Close");
 
     // The cable is pulled in mid-change.
-    desk.plant.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
-    choose(&mut desk.window, &["Server settings", "Users…"]);
-    desk.wait_for("operator9");
-    desk.click("Add user…");
-    type_into(&mut desk.window, "User name", "operator2");
-    type_into(&mut desk.window, "Password", "Passw0rd1");
-    desk.click("Add");
-    desk.click("Add user");
-    desk.wait_for("The change was applied, but its answer was lost");
-    desk.wait_for("Completed");
-    desk.click("Close");
-    desk.wait_for("operator2");
+    app.fleet.controller(0).faults().update(|f| f.drop_next_change = Some(DropPoint::AfterApply));
+    choose(&mut app.window, &["Server settings", "Users…"]);
+    app.wait_for("operator9");
+    app.click("Add user…");
+    type_into(&mut app.window, "User name", "operator2");
+    type_into(&mut app.window, "Password", "Passw0rd1");
+    app.click("Add");
+    app.click("Add user");
+    app.wait_for("The change was applied, but its answer was lost");
+    app.wait_for("Completed");
+    app.click("Close");
+    app.wait_for("operator2");
 }
 
 #[test]
 fn a_changed_fingerprint_stops_everything() {
-    let mut desk = Desk::start(
-        || Plant::start(1, FleetFirmware::Current),
-        |plant| {
-            let mut configuration = listed(plant);
-            configuration.controllers[0].fingerprint = Some(plant::nobody());
+    let mut app = WindowTest::start(
+        || TestFleet::start(1, FleetFirmware::Current),
+        |fleet| {
+            let mut configuration = listed(fleet);
+            configuration.controllers[0].fingerprint = Some(test_fleet::nobody());
             configuration
         },
         None,
         |_| FixedPicker(Ok(None)),
     );
     opcua_configurator::workspace::Passwords::set(
-        desk.plant.passwords.as_ref(),
-        plant::nobody(),
-        plant::PASSWORD.into(),
+        app.fleet.passwords.as_ref(),
+        test_fleet::nobody(),
+        test_fleet::PASSWORD.into(),
     )
     .unwrap();
-    desk.tick(&["cell 1"]);
-    desk.click("Get new information");
-    desk.wait_for("The controller's identity has changed");
-    let shown = plant::nobody().grouped();
-    assert!(shows(&desk.window, &shown) || shows(&desk.window, "expected"), "both fingerprints are there");
+    app.tick(&["cell 1"]);
+    app.click("Get new information");
+    app.wait_for("The controller's identity has changed");
+    let shown = test_fleet::nobody().grouped();
+    assert!(shows(&app.window, &shown) || shows(&app.window, "expected"), "both fingerprints are there");
 }
 
 #[test]
 fn a_missing_password_is_asked_for_and_the_job_goes_on() {
-    let mut desk = Desk::with_controllers(2, FleetFirmware::Current);
+    let mut app = WindowTest::with_controllers(2, FleetFirmware::Current);
     opcua_configurator::workspace::Passwords::forget(
-        desk.plant.passwords.as_ref(),
-        desk.plant.controller(1).fingerprint(),
+        app.fleet.passwords.as_ref(),
+        app.fleet.controller(1).fingerprint(),
     );
-    desk.tick(&["cell 1", "cell 2"]);
-    desk.click("Get new information");
-    desk.wait_for("Connection password needed");
-    type_into(&mut desk.window, "Connection password", plant::PASSWORD);
-    desk.click("OK");
-    wait_until(&mut desk.window, PATIENCE, |window| {
+    app.tick(&["cell 1", "cell 2"]);
+    app.click("Get new information");
+    app.wait_for("Connection password needed");
+    type_into(&mut app.window, "Connection password", test_fleet::PASSWORD);
+    app.click("OK");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| {
         window.state().model.job.is_none() && window.state().model.dialogs.is_empty()
     });
 }
 
 #[test]
 fn a_port_in_use_is_refused_in_the_form() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
-    desk.tick(&["cell 1"]);
-    choose(&mut desk.window, &["Server settings", "Basic settings…"]);
-    let port = desk.plant.controller(0).state().settings.port.to_string();
-    wait_until(&mut desk.window, PATIENCE, |window| window.query_all_by_value(&port).next().is_some());
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    app.tick(&["cell 1"]);
+    choose(&mut app.window, &["Server settings", "Basic settings…"]);
+    let port = app.fleet.controller(0).state().settings.port.to_string();
+    wait_until(&mut app.window, WAIT_LIMIT, |window| window.query_all_by_value(&port).next().is_some());
     for (port, message) in [
         ("80", "Enter a port from 1024 to 65535"),
         ("70000", "Enter a port from 1024 to 65535"),
         (
-            &desk.plant.controller(0).info().used_ports[0].to_string(),
+            &app.fleet.controller(0).info().used_ports[0].to_string(),
             "Another function of the controller uses this port",
         ),
     ] {
-        type_into(&mut desk.window, "Port", port);
-        assert!(shows(&desk.window, message), "{port}");
-        assert!(!is_enabled(&desk.window, "Apply"));
+        type_into(&mut app.window, "Port", port);
+        assert!(shows(&app.window, message), "{port}");
+        assert!(!is_enabled(&app.window, "Apply"));
     }
 }
 
 #[test]
 fn the_language_changes_at_once_and_is_remembered() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
-    choose(&mut desk.window, &["Options", "Options…"]);
-    desk.click("简体中文");
-    assert!(shows(&desk.window, "选项") && shows(&desk.window, "获取新信息"));
-    desk.click("关闭");
-    assert!(shows(&desk.window, "控制器"));
-    desk.wait_until_saved(|configuration| configuration.options.language == Some(Language::Zh));
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    choose(&mut app.window, &["Options", "Options…"]);
+    app.click("简体中文");
+    assert!(shows(&app.window, "选项") && shows(&app.window, "获取新信息"));
+    app.click("关闭");
+    assert!(shows(&app.window, "控制器"));
+    app.wait_until_saved(|configuration| configuration.options.language == Some(Language::Zh));
 }
 
 /// egui keeps the former texts of a field for Ctrl+Z, also those of a password, under the field's place in the dialog.
 #[test]
 fn undo_does_not_bring_a_password_back() {
-    let mut desk = Desk::empty(0, FleetFirmware::Current);
-    let password = |desk: &Desk| {
-        let form = desk.window.state().model.top::<AddController>().expect("the dialog is open");
+    let mut app = WindowTest::empty(0, FleetFirmware::Current);
+    let password = |app: &WindowTest| {
+        let form = app.window.state().model.top::<AddControllerForm>().expect("the dialog is open");
         form.password.0.clone()
     };
-    choose(&mut desk.window, &["Controller", "Add controller…"]);
-    type_into(&mut desk.window, "Connection password", "secret of the cell");
+    choose(&mut app.window, &["Controller", "Add controller…"]);
+    type_into(&mut app.window, "Connection password", "secret of the cell");
     // Longer than a text must stay as it is to become a step of undo.
-    desk.window.run_steps(20);
-    assert_eq!(password(&desk), "secret of the cell");
-    desk.click("Cancel");
+    app.window.run_steps(20);
+    assert_eq!(password(&app), "secret of the cell");
+    app.click("Cancel");
 
-    choose(&mut desk.window, &["Controller", "Add controller…"]);
-    type_into(&mut desk.window, "Connection password", "x");
+    choose(&mut app.window, &["Controller", "Add controller…"]);
+    type_into(&mut app.window, "Connection password", "x");
     for _ in 0..3 {
-        desk.window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
-        desk.window.run_ok();
-        assert!(!password(&desk).contains("secret"), "{:?}", password(&desk));
+        app.window.key_press_modifiers(egui::Modifiers::COMMAND, egui::Key::Z);
+        app.window.run_ok();
+        assert!(!password(&app).contains("secret"), "{:?}", password(&app));
     }
 }
 
 #[test]
 fn the_licences_of_everything_linked_in_are_shown_and_searched() {
-    let mut desk = Desk::empty(0, FleetFirmware::Current);
-    choose(&mut desk.window, &["Help", "About", "Licences…"]);
-    type_into(&mut desk.window, "Filter by name or licence", "MPL-2.0");
-    assert!(shows(&desk.window, "Mozilla Public License"));
-    type_into(&mut desk.window, "Filter by name or licence", "noto sans");
-    desk.click("Noto Sans CJK SC (subset) 2.004");
-    assert!(shows(&desk.window, "SIL OPEN FONT LICENSE"));
-    type_into(&mut desk.window, "Filter by name or licence", "no such thing");
-    assert!(shows(&desk.window, "Nothing matches the filter"));
+    let mut app = WindowTest::empty(0, FleetFirmware::Current);
+    choose(&mut app.window, &["Help", "About", "Licences…"]);
+    type_into(&mut app.window, "Filter by name or licence", "MPL-2.0");
+    assert!(shows(&app.window, "Mozilla Public License"));
+    type_into(&mut app.window, "Filter by name or licence", "noto sans");
+    app.click("Noto Sans CJK SC (subset) 2.004");
+    assert!(shows(&app.window, "SIL OPEN FONT LICENSE"));
+    type_into(&mut app.window, "Filter by name or licence", "no such thing");
+    assert!(shows(&app.window, "Nothing matches the filter"));
 }
 
 #[test]
 fn a_damaged_configuration_is_told_at_the_start() {
-    let mut desk = Desk::empty(0, FleetFirmware::Current);
-    std::fs::write(desk.workspace.root().join("epson_opcua_config.json"), "{").unwrap();
-    let notice: Problem = desk.workspace.load().unwrap().notice().unwrap();
-    desk.window.state_mut().model.show_problem(notice);
-    desk.window.run_ok();
+    let mut app = WindowTest::empty(0, FleetFirmware::Current);
+    std::fs::write(app.workspace.root().join("epson_opcua_config.json"), "{").unwrap();
+    let notice: Problem = app.workspace.load().unwrap().notice().unwrap();
+    app.window.state_mut().model.show_problem(notice);
+    app.window.run_ok();
     for text in ["The configuration file was damaged", "kept as", "Restore the controllers from a backup"] {
-        assert!(shows(&desk.window, text), "{text}");
+        assert!(shows(&app.window, text), "{text}");
     }
 }
 
 /// A file where the folder should be: nobody can write there, not even root.
 #[test]
 fn a_workspace_that_cannot_be_written_is_said_so_and_nothing_is_lost() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Current);
-    std::fs::remove_dir_all(desk.workspace.root()).unwrap();
-    std::fs::write(desk.workspace.root(), "in the way").unwrap();
-    desk.tick(&["cell 1"]);
-    desk.click("Get new information");
-    desk.wait_for("The workspace cannot be written");
-    desk.click("Close");
-    assert_eq!(desk.window.state().model.rows.all().len(), 1);
-    assert_eq!(std::fs::read_to_string(desk.workspace.root()).unwrap(), "in the way");
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    std::fs::remove_dir_all(app.workspace.root()).unwrap();
+    std::fs::write(app.workspace.root(), "in the way").unwrap();
+    app.tick(&["cell 1"]);
+    app.click("Get new information");
+    app.wait_for("The workspace cannot be written");
+    app.click("Close");
+    assert_eq!(app.window.state().model.rows.all().len(), 1);
+    assert_eq!(std::fs::read_to_string(app.workspace.root()).unwrap(), "in the way");
 }
 
 struct OneVirtual(ControllerEntry);
 
 #[async_trait::async_trait]
 impl VirtualFleetStarter for OneVirtual {
-    async fn start(&self) -> Result<Vec<NewVirtual>, Problem> {
-        Ok(vec![NewVirtual { entry: self.0.clone(), password: plant::PASSWORD.into() }])
+    async fn start(&self) -> Result<Vec<NewVirtualController>, Problem> {
+        Ok(vec![NewVirtualController { entry: self.0.clone(), password: test_fleet::PASSWORD.into() }])
     }
 }
 
 #[test]
 fn the_welcome_page_offers_virtual_controllers() {
     let outer = tokio::runtime::Runtime::new().unwrap();
-    let plant = outer.block_on(Plant::start(1, FleetFirmware::Current));
-    let starter: Arc<dyn VirtualFleetStarter> = Arc::new(OneVirtual(listed(&plant).controllers.remove(0)));
-    let mut desk = Desk::start(
-        || Plant::start(0, FleetFirmware::Current),
+    let fleet = outer.block_on(TestFleet::start(1, FleetFirmware::Current));
+    let starter: Arc<dyn VirtualFleetStarter> = Arc::new(OneVirtual(listed(&fleet).controllers.remove(0)));
+    let mut app = WindowTest::start(
+        || TestFleet::start(0, FleetFirmware::Current),
         |_| Configuration::default(),
         Some(starter),
         |_| FixedPicker(Ok(None)),
     );
-    desk.click("Try it with virtual controllers");
-    wait_until(&mut desk.window, PATIENCE, |window| window.state().model.rows.all().len() == 1);
-    desk.tick(&["cell 1"]);
-    desk.click("Get new information");
-    wait_until(&mut desk.window, PATIENCE, |window| window.state().model.job.is_none());
-    assert!(shows(&desk.window, "cell 1"));
+    app.click("Try it with virtual controllers");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| window.state().model.rows.all().len() == 1);
+    app.tick(&["cell 1"]);
+    app.click("Get new information");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| window.state().model.job.is_none());
+    assert!(shows(&app.window, "cell 1"));
 }
 
 #[test]
 fn users_are_deleted_from_the_list() {
-    let mut desk = Desk::with_controllers(1, FleetFirmware::Legacy);
+    let mut app = WindowTest::with_controllers(1, FleetFirmware::Legacy);
     for name in ["operator1", "operator2"] {
         let operation = AddUser {
-            credential: Credential { name: name.parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() },
+            credential: UserCredential {
+                name: name.parse().unwrap(),
+                password: UserPassword::new("Passw0rd1").unwrap(),
+            },
             based_on: None,
         };
-        assert!(desk.runtime.block_on(desk.plant.run(operation))[0].result.is_ok());
+        assert!(app.runtime.block_on(app.fleet.run(operation))[0].result.is_ok());
     }
-    desk.tick(&["cell 1"]);
-    choose(&mut desk.window, &["Server settings", "Users…"]);
-    desk.wait_for("operator2");
-    desk.click("operator1");
-    desk.click("Delete");
-    desk.click("Delete users");
-    desk.wait_for("Completed");
-    desk.click("Close");
-    let left: Vec<String> = desk.plant.controller(0).state().users.iter().map(|u| u.name.to_string()).collect();
+    app.tick(&["cell 1"]);
+    choose(&mut app.window, &["Server settings", "Users…"]);
+    app.wait_for("operator2");
+    app.click("operator1");
+    app.click("Delete");
+    app.click("Delete users");
+    app.wait_for("Completed");
+    app.click("Close");
+    let left: Vec<String> = app.fleet.controller(0).state().users.iter().map(|u| u.name.to_string()).collect();
     assert_eq!(left, ["operator2"]);
 }
 
 #[test]
 fn a_command_that_cannot_be_given_says_why() {
-    let desk = Desk::with_controllers(1, FleetFirmware::Current);
-    let mut window = desk.window;
+    let app = WindowTest::with_controllers(1, FleetFirmware::Current);
+    let mut window = app.window;
     click(&mut window, "Tools");
     let item = window.get_by_label("Verify");
     assert!(item.accesskit_node().is_disabled());

@@ -14,16 +14,16 @@ use opcua_configurator::workspace::{CertificateFiles, Passwords as _};
 use rcgen::{CertificateParams, SanType};
 
 use crate::common::ca::Ca;
-use crate::common::plant;
+use crate::common::test_fleet;
 use crate::common::window::{choose, is_enabled, shows, type_into, wait_until};
-use crate::common::window_desk::{Desk, PATIENCE};
+use crate::common::window_test::{WAIT_LIMIT, WindowTest};
 
-impl Desk {
+impl WindowTest {
     /// A plant, and a window that knows it, all ticked.
     fn with_all_ticked(count: usize, firmware: FleetFirmware) -> Self {
-        let mut desk = Self::with_controllers(count, firmware);
-        desk.click("Tick all");
-        desk
+        let mut app = Self::with_controllers(count, firmware);
+        app.click("Tick all");
+        app
     }
 
     fn files(&self) -> CertificateFiles {
@@ -32,7 +32,7 @@ impl Desk {
 
     fn have_self_signed(&self) {
         let operation = SelfSigned { fields: fields(), backup: None };
-        for report in self.runtime.block_on(self.plant.run(operation)) {
+        for report in self.runtime.block_on(self.fleet.run(operation)) {
             assert!(report.result.is_ok(), "{report:?}");
         }
     }
@@ -40,7 +40,7 @@ impl Desk {
     /// Has all controllers make a request, by the dialog that is open.
     fn create_csr(&mut self, summary: &str) {
         self.click("Create CSR…");
-        wait_until(&mut self.window, PATIENCE, |window| is_enabled(window, "Create and save"));
+        wait_until(&mut self.window, WAIT_LIMIT, |window| is_enabled(window, "Create and save"));
         type_into(&mut self.window, "Organisation", "Example");
         self.click("Create and save");
         assert!(shows(&self.window, "the present CA-signed certificate becomes invalid at once"));
@@ -72,152 +72,152 @@ fn fields() -> SelfSignedFields {
     }
 }
 
-fn create(desk: &mut Desk, item: &str) {
-    choose(&mut desk.window, &["Certificate", "Create and save", item]);
+fn create(app: &mut WindowTest, item: &str) {
+    choose(&mut app.window, &["Certificate", "Create and save", item]);
 }
 
 #[test]
 fn a_ca_signs_for_two_controllers_and_the_type_is_chosen_afterwards() {
-    let mut desk = Desk::with_all_ticked(2, FleetFirmware::Mixed);
-    desk.have_self_signed();
-    create(&mut desk, "CA signed…");
-    desk.create_csr("2 done");
-    assert!(shows(&desk.window, "2. Import certificate"), "the dialog is still there");
+    let mut app = WindowTest::with_all_ticked(2, FleetFirmware::Mixed);
+    app.have_self_signed();
+    create(&mut app, "CA signed…");
+    app.create_csr("2 done");
+    assert!(shows(&app.window, "2. Import certificate"), "the dialog is still there");
 
     // One certificate is there already, for the wrong controller; the other is not.
     let ca = Ca::new();
-    desk.put_from_ca(0, &ca.sign(&desk.csr(1)));
-    desk.click("Import…");
-    desk.wait_for("0 of 2 certificates can be imported");
-    assert!(shows(&desk.window, "The certificate and the CSR do not match"));
-    assert!(shows(&desk.window, "The file to be imported was not found"));
-    assert!(!is_enabled(&desk.window, "Import"));
-    desk.click("Cancel");
+    app.put_from_ca(0, &ca.sign(&app.csr(1)));
+    app.click("Import…");
+    app.wait_for("0 of 2 certificates can be imported");
+    assert!(shows(&app.window, "The certificate and the CSR do not match"));
+    assert!(shows(&app.window, "The file to be imported was not found"));
+    assert!(!is_enabled(&app.window, "Import"));
+    app.click("Cancel");
 
     for index in 0..2 {
-        desk.put_from_ca(index, &ca.sign(&desk.csr(index)));
+        app.put_from_ca(index, &ca.sign(&app.csr(index)));
     }
-    desk.click("Import…");
-    desk.wait_for("2 of 2 certificates can be imported");
-    assert!(shows(&desk.window, "The OPC UA server is stopped"));
-    desk.click("Import");
-    desk.finish("2 done");
-    assert!(desk.window.state().model.dialogs.is_empty());
-    assert_eq!([desk.in_use(0), desk.in_use(1)], [Some(CertificateType::CaSigned); 2]);
+    app.click("Import…");
+    app.wait_for("2 of 2 certificates can be imported");
+    assert!(shows(&app.window, "The OPC UA server is stopped"));
+    app.click("Import");
+    app.finish("2 done");
+    assert!(app.window.state().model.dialogs.is_empty());
+    assert_eq!([app.in_use(0), app.in_use(1)], [Some(CertificateType::CaSigned); 2]);
 
-    choose(&mut desk.window, &["Certificate", "Type select…"]);
-    desk.wait_for("Stored in 2 of 2 controllers");
-    assert!(desk.window.query_by_label("User specified").is_none(), "one of them has current firmware");
-    desk.click("Self-signed");
-    desk.click("Apply");
-    desk.click("Switch certificate");
-    desk.finish("2 done");
-    assert_eq!([desk.in_use(0), desk.in_use(1)], [Some(CertificateType::SelfSigned); 2]);
+    choose(&mut app.window, &["Certificate", "Type select…"]);
+    app.wait_for("Stored in 2 of 2 controllers");
+    assert!(app.window.query_by_label("User specified").is_none(), "one of them has current firmware");
+    app.click("Self-signed");
+    app.click("Apply");
+    app.click("Switch certificate");
+    app.finish("2 done");
+    assert_eq!([app.in_use(0), app.in_use(1)], [Some(CertificateType::SelfSigned); 2]);
 }
 
 #[test]
 fn warnings_are_asked_about_and_errors_stop_an_import() {
-    let mut desk = Desk::with_all_ticked(1, FleetFirmware::Current);
-    create(&mut desk, "CA signed…");
-    desk.click("Import…");
-    desk.wait_for("The file to be imported was not found");
-    desk.click("Close");
-    desk.create_csr("1 done");
-    let (ca, csr) = (Ca::new(), desk.csr(0));
+    let mut app = WindowTest::with_all_ticked(1, FleetFirmware::Current);
+    create(&mut app, "CA signed…");
+    app.click("Import…");
+    app.wait_for("The file to be imported was not found");
+    app.click("Close");
+    app.create_csr("1 done");
+    let (ca, csr) = (Ca::new(), app.csr(0));
     let nobody = |p: &mut CertificateParams| p.subject_alt_names.retain(|name| !matches!(name, SanType::URI(_)));
-    desk.put_from_ca(0, &ca.sign_changed(&csr, nobody));
-    desk.click("Import…");
-    desk.wait_for("Error: It has no application URI");
-    assert!(!is_enabled(&desk.window, "Import"));
-    desk.click("Cancel");
+    app.put_from_ca(0, &ca.sign_changed(&csr, nobody));
+    app.click("Import…");
+    app.wait_for("Error: It has no application URI");
+    assert!(!is_enabled(&app.window, "Import"));
+    app.click("Cancel");
 
     // By its path, as somebody pastes it from a file manager.
     let elsewhere = tempfile::tempdir().unwrap();
     let file = elsewhere.path().join("from the CA.der");
     let nowhere = |p: &mut CertificateParams| p.subject_alt_names.retain(|name| matches!(name, SanType::URI(_)));
     fs::write(&file, ca.sign_changed(&csr, nowhere)).unwrap();
-    type_into(&mut desk.window, "Certificate file", &format!(" \"{}\" ", file.display()));
-    desk.click("Import…");
-    desk.wait_for("Warning: It is for no host; the application is reached as");
-    assert_eq!(desk.in_use(0), None, "nothing was sent");
-    desk.click("Import anyway");
-    desk.finish("1 done");
-    assert_eq!(desk.in_use(0), Some(CertificateType::CaSigned));
+    type_into(&mut app.window, "Certificate file", &format!(" \"{}\" ", file.display()));
+    app.click("Import…");
+    app.wait_for("Warning: It is for no host; the application is reached as");
+    assert_eq!(app.in_use(0), None, "nothing was sent");
+    app.click("Import anyway");
+    app.finish("1 done");
+    assert_eq!(app.in_use(0), Some(CertificateType::CaSigned));
 }
 
 #[test]
 fn a_controller_that_does_not_answer_keeps_no_other_out() {
-    let mut desk = Desk::with_all_ticked(2, FleetFirmware::Current);
-    desk.have_self_signed();
-    let forget = |desk: &Desk| desk.plant.passwords.forget(desk.plant.controller(1).fingerprint());
-    forget(&desk);
-    choose(&mut desk.window, &["Certificate", "Type select…"]);
-    desk.wait_for("Connection password needed");
-    desk.click("Cancel");
-    assert!(shows(&desk.window, "Stored in 1 of 2 controllers") && shows(&desk.window, "cell 2: "));
-    desk.click("Cancel");
+    let mut app = WindowTest::with_all_ticked(2, FleetFirmware::Current);
+    app.have_self_signed();
+    let forget = |app: &WindowTest| app.fleet.passwords.forget(app.fleet.controller(1).fingerprint());
+    forget(&app);
+    choose(&mut app.window, &["Certificate", "Type select…"]);
+    app.wait_for("Connection password needed");
+    app.click("Cancel");
+    assert!(shows(&app.window, "Stored in 1 of 2 controllers") && shows(&app.window, "cell 2: "));
+    app.click("Cancel");
 
-    choose(&mut desk.window, &["Certificate", "Type select…"]);
-    desk.wait_for("Connection password needed");
-    type_into(&mut desk.window, "Connection password", plant::PASSWORD);
-    desk.click("OK");
-    desk.wait_for("Stored in 2 of 2 controllers");
-    desk.click("Cancel");
+    choose(&mut app.window, &["Certificate", "Type select…"]);
+    app.wait_for("Connection password needed");
+    type_into(&mut app.window, "Connection password", test_fleet::PASSWORD);
+    app.click("OK");
+    app.wait_for("Stored in 2 of 2 controllers");
+    app.click("Cancel");
 
     // The same before an import.
-    create(&mut desk, "CA signed…");
-    desk.create_csr("2 done");
+    create(&mut app, "CA signed…");
+    app.create_csr("2 done");
     let ca = Ca::new();
     for index in 0..2 {
-        desk.put_from_ca(index, &ca.sign(&desk.csr(index)));
+        app.put_from_ca(index, &ca.sign(&app.csr(index)));
     }
-    forget(&desk);
-    desk.click("Import…");
-    desk.wait_for("Connection password needed");
-    desk.click("Cancel");
-    desk.wait_for("1 of 2 certificates can be imported");
-    desk.click("Import");
-    desk.finish("1 done");
+    forget(&app);
+    app.click("Import…");
+    app.wait_for("Connection password needed");
+    app.click("Cancel");
+    app.wait_for("1 of 2 certificates can be imported");
+    app.click("Import");
+    app.finish("1 done");
     assert_eq!(
-        [desk.in_use(0), desk.in_use(1)].map(|kind| kind.unwrap()),
+        [app.in_use(0), app.in_use(1)].map(|kind| kind.unwrap()),
         [CertificateType::CaSigned, CertificateType::SelfSigned]
     );
 }
 
 #[test]
 fn a_type_that_is_not_stored_cannot_be_chosen() {
-    let mut desk = Desk::with_all_ticked(1, FleetFirmware::Legacy);
-    desk.have_self_signed();
-    choose(&mut desk.window, &["Certificate", "Type select…"]);
-    desk.wait_for("in use");
-    desk.click("User specified");
-    assert!(shows(&desk.window, "The controller holds no certificate of this type"));
-    assert!(!is_enabled(&desk.window, "Apply"));
+    let mut app = WindowTest::with_all_ticked(1, FleetFirmware::Legacy);
+    app.have_self_signed();
+    choose(&mut app.window, &["Certificate", "Type select…"]);
+    app.wait_for("in use");
+    app.click("User specified");
+    assert!(shows(&app.window, "The controller holds no certificate of this type"));
+    assert!(!is_enabled(&app.window, "Apply"));
 }
 
 #[test]
 fn self_signed_certificates_are_exported() {
-    let mut desk = Desk::with_all_ticked(2, FleetFirmware::Mixed);
-    desk.have_self_signed();
-    choose(&mut desk.window, &["Certificate", "Export self-signed…"]);
-    desk.click("pem");
-    desk.click("Export");
-    assert!(shows(&desk.window, "are kept: they are moved into a folder named after their date"));
-    desk.click("Export");
-    desk.wait_for("Completed");
-    assert!(shows(&desk.window, "Saved in"));
-    desk.click("Copy");
-    desk.finish("2 done");
+    let mut app = WindowTest::with_all_ticked(2, FleetFirmware::Mixed);
+    app.have_self_signed();
+    choose(&mut app.window, &["Certificate", "Export self-signed…"]);
+    app.click("pem");
+    app.click("Export");
+    assert!(shows(&app.window, "are kept: they are moved into a folder named after their date"));
+    app.click("Export");
+    app.wait_for("Completed");
+    assert!(shows(&app.window, "Saved in"));
+    app.click("Copy");
+    app.finish("2 done");
     for index in 0..2 {
-        let pem = fs::read(desk.files().self_signed_folder(&desk.serial(index)).join("1_cert.pem")).unwrap();
+        let pem = fs::read(app.files().self_signed_folder(&app.serial(index)).join("1_cert.pem")).unwrap();
         let summary = Certificate::from_any(&pem).unwrap().summary();
-        assert_eq!(Some(summary), desk.plant.controller(index).info().certificate.map(|c| c.summary));
+        assert_eq!(Some(summary), app.fleet.controller(index).info().certificate.map(|c| c.summary));
     }
 }
 
 /// What another tool would make for the controller.
-fn made_elsewhere(desk: &Desk) -> (PrivateKey, Certificate) {
-    let info = desk.plant.controller(0).info();
+fn made_elsewhere(app: &WindowTest) -> (PrivateKey, Certificate) {
+    let info = app.fleet.controller(0).info();
     let subject = Subject {
         common_name: info.application_name.clone(),
         country: String::new(),
@@ -243,54 +243,54 @@ fn write(folder: &Path, name: &str, bytes: &[u8]) -> String {
 
 #[test]
 fn a_certificate_of_another_tool_is_imported() {
-    let mut desk = Desk::with_all_ticked(1, FleetFirmware::Legacy);
-    let (key, certificate) = made_elsewhere(&desk);
+    let mut app = WindowTest::with_all_ticked(1, FleetFirmware::Legacy);
+    let (key, certificate) = made_elsewhere(&app);
     let pfx = pkcs12_write("robot", &key, &[&certificate], "right").unwrap();
-    let folder = desk.files().user_specified_folder(&desk.serial(0));
+    let folder = app.files().user_specified_folder(&app.serial(0));
     write(&folder, "robot.pfx", &pfx);
-    create(&mut desk, "User specified…");
-    type_into(&mut desk.window, "Password of the file", "wrong");
-    desk.click("Import…");
-    desk.wait_for("The password of the private key is wrong");
-    desk.click("Close");
-    type_into(&mut desk.window, "Password of the file", "right");
-    desk.click("Import…");
-    desk.wait_for("Issued to");
-    desk.click("Import");
-    desk.finish("1 done");
-    assert_eq!(desk.in_use(0), Some(CertificateType::UserSpecified));
+    create(&mut app, "User specified…");
+    type_into(&mut app.window, "Password of the file", "wrong");
+    app.click("Import…");
+    app.wait_for("The password of the private key is wrong");
+    app.click("Close");
+    type_into(&mut app.window, "Password of the file", "right");
+    app.click("Import…");
+    app.wait_for("Issued to");
+    app.click("Import");
+    app.finish("1 done");
+    assert_eq!(app.in_use(0), Some(CertificateType::UserSpecified));
 
     // Files that do not belong together.
-    create(&mut desk, "User specified…");
-    desk.click("Certificate and key (.der, .key)");
+    create(&mut app, "User specified…");
+    app.click("Certificate and key (.der, .key)");
     let other = PrivateKey::generate(KeyLength::Rsa2048).unwrap();
     let certificate = write(&folder, "robot.der", certificate.der());
-    type_into(&mut desk.window, "Certificate file", &certificate);
-    assert!(!is_enabled(&desk.window, "Import…"), "the key is missing");
+    type_into(&mut app.window, "Certificate file", &certificate);
+    assert!(!is_enabled(&app.window, "Import…"), "the key is missing");
     let keys = write(&folder, "robot.key", &other.to_pkcs8_der().unwrap());
-    type_into(&mut desk.window, "Key file", &keys);
-    desk.click("Import…");
-    desk.wait_for("are not a pair");
-    desk.click("Close");
+    type_into(&mut app.window, "Key file", &keys);
+    app.click("Import…");
+    app.wait_for("are not a pair");
+    app.click("Close");
     write(&folder, "robot.key", &key.to_pkcs8_der().unwrap());
-    desk.click("Import…");
-    desk.wait_for("Issued to");
-    desk.click("Import");
-    desk.finish("1 done");
+    app.click("Import…");
+    app.wait_for("Issued to");
+    app.click("Import");
+    app.finish("1 done");
 }
 
 #[test]
 fn a_user_specified_certificate_is_for_one_legacy_controller() {
     let disabled = |count, firmware, why: &str| {
-        let mut desk = Desk::with_all_ticked(count, firmware);
-        choose(&mut desk.window, &["Certificate", "Create and save"]);
-        let item = desk.window.get_by_label("User specified…");
+        let mut app = WindowTest::with_all_ticked(count, firmware);
+        choose(&mut app.window, &["Certificate", "Create and save"]);
+        let item = app.window.get_by_label("User specified…");
         assert!(item.accesskit_node().is_disabled());
         item.hover();
         for _ in 0..60 {
-            desk.window.step();
+            app.window.step();
         }
-        assert!(shows(&desk.window, why), "{why}");
+        assert!(shows(&app.window, why), "{why}");
     };
     disabled(2, FleetFirmware::Legacy, "For one controller at a time");
     disabled(1, FleetFirmware::Current, "Only for firmware before 8.0.0");

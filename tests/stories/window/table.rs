@@ -4,14 +4,14 @@ use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable as _;
 use opcua_configurator::ui::backend::{Backend, RecordingBackend};
 use opcua_configurator::ui::features::backup::BackupDialog;
-use opcua_configurator::ui::features::delete_controllers::DeleteControllers;
+use opcua_configurator::ui::features::delete_controllers::DeleteControllersDialog;
 use opcua_configurator::ui::model::Column;
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::Workspace;
 
 use crate::common::samples::configuration;
 use crate::common::window::{SIZE, Window, choose, click, is_enabled, now, settle, shows, wait_until, window};
-use crate::common::window_desk::{Desk, PATIENCE};
+use crate::common::window_test::{WAIT_LIMIT, WindowTest};
 
 /// The first has current firmware, the second legacy firmware.
 const CURRENT: &str = "Weld 1";
@@ -73,7 +73,7 @@ fn the_menu_of_a_row_acts_on_that_row_or_on_all_that_are_ticked() {
     press(&mut window, row, PointerButton::Secondary, 1);
     assert!(shows(&window, "Only Weld 2"));
     click(&mut window, "Delete…");
-    assert_eq!(window.state().model.top::<DeleteControllers>().unwrap().names, [LEGACY]);
+    assert_eq!(window.state().model.top::<DeleteControllersDialog>().unwrap().names, [LEGACY]);
     click(&mut window, "Cancel");
     assert_eq!(ticked(&window), [CURRENT], "the ticks are as before");
 
@@ -81,7 +81,7 @@ fn the_menu_of_a_row_acts_on_that_row_or_on_all_that_are_ticked() {
     press(&mut window, row, PointerButton::Secondary, 1);
     assert!(shows(&window, "All 2 ticked controllers"));
     click(&mut window, "Delete…");
-    assert_eq!(window.state().model.top::<DeleteControllers>().unwrap().names.len(), 2);
+    assert_eq!(window.state().model.top::<DeleteControllersDialog>().unwrap().names.len(), 2);
 }
 
 #[test]
@@ -176,18 +176,18 @@ fn an_old_configuration_has_the_usual_columns_and_no_pane() {
 
 #[test]
 fn settings_and_lists_are_read_for_the_details() {
-    let mut desk = Desk::with_controllers(2, FleetFirmware::Mixed);
-    key(&mut desk.window, Modifiers::NONE, Key::ArrowDown);
-    key(&mut desk.window, Modifiers::NONE, Key::Enter);
-    assert!(shows(&desk.window, "Not read since the window was opened"));
-    desk.window.get_by_label("Read settings and lists").scroll_to_me();
-    settle(&mut desk.window);
-    desk.click("Read settings and lists");
-    wait_until(&mut desk.window, PATIENCE, |window| shows(window, "Aes256Sha256RsaPss"));
+    let mut app = WindowTest::with_controllers(2, FleetFirmware::Mixed);
+    key(&mut app.window, Modifiers::NONE, Key::ArrowDown);
+    key(&mut app.window, Modifiers::NONE, Key::Enter);
+    assert!(shows(&app.window, "Not read since the window was opened"));
+    app.window.get_by_label("Read settings and lists").scroll_to_me();
+    settle(&mut app.window);
+    app.click("Read settings and lists");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| shows(window, "Aes256Sha256RsaPss"));
     for text in ["Users", "Trusted", "Rejected", "CRL"] {
-        assert!(shows(&desk.window, text), "{text}");
+        assert!(shows(&app.window, text), "{text}");
     }
-    desk.click("Tick cell 1");
-    desk.click("Get new information");
-    wait_until(&mut desk.window, PATIENCE, |window| shows(window, "Get new information, "));
+    app.click("Tick cell 1");
+    app.click("Get new information");
+    wait_until(&mut app.window, WAIT_LIMIT, |window| shows(window, "Get new information, "));
 }

@@ -9,12 +9,14 @@ use egui::Ui;
 
 use crate::jobs::{Activate, KeySource};
 use crate::model::activation::{
-    self, ActivationFile, ActivationKey, ActivationKeys, KeyError, LicenceKey, MAX_ACTIVATION_FILE_BYTES, Plan,
+    self, ActivationFile, ActivationKey, ActivationKeys, ActivationPlan, KeyError, LicenceKey,
+    MAX_ACTIVATION_FILE_BYTES,
 };
 use crate::model::{ErrorCode, Feature, Problem};
 use crate::texts::TextKey;
 use crate::ui::model::{
-    Answer, Command, Dialog, FileForm, Message, Model, Place, RowId, SecretInput, Task, UiCommand, first_path,
+    BackendCommand, Dialog, DialogAnswer, DialogPlace, FileForm, Message, Model, RowId, SecretInput, Task, UiCommand,
+    first_path,
 };
 use crate::ui::picker::FileKind;
 
@@ -37,7 +39,7 @@ pub enum KeysForm {
 pub struct ActivationPreview {
     pub file: Arc<ActivationFile>,
     /// Of the controllers whose serial number is known.
-    pub plan: Plan,
+    pub plan: ActivationPlan,
     /// Names of the others: whether the file has keys for them shows when they are reached.
     pub unknown: Vec<String>,
 }
@@ -142,11 +144,11 @@ impl UiCommand {
 }
 
 impl Dialog for ActivationForm {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, place.focus, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         if self.reads_file() {
             model.put_back(self);
             return model.read_typed();
@@ -174,7 +176,7 @@ impl Dialog for ActivationForm {
 
 impl Model {
     /// For the ticked controllers, also when there is one only.
-    pub(in crate::ui) fn open_activation_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn open_activation_of(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         let form = ActivationForm::of_file(self.rows.ticked(), first_path(&paths), self);
         self.open(form);
         self.read_typed()

@@ -3,10 +3,10 @@ use egui::{Label, RichText, Ui};
 use crate::model::activation::{ActivationDecision, ActivationKey, KeyError, LicenceKey};
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::activation::{ActivationForm, ActivationPreview, KeysForm, key_error};
-use crate::ui::model::{Answer, Message, Model, SecretInput};
+use crate::ui::model::{DialogAnswer, Message, Model, SecretInput};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{
-    Buttons, cell, dialog, file_field, fine_print, form, labelled, list, list_title, mistake, note, text_field,
+    Buttons, cell, dialog, file_field, form, labelled, list, list_title, mistake, note, small_note, text_field,
 };
 
 /// Lines of a list before it scrolls.
@@ -19,7 +19,7 @@ pub fn show(
     focus: bool,
     model: &Model,
     messages: &mut Vec<Message>,
-) -> Answer {
+) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let submit = if activation.reads_file() { T::ReadFile } else { T::Apply };
     let why = activation.incomplete().map(text);
@@ -62,9 +62,9 @@ fn key<K: std::str::FromStr<Err = KeyError>>(
         match (key_error::<K>(typed), typed.0.parse::<K>()) {
             (Some(error), _) => mistake(ui, &texts::key_error(model.language, error)),
             (None, Err(KeyError::Length { found, expected })) => {
-                fine_print(ui, &texts::key_progress(model.language, found, expected));
+                small_note(ui, &texts::key_progress(model.language, found, expected));
             }
-            _ => fine_print(ui, T::KeyComplete.text(model.language)),
+            _ => small_note(ui, T::KeyComplete.text(model.language)),
         }
         Some(response)
     });

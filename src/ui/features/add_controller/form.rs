@@ -7,7 +7,7 @@ use crate::ui::model::{Model, RowId, SecretInput};
 
 /// A new controller (manual 2.5.1).
 #[derive(Debug)]
-pub struct AddController {
+pub struct AddControllerForm {
     pub name: String,
     pub address: String,
     pub password: SecretInput,
@@ -22,12 +22,12 @@ pub struct AddController {
     /// Apply was pressed once: mistakes are pointed out also in fields that are still empty.
     pub tried: bool,
     /// The controller is in the list already, without a fingerprint.
-    pub identity: Option<Identity>,
+    pub identity: Option<ConfirmIdentityForm>,
 }
 
 /// Controllers of the list whose identity is confirmed, one after the other.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Identity {
+pub struct ConfirmIdentityForm {
     pub row: RowId,
     /// Whose turn comes next, in order.
     pub next: Vec<RowId>,
@@ -37,7 +37,7 @@ pub struct Identity {
     pub then_read: Vec<RowId>,
 }
 
-impl Identity {
+impl ConfirmIdentityForm {
     pub fn all(&self) -> usize {
         self.nth + self.next.len()
     }
@@ -52,7 +52,7 @@ pub enum AddStage {
     Enrolling(Fingerprint),
 }
 
-impl AddController {
+impl AddControllerForm {
     pub fn new() -> Self {
         Self {
             name: String::new(),
@@ -126,7 +126,7 @@ impl AddController {
     }
 }
 
-impl Default for AddController {
+impl Default for AddControllerForm {
     fn default() -> Self {
         Self::new()
     }

@@ -10,31 +10,31 @@ use crate::jobs::Enrolled;
 use crate::model::{Credentials, Problem};
 use crate::pki::Fingerprint;
 use crate::texts::{self, TextKey as T};
-use crate::ui::model::{Answer, Command, Dialog, JobId, Message, Model, Place, UiCommand};
-use crate::workspace::{ControllerEntry, Retrieved};
+use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, JobId, Message, Model, UiCommand};
+use crate::workspace::{ControllerEntry, RetrievedInfo};
 
-pub use form::{AddController, AddStage, Identity};
+pub use form::{AddControllerForm, AddStage, ConfirmIdentityForm};
 
 impl UiCommand {
     /// Registers a controller.
     pub const ADD_CONTROLLER: Self = Self::new(T::AddController, T::AddControllerTip, |model, _| {
-        model.open(AddController::new());
+        model.open(AddControllerForm::new());
         vec![]
     })
     .in_menu(T::MenuController)
     .key(Modifiers::COMMAND, Key::N);
 }
 
-impl Dialog for AddController {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+impl Dialog for AddControllerForm {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, place.focus, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.submit_controller(*self)
     }
 
-    fn close(mut self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(mut self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         let waiting = self.is_waiting();
         if self.identity.is_none() && self.stage != AddStage::Form {
             self.stage = AddStage::Form;
@@ -45,19 +45,19 @@ impl Dialog for AddController {
 }
 
 impl Model {
-    fn submit_controller(&mut self, mut form: AddController) -> Vec<Command> {
+    fn submit_controller(&mut self, mut form: AddControllerForm) -> Vec<BackendCommand> {
         form.tried = true;
         form.problem = None;
         let target = form.target(self);
         let command = match (form.stage, target) {
             (AddStage::Form, Ok((_, address))) => {
                 form.stage = AddStage::Probing;
-                Some(Command::Probe { job: self.next_job(), connection: form.connection, address })
+                Some(BackendCommand::Probe { job: self.next_job(), connection: form.connection, address })
             }
             (AddStage::Compare(fingerprint), Ok((_, address))) => {
                 form.stage = AddStage::Enrolling(fingerprint);
                 let (connection, credentials) = (form.connection, Credentials::ConnectionPassword(form.secret()));
-                Some(Command::Enroll { job: self.next_job(), connection, address, fingerprint, credentials })
+                Some(BackendCommand::Enroll { job: self.next_job(), connection, address, fingerprint, credentials })
             }
             // Shown beside the fields.
             (_, Err(_)) | (AddStage::Probing | AddStage::Enrolling(_), Ok(_)) => None,
@@ -67,8 +67,8 @@ impl Model {
     }
 
     /// After it was not reached: it is added without a fingerprint, as those of a connection list.
-    pub(in crate::ui) fn add_unconfirmed(&mut self) -> Vec<Command> {
-        let Some(form) = self.top::<AddController>() else { return vec![] };
+    pub(in crate::ui) fn add_unconfirmed(&mut self) -> Vec<BackendCommand> {
+        let Some(form) = self.top::<AddControllerForm>() else { return vec![] };
         if !form.may_be_unconfirmed() {
             return vec![];
         }
@@ -81,11 +81,11 @@ impl Model {
     }
 
     /// The dialog that waits for a controller, unless it was closed or tries another by now.
-    fn adding(&mut self, job: JobId) -> Option<&mut AddController> {
+    fn adding(&mut self, job: JobId) -> Option<&mut AddControllerForm> {
         if job != JobId(self.last_job) {
             return None;
         }
-        self.dialog::<AddController>()
+        self.dialog::<AddControllerForm>()
     }
 
     pub(in crate::ui) fn probed(&mut self, job: JobId, result: Result<Fingerprint, Problem>) {
@@ -102,7 +102,11 @@ impl Model {
         }
     }
 
-    pub(in crate::ui) fn enrolled(&mut self, job: JobId, result: Result<Box<Enrolled>, Problem>) -> Vec<Command> {
+    pub(in crate::ui) fn enrolled(
+        &mut self,
+        job: JobId,
+        result: Result<Box<Enrolled>, Problem>,
+    ) -> Vec<BackendCommand> {
         let now = self.now;
         let Some(form) = self.adding(job) else { return vec![] };
         let (identity, connection) = (form.identity.clone(), form.connection);
@@ -123,7 +127,7 @@ impl Model {
             series: info.series,
             connection,
             fingerprint: Some(fingerprint),
-            last: Some(Retrieved { at: now, info }),
+            last: Some(RetrievedInfo { at: now, info }),
         };
         if let Some(identity) = identity {
             self.rows.confirm(identity.row, entry, now);
@@ -134,7 +138,7 @@ impl Model {
             }
             return commands;
         }
-        self.close_all::<AddController>();
+        self.close_all::<AddControllerForm>();
         self.status = Some(texts::added(self.language, entry.name.as_str()));
         self.rows.add(entry, now);
         if let Some(problem) = password_not_kept {

@@ -3,13 +3,19 @@ use egui::{Button, ComboBox, Frame, Label, RichText, Stroke, Ui};
 use crate::model::ControllerSeries;
 use crate::pki::Fingerprint;
 use crate::texts::{self, TextKey as T};
-use crate::ui::features::add_controller::{AddController, AddStage};
-use crate::ui::model::{Answer, Message, Model};
+use crate::ui::features::add_controller::{AddControllerForm, AddStage};
+use crate::ui::model::{DialogAnswer, Message, Model};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print, form, labelled, mistake, note, secret_field, text_field};
+use crate::ui::widgets::{Buttons, dialog, form, labelled, mistake, note, secret_field, small_note, text_field};
 
 /// Register a controller (manual 2.5.1): its fields, then whether it is the right one.
-pub fn show(ui: &Ui, form: &mut AddController, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(
+    ui: &Ui,
+    form: &mut AddControllerForm,
+    focus: bool,
+    model: &Model,
+    messages: &mut Vec<Message>,
+) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     if form.identity.is_some() {
         return confirm_identity(ui, form, focus, model, messages);
@@ -33,11 +39,11 @@ pub fn show(ui: &Ui, form: &mut AddController, focus: bool, model: &Model, messa
 /// The same for a controller that is in the list already.
 fn confirm_identity(
     ui: &Ui,
-    form: &mut AddController,
+    form: &mut AddControllerForm,
     focus: bool,
     model: &Model,
     messages: &mut Vec<Message>,
-) -> Answer {
+) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let submit = match form.stage {
         AddStage::Form => (text(T::Retry), None),
@@ -48,7 +54,7 @@ fn confirm_identity(
     dialog(ui, "confirm identity", text(T::FingerprintTitle), theme::DIALOG, buttons, |ui| {
         if let Some(identity) = form.identity.as_ref().filter(|identity| identity.all() > 1) {
             ui.horizontal(|ui| {
-                fine_print(ui, &texts::nth_of(model.language, identity.nth, identity.all()));
+                small_note(ui, &texts::nth_of(model.language, identity.nth, identity.all()));
                 if ui.button(text(T::Skip)).clicked() {
                     messages.push(Message::act(Model::skip_identity));
                 }
@@ -79,7 +85,7 @@ fn confirm_identity(
     })
 }
 
-fn failure(ui: &mut Ui, add: &AddController, model: &Model) {
+fn failure(ui: &mut Ui, add: &AddControllerForm, model: &Model) {
     if let Some(problem) = &add.problem {
         let explained = problem.code.explain(model.language);
         note(ui, palette(ui).error, |ui| {
@@ -90,7 +96,7 @@ fn failure(ui: &mut Ui, add: &AddController, model: &Model) {
     }
 }
 
-fn password(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
+fn password(ui: &mut Ui, add: &mut AddControllerForm, focus: bool, model: &Model) {
     let text = |key: T| key.text(model.language);
     labelled(ui, text(T::Password), |ui| {
         let hint = text(T::PasswordHint);
@@ -102,7 +108,7 @@ fn password(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model) {
     });
 }
 
-fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model, messages: &mut Vec<Message>) {
+fn fields(ui: &mut Ui, add: &mut AddControllerForm, focus: bool, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
     failure(ui, add, model);
     if add.may_be_unconfirmed() {
@@ -111,7 +117,7 @@ fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model, mess
         if response.on_disabled_hover_text(why.unwrap_or_default()).clicked() {
             messages.push(Message::act(Model::add_unconfirmed));
         }
-        fine_print(ui, text(T::AddUnconfirmedTip));
+        small_note(ui, text(T::AddUnconfirmedTip));
         ui.add_space(theme::SPACE);
     }
     let (name_error, address_error) = (add.name_error(model), add.address_error(model));
@@ -145,7 +151,7 @@ fn fields(ui: &mut Ui, add: &mut AddController, focus: bool, model: &Model, mess
     });
 }
 
-fn compare(ui: &mut Ui, add: &AddController, fingerprint: Fingerprint, model: &Model) {
+fn compare(ui: &mut Ui, add: &AddControllerForm, fingerprint: Fingerprint, model: &Model) {
     let text = |key: T| key.text(model.language);
     let palette = palette(ui);
     ui.label(RichText::new(format!("{} · {}", add.name.trim(), add.address.trim())).strong());

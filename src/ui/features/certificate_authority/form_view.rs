@@ -6,16 +6,22 @@ use crate::texts::{self, TextKey as T};
 use crate::ui::features::certificate_authority::{
     AuthorityAction, AuthorityForm, CreateAuthorityForm, SignControllersForm, SignFileForm,
 };
-use crate::ui::model::{Answer, Message, Model, SecretInput};
+use crate::ui::model::{DialogAnswer, Message, Model, SecretInput};
 use crate::ui::shell::confirm::names;
 use crate::ui::shell::error;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{
-    Buttons, choices, dialog, file_field, fine_print, form, labelled, mistake, note, secret_field, text_field,
+    Buttons, choices, dialog, file_field, form, labelled, mistake, note, secret_field, small_note, text_field,
 };
 
 /// Something the CA is asked for, with its passphrase.
-pub fn show(ui: &Ui, asked: &mut AuthorityForm, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(
+    ui: &Ui,
+    asked: &mut AuthorityForm,
+    focus: bool,
+    model: &Model,
+    messages: &mut Vec<Message>,
+) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let (title, submit) = match &asked.action {
         AuthorityAction::Create(_) => (T::CaCreateTitle, T::CaCreateNow),
@@ -107,7 +113,7 @@ fn create(
         });
         labelled(ui, "", |ui| {
             ui.checkbox(&mut new.intermediate, text(T::CaIntermediate));
-            fine_print(ui, text(T::CaIntermediateTip));
+            small_note(ui, text(T::CaIntermediateTip));
             None
         });
         labelled(ui, text(T::Passphrase), |ui| {
@@ -243,13 +249,13 @@ fn publish(
     ui.add(Label::new(text(T::CaPublishText)).wrap());
     ui.add_space(theme::SPACE);
     match controllers {
-        None => fine_print(ui, text(T::CaPushNone)),
+        None => small_note(ui, text(T::CaPushNone)),
         Some(controllers) => {
             ui.checkbox(push, text(T::CaPush));
             ui.add_enabled_ui(*push, |ui| ui.checkbox(trust, text(T::CaTrust)));
             names(ui, controllers);
             if *push {
-                fine_print(ui, text(T::ConfirmDisconnectsClients));
+                small_note(ui, text(T::ConfirmDisconnectsClients));
             }
         }
     }

@@ -17,10 +17,10 @@ use crate::model::{
 };
 use crate::pki::{Csr, IssueRequest, MAX_CERTIFICATE_FILE_BYTES, RevocationReason};
 use crate::texts::TextKey;
-use crate::ui::features::trust::change_task;
+use crate::ui::features::client_certificates::change_task;
 use crate::ui::model::{
-    Answer, AuthorityDone, AuthorityWork, Command, Dialog, FileForm, JobId, Message, Model, Place, RowId, SecretInput,
-    Task, UiCommand,
+    AuthorityResult, AuthorityWork, BackendCommand, Dialog, DialogAnswer, DialogPlace, FileForm, JobId, Message, Model,
+    RowId, SecretInput, Task, UiCommand,
 };
 use crate::ui::picker::FileKind;
 use crate::workspace::MIN_PASSPHRASE_CHARS;
@@ -256,17 +256,17 @@ impl UiCommand {
 }
 
 impl Dialog for AuthorityView {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, model, messages)
     }
 }
 
 impl Dialog for AuthorityForm {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         form_view::show(ui, self, place.focus, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.submit_authority(self)
     }
 
@@ -283,13 +283,13 @@ impl Dialog for AuthorityForm {
 }
 
 impl Model {
-    pub(in crate::ui) fn open_authority(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn open_authority(&mut self) -> Vec<BackendCommand> {
         self.open(AuthorityView { reading: None, overview: None, ticked: BTreeSet::new(), saved: None, csr: None });
         self.look_at_authority()
     }
 
     /// For a file with a signing request.
-    pub(in crate::ui) fn open_authority_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn open_authority_of(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         let commands = self.open_authority();
         if let Some(view) = self.authority_view() {
             view.csr = paths.into_iter().next();
@@ -298,7 +298,7 @@ impl Model {
     }
 
     /// Goes on with a request that was dropped, if there is a CA by now.
-    fn sign_dropped(&mut self) -> Vec<Command> {
+    fn sign_dropped(&mut self) -> Vec<BackendCommand> {
         let Some(view) = self.authority_view().filter(|view| view.overview.is_some()) else { return vec![] };
         let Some(path) = view.csr.take() else { return vec![] };
         self.ask_authority(AuthorityCommand::SignFile);
@@ -309,18 +309,18 @@ impl Model {
     }
 
     /// Reads it again for the dialog that shows it, if it is open.
-    pub(in crate::ui) fn look_at_authority(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn look_at_authority(&mut self) -> Vec<BackendCommand> {
         let job = self.next_job();
         let Some(view) = self.authority_view() else { return vec![] };
         view.reading = Some(job);
-        vec![Command::Authority { job, work: AuthorityWork::Look }]
+        vec![BackendCommand::Authority { job, work: AuthorityWork::Look }]
     }
 
     fn authority_view(&mut self) -> Option<&mut AuthorityView> {
         self.dialog::<AuthorityView>()
     }
 
-    pub(in crate::ui) fn ask_authority(&mut self, command: AuthorityCommand) -> Vec<Command> {
+    pub(in crate::ui) fn ask_authority(&mut self, command: AuthorityCommand) -> Vec<BackendCommand> {
         let rows = self.rows.ticked();
         let names = self.rows.names(&rows);
         let now = self.now;
@@ -376,7 +376,7 @@ impl Model {
         vec![]
     }
 
-    fn submit_authority(&mut self, mut form: Box<AuthorityForm>) -> Vec<Command> {
+    fn submit_authority(&mut self, mut form: Box<AuthorityForm>) -> Vec<BackendCommand> {
         if form.working.is_none() && form.reads_file() {
             self.put_back(form);
             return self.read_typed();
@@ -388,7 +388,7 @@ impl Model {
                 let job = self.next_job();
                 form.working = Some(job);
                 form.problem = None;
-                vec![Command::Authority { job, work }]
+                vec![BackendCommand::Authority { job, work }]
             }
         };
         self.put_back(form);
@@ -420,7 +420,11 @@ impl Model {
         })
     }
 
-    pub(in crate::ui) fn authority_done(&mut self, job: JobId, result: Result<AuthorityDone, Problem>) -> Vec<Command> {
+    pub(in crate::ui) fn authority_done(
+        &mut self,
+        job: JobId,
+        result: Result<AuthorityResult, Problem>,
+    ) -> Vec<BackendCommand> {
         let done = match result {
             Ok(done) => done,
             Err(problem) => {

@@ -4,13 +4,13 @@ use egui::{Button, Color32, Frame, Label, RichText, Stroke, Ui};
 use crate::model::CertificateProfile;
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::certificate_authority::{AuthorityCommand, AuthorityView};
-use crate::ui::model::{Answer, Expiry, Message, Model};
+use crate::ui::model::{DialogAnswer, Expiry, Message, Model};
 use crate::ui::theme::{self, Palette, palette};
 use crate::ui::widgets::{Buttons, cell, chip, dialog, list, list_title, note, path_line, word};
 use crate::workspace::authority::{AuthorityOverview, CertificateState, IssuedCertificate, PublishedAuthority};
 
 /// The small CA: what it is, what it has issued, and what it can be asked for.
-pub fn show(ui: &Ui, view: &mut AuthorityView, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(ui: &Ui, view: &mut AuthorityView, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: None, close: Some(text(T::Close)) };
     let overview = view.overview.take();

@@ -2,10 +2,10 @@ use egui::{Frame, Label, RichText, Stroke, Ui};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::certificate_import::CaSignedForm;
-use crate::ui::model::{Answer, BrowseField, Message, Model};
+use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print, form, path_field, path_line};
+use crate::ui::widgets::{Buttons, dialog, form, path_field, path_line, small_note};
 
 const CERTIFICATE_FILE: BrowseField = BrowseField {
     kind: FileKind::Certificate,
@@ -14,7 +14,7 @@ const CERTIFICATE_FILE: BrowseField = BrowseField {
 };
 
 /// Request and import of a certificate that a CA signs (manual 2.7.1.5).
-pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let why = signed.checks.running.then(|| text(T::Checking));
     let buttons = Buttons { submit: Some((text(T::ImportAsk), why)), close: Some(text(T::Close)) };
@@ -25,7 +25,7 @@ pub fn show(ui: &Ui, signed: &mut CaSignedForm, model: &Model, messages: &mut Ve
             ui.add(Label::new(text(T::CsrText)).wrap());
             let (folder, real) = model.folder_of(&signed.rows, |files, serial| files.csr_folder(serial), "CSR");
             path_line(ui, &folder, real, model.language, messages);
-            fine_print(ui, text(T::ConfirmInvalidatesCaSigned));
+            small_note(ui, text(T::ConfirmInvalidatesCaSigned));
             let button = egui::Button::new(text(T::CreateCsr));
             if ui.add_enabled(!signed.checks.running, button).clicked() {
                 messages.push(Message::act(Model::new_csr));

@@ -12,13 +12,13 @@ use egui::Ui;
 use secrecy::SecretString;
 
 use crate::jobs::{
-    CaCertificateSource, CertificateChecked, CheckCaCertificate, CheckCertificateBackup, CheckUserCertificate,
-    Confirmation, ImportCaCertificate, ImportUserCertificate, RestoreCertificate, ServerEffect, UserCertificateFiles,
+    CaSignedSource, CertificateChecked, CheckBackup, CheckCaSigned, CheckUserSpecified, Confirmation, ImportCaSigned,
+    ImportUserSpecified, RestoreBackup, ServerEffect, UserSpecifiedFiles,
 };
 use crate::model::{Feature, FileFormat, Problem};
 use crate::texts::TextKey;
 use crate::ui::model::{
-    Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task, UiCommand, first_path,
+    BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, SecretInput, Task, UiCommand, first_path,
 };
 use crate::workspace::{BackupKind, KeyBackupSource, Workspace};
 
@@ -28,7 +28,7 @@ pub enum ImportSource {
     /// What a CA issued: the only one in each controller's folder, or this file.
     Ca(Option<PathBuf>),
     User {
-        files: UserCertificateFiles,
+        files: UserSpecifiedFiles,
         password: Option<SecretString>,
     },
     /// A backup of a key that was made here.
@@ -54,13 +54,13 @@ impl ImportSource {
     fn check(&self, workspace: &Workspace) -> Task {
         let (title, checked) = (self.title(), Model::checked);
         let task = match self.clone() {
-            Self::Ca(file) => Task::with_results(title, CheckCaCertificate(ca_source(file, workspace)), checked),
+            Self::Ca(file) => Task::with_results(title, CheckCaSigned(ca_source(file, workspace)), checked),
             Self::User { files, password } => {
-                Task::with_results(title, CheckUserCertificate { files, password }, checked)
+                Task::with_results(title, CheckUserSpecified { files, password }, checked)
             }
             Self::Backup { kind, file, password } => {
                 let source = backup_source(kind, file, workspace);
-                Task::with_results(title, CheckCertificateBackup { source, password }, checked)
+                Task::with_results(title, CheckBackup { source, password }, checked)
             }
         };
         let source = self.clone();
@@ -70,15 +70,13 @@ impl ImportSource {
     pub fn import(&self, accept_warnings: bool, workspace: &Workspace) -> Task {
         let title = self.title();
         let task = match self.clone() {
-            Self::Ca(file) => {
-                Task::new(title, ImportCaCertificate { source: ca_source(file, workspace), accept_warnings })
-            }
+            Self::Ca(file) => Task::new(title, ImportCaSigned { source: ca_source(file, workspace), accept_warnings }),
             Self::User { files, password } => {
-                Task::new(title, ImportUserCertificate { files, password, accept_warnings })
+                Task::new(title, ImportUserSpecified { files, password, accept_warnings })
             }
             Self::Backup { kind, file, password } => {
                 let source = backup_source(kind, file, workspace);
-                Task::new(title, RestoreCertificate { source, password, accept_warnings })
+                Task::new(title, RestoreBackup { source, password, accept_warnings })
             }
         };
         task.act(self.act()).restarts_server()
@@ -93,10 +91,10 @@ impl ImportSource {
     }
 }
 
-fn ca_source(file: Option<PathBuf>, workspace: &Workspace) -> CaCertificateSource {
+fn ca_source(file: Option<PathBuf>, workspace: &Workspace) -> CaSignedSource {
     match file {
-        Some(file) => CaCertificateSource::File(file),
-        None => CaCertificateSource::Folder(workspace.certificate_files()),
+        Some(file) => CaSignedSource::File(file),
+        None => CaSignedSource::Folder(workspace.certificate_files()),
     }
 }
 
@@ -106,7 +104,7 @@ fn backup_source(kind: BackupKind, file: Option<PathBuf>, workspace: &Workspace)
 
 /// The looking before an import.
 #[derive(Debug, Default)]
-pub struct Checks {
+pub struct ImportChecks {
     pub running: bool,
     of: BTreeMap<RowId, Result<CertificateChecked, Problem>>,
 }
@@ -118,7 +116,7 @@ pub struct CaSignedForm {
     pub names: Vec<String>,
     /// For one controller: a path, or empty for the only one in its folder.
     pub file: String,
-    pub checks: Checks,
+    pub checks: ImportChecks,
 }
 
 impl CaSignedForm {
@@ -145,7 +143,7 @@ pub struct UserSpecifiedForm {
     pub key: String,
     pub password: SecretInput,
     pub show_password: bool,
-    pub checks: Checks,
+    pub checks: ImportChecks,
 }
 
 impl UserSpecifiedForm {
@@ -155,12 +153,12 @@ impl UserSpecifiedForm {
         let folder = info.map(|info| (model.workspace.certificate_files(), info.serial.clone()));
         let files = match self.kind {
             UserFiles::Pfx => match (typed_path(&self.pfx), folder) {
-                (Some(path), _) => UserCertificateFiles::Pfx(path),
-                (None, folder) => folder.map(|(files, serial)| UserCertificateFiles::PfxIn(files, serial))?,
+                (Some(path), _) => UserSpecifiedFiles::Pfx(path),
+                (None, folder) => folder.map(|(files, serial)| UserSpecifiedFiles::PfxIn(files, serial))?,
             },
             UserFiles::Pair => match (typed_path(&self.certificate), typed_path(&self.key), folder) {
-                (Some(certificate), Some(key), _) => UserCertificateFiles::Pair { certificate, key },
-                (None, None, Some((files, serial))) => UserCertificateFiles::PairIn(files, serial),
+                (Some(certificate), Some(key), _) => UserSpecifiedFiles::Pair { certificate, key },
+                (None, None, Some((files, serial))) => UserSpecifiedFiles::PairIn(files, serial),
                 _ => return None,
             },
         };
@@ -180,7 +178,7 @@ pub struct RestoreForm {
     /// Empty: the connection password.
     pub password: SecretInput,
     pub show_password: bool,
-    pub checks: Checks,
+    pub checks: ImportChecks,
 }
 
 impl RestoreForm {
@@ -265,59 +263,59 @@ impl UiCommand {
 }
 
 impl Dialog for CaSignedForm {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         ca_signed_view::show(ui, self, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.check_ca_signed(self)
     }
 
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.drop_job()
     }
 }
 
 impl Dialog for UserSpecifiedForm {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         user_specified_view::show(ui, self, place.focus, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.check_user_specified(self)
     }
 
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.drop_job()
     }
 }
 
 impl Dialog for RestoreForm {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         restore_view::show(ui, self, place.focus, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.check_backup(self)
     }
 
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.drop_job()
     }
 }
 
 impl Dialog for ImportReview {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         review_view::show(ui, self, model)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.import(self)
     }
 }
 
 impl Model {
-    pub(in crate::ui) fn new_csr(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn new_csr(&mut self) -> Vec<BackendCommand> {
         match self.top::<CaSignedForm>() {
             Some(form) => self.open_self_signed(form.rows.clone(), Some(FileFormat::default())),
             _ => vec![],
@@ -326,7 +324,7 @@ impl Model {
 
     pub(in crate::ui) fn open_ca_signed(&mut self, rows: Vec<RowId>) {
         let names = self.rows.names(&rows);
-        let form = CaSignedForm { rows, names, file: String::new(), checks: Checks::default() };
+        let form = CaSignedForm { rows, names, file: String::new(), checks: ImportChecks::default() };
         self.open(form);
     }
 
@@ -341,7 +339,7 @@ impl Model {
             key: String::new(),
             password: SecretInput::default(),
             show_password: false,
-            checks: Checks::default(),
+            checks: ImportChecks::default(),
         });
     }
 
@@ -353,18 +351,18 @@ impl Model {
             file: String::new(),
             password: SecretInput::default(),
             show_password: false,
-            checks: Checks::default(),
+            checks: ImportChecks::default(),
         });
     }
 
-    pub(in crate::ui) fn check_backup(&mut self, mut form: Box<RestoreForm>) -> Vec<Command> {
+    pub(in crate::ui) fn check_backup(&mut self, mut form: Box<RestoreForm>) -> Vec<BackendCommand> {
         let wanted = (!form.checks.running).then(|| (form.source(), form.rows.clone()));
         form.checks.running = true;
         self.put_back(form);
         self.check(wanted)
     }
 
-    pub(in crate::ui) fn open_ca_signed_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn open_ca_signed_of(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         self.open_ca_signed(self.rows.ticked());
         if let Some(form) = self.top_mut::<CaSignedForm>() {
             form.file = first_path(&paths);
@@ -372,27 +370,27 @@ impl Model {
         vec![]
     }
 
-    pub(in crate::ui) fn open_user_pfx(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn open_user_pfx(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         self.open_user_of(|form| form.pfx = first_path(&paths))
     }
 
-    pub(in crate::ui) fn open_user_certificate(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn open_user_certificate(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         self.open_user_of(|form| (form.kind, form.certificate) = (UserFiles::Pair, first_path(&paths)))
     }
 
-    pub(in crate::ui) fn open_user_key(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn open_user_key(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         self.open_user_of(|form| (form.kind, form.key) = (UserFiles::Pair, first_path(&paths)))
     }
 
     /// The certificate first.
-    pub(in crate::ui) fn open_user_pair(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn open_user_pair(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         self.open_user_of(|form| {
             let (certificate, key) = paths.split_at(paths.len().min(1));
             (form.kind, form.certificate, form.key) = (UserFiles::Pair, first_path(certificate), first_path(key));
         })
     }
 
-    fn open_user_of(&mut self, fill: impl FnOnce(&mut UserSpecifiedForm)) -> Vec<Command> {
+    fn open_user_of(&mut self, fill: impl FnOnce(&mut UserSpecifiedForm)) -> Vec<BackendCommand> {
         self.open_user_specified(&self.rows.ticked());
         if let Some(form) = self.top_mut::<UserSpecifiedForm>() {
             fill(form);
@@ -400,14 +398,14 @@ impl Model {
         vec![]
     }
 
-    pub(in crate::ui) fn check_ca_signed(&mut self, mut form: Box<CaSignedForm>) -> Vec<Command> {
+    pub(in crate::ui) fn check_ca_signed(&mut self, mut form: Box<CaSignedForm>) -> Vec<BackendCommand> {
         let wanted = (!form.checks.running).then(|| (form.source(), form.rows.clone()));
         form.checks.running = true;
         self.put_back(form);
         self.check(wanted)
     }
 
-    pub(in crate::ui) fn check_user_specified(&mut self, mut form: Box<UserSpecifiedForm>) -> Vec<Command> {
+    pub(in crate::ui) fn check_user_specified(&mut self, mut form: Box<UserSpecifiedForm>) -> Vec<BackendCommand> {
         let source = form.source(self).filter(|_| !form.checks.running);
         form.checks.running |= source.is_some();
         let rows = vec![form.row];
@@ -415,7 +413,7 @@ impl Model {
         self.check(source.map(|source| (source, rows)))
     }
 
-    fn check(&mut self, wanted: Option<(ImportSource, Vec<RowId>)>) -> Vec<Command> {
+    fn check(&mut self, wanted: Option<(ImportSource, Vec<RowId>)>) -> Vec<BackendCommand> {
         match wanted {
             Some((source, rows)) => {
                 let task = source.check(&self.workspace);
@@ -426,7 +424,7 @@ impl Model {
     }
 
     /// The dialog that waits for the checks, and its controllers. At most one is open.
-    fn checking(&mut self) -> Option<(&mut Checks, Vec<RowId>)> {
+    fn checking(&mut self) -> Option<(&mut ImportChecks, Vec<RowId>)> {
         if self.dialog::<CaSignedForm>().is_some() {
             return self.dialog::<CaSignedForm>().map(|form| (&mut form.checks, form.rows.clone()));
         }
@@ -437,7 +435,7 @@ impl Model {
     }
 
     /// One controller's certificate was looked at, or could not be.
-    fn checked(&mut self, row: RowId, result: Result<CertificateChecked, Problem>) -> Vec<Command> {
+    fn checked(&mut self, row: RowId, result: Result<CertificateChecked, Problem>) -> Vec<BackendCommand> {
         if let Some((checks, _)) = self.checking() {
             checks.of.insert(row, result);
         }
@@ -445,7 +443,7 @@ impl Model {
     }
 
     /// All were.
-    fn checks_ended(&mut self, source: &ImportSource) -> Vec<Command> {
+    fn checks_ended(&mut self, source: &ImportSource) -> Vec<BackendCommand> {
         self.job = None;
         let Some((checks, rows)) = self.checking() else { return vec![] };
         checks.running = false;
@@ -472,7 +470,7 @@ impl Model {
     }
 
     /// The import was agreed to; the form that asked for it has done its work.
-    pub(in crate::ui) fn import(&mut self, review: Box<ImportReview>) -> Vec<Command> {
+    pub(in crate::ui) fn import(&mut self, review: Box<ImportReview>) -> Vec<BackendCommand> {
         let (rows, accept_warnings) = (review.importable(), review.warns());
         if rows.is_empty() {
             self.put_back(review);

@@ -2,10 +2,10 @@ use egui::{Label, RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::certificate_import::RestoreForm;
-use crate::ui::model::{Answer, BrowseField, Message, Model};
+use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print, form, labelled, path_field, path_line, secret_field};
+use crate::ui::widgets::{Buttons, dialog, form, labelled, path_field, path_line, secret_field, small_note};
 use crate::workspace::BackupKind;
 
 const BACKUP_FILE: BrowseField = BrowseField {
@@ -15,7 +15,13 @@ const BACKUP_FILE: BrowseField = BrowseField {
 };
 
 /// Puts a backup of a key back, in one controller or many (manual 2.8.1).
-pub fn show(ui: &Ui, restore: &mut RestoreForm, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(
+    ui: &Ui,
+    restore: &mut RestoreForm,
+    focus: bool,
+    model: &Model,
+    messages: &mut Vec<Message>,
+) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let why = restore.checks.running.then(|| text(T::Checking));
     let buttons = Buttons { submit: Some((text(T::RestoreButton), why)), close: Some(text(T::Cancel)) };
@@ -51,7 +57,7 @@ fn fields(ui: &mut Ui, restore: &mut RestoreForm, focus: bool, model: &Model, me
         };
         path_line(ui, &folder, real, model.language, messages);
         if restore.rows.len() == 1 {
-            fine_print(ui, text(T::RestoreFormer));
+            small_note(ui, text(T::RestoreFormer));
         }
         None
     });

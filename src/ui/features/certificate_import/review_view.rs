@@ -2,15 +2,15 @@ use egui::{Frame, Label, RichText, Stroke, Ui};
 
 use crate::jobs::CertificateChecked;
 use crate::model::Problem;
-use crate::pki::{Finding, Issuers, Severity};
+use crate::pki::{CertificateFinding, Issuers, Severity};
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::certificate_import::ImportReview;
-use crate::ui::model::{Answer, Model};
+use crate::ui::model::{DialogAnswer, Model};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print, note, word};
+use crate::ui::widgets::{Buttons, dialog, note, small_note, word};
 
 /// What was found of the certificates to be imported: errors keep a certificate out, warnings have to be agreed to.
-pub fn show(ui: &Ui, review: &ImportReview, model: &Model) -> Answer {
+pub fn show(ui: &Ui, review: &ImportReview, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let importable = review.importable().len();
     let submit = if review.warns() { T::ImportAnyway } else { review.source.act() };
@@ -27,7 +27,7 @@ pub fn show(ui: &Ui, review: &ImportReview, model: &Model) -> Answer {
             ui.add_space(theme::SPACE);
         }
         if review.found.len() > 1 {
-            fine_print(ui, &texts::importable(model.language, importable, review.found.len()));
+            small_note(ui, &texts::importable(model.language, importable, review.found.len()));
         }
         for (_, name, found) in &review.found {
             one(ui, name, found, model);
@@ -51,15 +51,15 @@ fn one(ui: &mut Ui, name: &str, found: &Result<CertificateChecked, Problem>, mod
             Err(problem) => {
                 let explained = problem.code.explain(language);
                 ui.add(Label::new(RichText::new(explained.message).color(palette.error)).wrap());
-                fine_print(ui, explained.remedy);
+                small_note(ui, explained.remedy);
                 if let Some(detail) = &problem.detail {
-                    fine_print(ui, detail);
+                    small_note(ui, detail);
                 }
             }
             Ok(checked) => {
                 match &checked.summary {
-                    Some(summary) => fine_print(ui, &texts::stored_certificate(language, summary, model.zone)),
-                    None => fine_print(ui, T::RestoreRequestOnly.text(language)),
+                    Some(summary) => small_note(ui, &texts::stored_certificate(language, summary, model.zone)),
+                    None => small_note(ui, T::RestoreRequestOnly.text(language)),
                 }
                 if let Some(issuers) = &checked.issuers {
                     chain(ui, issuers, model);
@@ -82,18 +82,18 @@ fn chain(ui: &mut Ui, issuers: &Issuers, model: &Model) {
         let summary = issuer.summary();
         ui.horizontal_wrapped(|ui| {
             ui.add_space(theme::SPACE_LARGE * (depth as f32 + 1.0));
-            fine_print(ui, &texts::issuer(language, &summary, model.zone));
+            small_note(ui, &texts::issuer(language, &summary, model.zone));
             if summary.not_after < model.now {
                 word(ui, T::Expired.text(language), palette.error);
             }
         });
     }
     if !issuers.complete {
-        fine_print(ui, T::IssuerNotHere.text(language));
+        small_note(ui, T::IssuerNotHere.text(language));
     }
 }
 
-fn finding(ui: &mut Ui, finding: &Finding, model: &Model) {
+fn finding(ui: &mut Ui, finding: &CertificateFinding, model: &Model) {
     let palette = palette(ui);
     let (severity, color) = match finding.severity {
         Severity::Error => (T::StatusError, palette.error),
@@ -102,5 +102,5 @@ fn finding(ui: &mut Ui, finding: &Finding, model: &Model) {
     let said = texts::finding(model.language, severity, &finding.explain(model.language));
     ui.add(Label::new(RichText::new(said).color(color)).wrap().selectable(true));
     // The words an OPC UA client would log.
-    fine_print(ui, finding.status().as_str());
+    small_note(ui, finding.status().as_str());
 }

@@ -2,7 +2,7 @@ use egui::{RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::certificate_import::{UserFiles, UserSpecifiedForm};
-use crate::ui::model::{Answer, BrowseField, Message, Model};
+use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, form, labelled, mistake, path_field, path_line, secret_field};
@@ -26,7 +26,13 @@ const KEY_FILE: BrowseField = BrowseField {
 };
 
 /// Import of key and certificate made with another tool (manual 2.7.1.4).
-pub fn show(ui: &Ui, user: &mut UserSpecifiedForm, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(
+    ui: &Ui,
+    user: &mut UserSpecifiedForm,
+    focus: bool,
+    model: &Model,
+    messages: &mut Vec<Message>,
+) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let why = match user.kind {
         _ if user.checks.running => Some(T::Checking),

@@ -8,9 +8,11 @@ use egui::Ui;
 
 use crate::model::{ControllerSeries, Problem};
 use crate::texts::{self, TextKey};
-use crate::ui::model::{Answer, Command, Dialog, FileForm, Message, Model, Place, UiCommand, first_path};
+use crate::ui::model::{
+    BackendCommand, Dialog, DialogAnswer, DialogPlace, FileForm, Message, Model, UiCommand, first_path,
+};
 use crate::ui::picker::FileKind;
-use crate::workspace::{ConnectionList, MAX_CONNECTION_LIST_BYTES, NewConnection, Skipped};
+use crate::workspace::{ConnectionList, MAX_CONNECTION_LIST_BYTES, NewConnection, SkippedLine};
 
 #[derive(Debug)]
 pub struct ConnectionListForm {
@@ -34,7 +36,7 @@ pub struct LeftOut {
     pub line: usize,
     /// As it stands in the file.
     pub name: String,
-    pub why: Skipped,
+    pub why: SkippedLine,
 }
 
 impl ConnectionListForm {
@@ -80,11 +82,11 @@ impl UiCommand {
 }
 
 impl Dialog for ConnectionListForm {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, place.focus, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         if self.reads_file() {
             model.put_back(self);
             return model.read_typed();
@@ -106,12 +108,12 @@ impl Dialog for ConnectionListForm {
 }
 
 impl Model {
-    pub(in crate::ui) fn open_connection_list(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn open_connection_list(&mut self) -> Vec<BackendCommand> {
         self.open(ConnectionListForm::new(self));
         self.read_typed()
     }
 
-    pub(in crate::ui) fn open_connection_list_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn open_connection_list_of(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         let mut form = ConnectionListForm::new(self);
         form.file.path = first_path(&paths);
         form.file.optional = false;
@@ -120,7 +122,7 @@ impl Model {
     }
 
     /// Adds what is ticked, and ticks nothing but it: what to do next is to confirm who they are.
-    pub(in crate::ui) fn import_connections(&mut self, form: ConnectionListForm) -> Vec<Command> {
+    pub(in crate::ui) fn import_connections(&mut self, form: ConnectionListForm) -> Vec<BackendCommand> {
         let configuration = self.configuration();
         let series = form.series;
         let ticked = form.new.into_iter().filter(|found| found.ticked).map(|found| found.connection);

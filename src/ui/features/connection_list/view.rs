@@ -3,9 +3,9 @@ use egui::{ComboBox, Label, RichText, Ui};
 use crate::model::ControllerSeries;
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::connection_list::ConnectionListForm;
-use crate::ui::model::{Answer, Message, Model};
+use crate::ui::model::{DialogAnswer, Message, Model};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, cell, dialog, file_field, fine_print, form, labelled, list, list_title};
+use crate::ui::widgets::{Buttons, cell, dialog, file_field, form, labelled, list, list_title, small_note};
 
 /// Lines of a list before it scrolls.
 const MOST: usize = 7;
@@ -17,7 +17,7 @@ pub fn show(
     focus: bool,
     model: &Model,
     messages: &mut Vec<Message>,
-) -> Answer {
+) -> DialogAnswer {
     let language = model.language;
     let text = |key: T| key.text(language);
     let submit = if connections.reads_file() { T::ReadFile } else { T::Import };
@@ -27,7 +27,7 @@ pub fn show(
         file_field(ui, &mut connections.file, focus, model, messages);
         if connections.reads_file() {
             ui.add_space(theme::SPACE);
-            fine_print(ui, text(T::ConnectionListText));
+            small_note(ui, text(T::ConnectionListText));
             return;
         }
         let palette = palette(ui);
@@ -69,7 +69,7 @@ pub fn show(
                             ui.selectable_value(series, each, each.as_str());
                         }
                     });
-                    fine_print(ui, text(T::SeriesGuess));
+                    small_note(ui, text(T::SeriesGuess));
                     Some(shown.response)
                 });
             });

@@ -9,7 +9,8 @@ use egui::Ui;
 use crate::pki::PkiKind;
 use crate::texts::TextKey;
 use crate::ui::model::{
-    Answer, Choice, Command, Dialog, DropForm, DroppedFile, Hover, JobId, MAX_DROPPED, Message, Model, Place, UiCommand,
+    BackendCommand, Dialog, DialogAnswer, DialogPlace, DropChoice, DropForm, DroppedFile, HoveringFiles, JobId,
+    MAX_DROPPED, Message, Model, UiCommand,
 };
 use crate::workspace::Recognised;
 
@@ -21,7 +22,7 @@ struct Route {
     /// The file is of one controller, so one must be ticked and no more.
     of_one: bool,
     /// Opens the dialog with these files, in the order `takes` names them.
-    open: fn(&mut Model, Vec<PathBuf>) -> Vec<Command>,
+    open: fn(&mut Model, Vec<PathBuf>) -> Vec<BackendCommand>,
 }
 
 enum Takes {
@@ -56,17 +57,17 @@ const ROUTES: &[Route] = &[
     Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::One(CERTIFICATE), of_one: true, open: Model::open_user_certificate },
     Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::One(KEY), of_one: true, open: Model::open_user_key },
     Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::Not(KEY_AND_CERTIFICATE, TextKey::WhySplitKey), of_one: true, open: Model::open_nothing },
-    Route { command: UiCommand::CLIENT_LISTS, title: TextKey::MenuClients, takes: Takes::Any(&[CERTIFICATE, CHAIN, BUNDLE]), of_one: false, open: Model::open_clients_of },
+    Route { command: UiCommand::CLIENT_CERTIFICATES, title: TextKey::MenuClients, takes: Takes::Any(&[CERTIFICATE, CHAIN, BUNDLE]), of_one: false, open: Model::open_clients_of },
     Route { command: UiCommand::CRL, title: TextKey::DropCrl, takes: Takes::Any(&[CRL, BUNDLE]), of_one: false, open: Model::open_crls_of },
     Route { command: UiCommand::CERTIFICATE_AUTHORITY, title: TextKey::DropAuthority, takes: Takes::One(CSR), of_one: false, open: Model::open_authority_of },
 ];
 
 impl Dialog for DropForm {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, model)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         if self.offers() { model.submit_dropped(*self) } else { vec![] }
     }
 }
@@ -74,7 +75,7 @@ impl Dialog for DropForm {
 impl Model {
     /// What can be done with the files now.
     fn dropped(&self, files: Vec<DroppedFile>) -> DropForm {
-        let mut choices: Vec<Choice> = Vec::new();
+        let mut choices: Vec<DropChoice> = Vec::new();
         for (route, at) in ROUTES.iter().zip(0..) {
             if choices.iter().any(|choice| choice.command == route.command) {
                 continue;
@@ -82,7 +83,7 @@ impl Model {
             if let Some((files, why)) = route.takes.of(&files) {
                 let many = || (route.of_one && self.rows.ticked_count() > 1).then_some(TextKey::WhyUserOne);
                 let why = route.command.why_disabled(self).or(why).or_else(many);
-                choices.push(Choice { command: route.command, title: route.title, files, why, route: at });
+                choices.push(DropChoice { command: route.command, title: route.title, files, why, route: at });
             }
         }
         let open = choices.iter().enumerate().filter(|(_, choice)| choice.why.is_none());
@@ -101,27 +102,27 @@ impl Model {
     }
 
     /// Files are held over the window, or none are any more.
-    pub(in crate::ui) fn hovered(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn hovered(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         if paths.is_empty() {
             self.hover = None;
             return vec![];
         }
         let job = self.next_job();
         if self.takes_trust_files() {
-            self.hover = Some(Hover { job, paths, found: None, taken: true });
+            self.hover = Some(HoveringFiles { job, paths, found: None, taken: true });
             return vec![];
         }
         if let Some(blocked) = self.why_no_drop(paths.len()) {
-            self.hover = Some(Hover { job, paths, found: Some(DropForm::blocked(blocked)), taken: false });
+            self.hover = Some(HoveringFiles { job, paths, found: Some(DropForm::blocked(blocked)), taken: false });
             return vec![];
         }
-        self.hover = Some(Hover { job, paths: paths.clone(), found: None, taken: false });
+        self.hover = Some(HoveringFiles { job, paths: paths.clone(), found: None, taken: false });
         // Not every desktop says what they are before they are dropped.
         let told = paths.iter().all(|path| !path.as_os_str().is_empty());
-        if told { vec![Command::Recognise { job, paths }] } else { vec![] }
+        if told { vec![BackendCommand::Recognise { job, paths }] } else { vec![] }
     }
 
-    pub(in crate::ui) fn drop_files(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
+    pub(in crate::ui) fn drop_files(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         self.hover = None;
         if self.takes_trust_files() {
             return self.dropped_trust(paths);
@@ -134,10 +135,10 @@ impl Model {
         let job = self.next_job();
         self.dropping = Some(job);
         self.status = Some(TextKey::Reading.text(self.language).to_owned());
-        vec![Command::Recognise { job, paths }]
+        vec![BackendCommand::Recognise { job, paths }]
     }
 
-    pub(in crate::ui) fn recognised(&mut self, job: JobId, files: Vec<DroppedFile>) -> Vec<Command> {
+    pub(in crate::ui) fn recognised(&mut self, job: JobId, files: Vec<DroppedFile>) -> Vec<BackendCommand> {
         if self.hover.as_ref().is_some_and(|hover| hover.job == job) {
             let found = self.dropped(files);
             if let Some(hover) = &mut self.hover {
@@ -161,21 +162,21 @@ impl Model {
     }
 
     /// The choice was made.
-    pub(in crate::ui) fn submit_dropped(&mut self, form: DropForm) -> Vec<Command> {
+    pub(in crate::ui) fn submit_dropped(&mut self, form: DropForm) -> Vec<BackendCommand> {
         match form.selected {
             Some(at) if form.incomplete().is_none() => self.open_dropped(form, at),
             _ => vec![],
         }
     }
 
-    fn open_dropped(&mut self, form: DropForm, at: usize) -> Vec<Command> {
+    fn open_dropped(&mut self, form: DropForm, at: usize) -> Vec<BackendCommand> {
         let Some(choice) = form.choices.get(at) else { return vec![] };
         let paths = choice.files.iter().filter_map(|at| form.files.get(*at)).map(|file| file.path.clone()).collect();
         (ROUTES[choice.route].open)(self, paths)
     }
 
     /// Of what only says what is missing.
-    fn open_nothing(&mut self, _paths: Vec<PathBuf>) -> Vec<Command> {
+    fn open_nothing(&mut self, _paths: Vec<PathBuf>) -> Vec<BackendCommand> {
         vec![]
     }
 }

@@ -2,12 +2,12 @@ use egui::{Label, RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::drops;
-use crate::ui::model::{Answer, DropForm, Model};
+use crate::ui::model::{DialogAnswer, DropForm, Model};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print, list_title, note};
+use crate::ui::widgets::{Buttons, dialog, list_title, note, small_note};
 
 /// Files were dropped: what they are, and which dialog shall take them, or why none does.
-pub fn show(ui: &Ui, form: &mut DropForm, model: &Model) -> Answer {
+pub fn show(ui: &Ui, form: &mut DropForm, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = if form.offers() {
         Buttons { submit: Some((text(T::DropOpen), form.incomplete().map(text))), close: Some(text(T::Cancel)) }
@@ -26,7 +26,7 @@ pub fn show(ui: &Ui, form: &mut DropForm, model: &Model) -> Answer {
                 ui.add(Label::new(explained.cause).wrap());
                 ui.add(Label::new(explained.remedy).wrap());
                 if let Some(detail) = &problem.detail {
-                    fine_print(ui, detail);
+                    small_note(ui, detail);
                 }
             });
         }
@@ -48,12 +48,12 @@ fn choices(ui: &mut Ui, form: &mut DropForm, model: &Model) {
                 let said = RichText::new(why.text(model.language)).size(theme::SMALL_TEXT).color(palette(ui).warning);
                 ui.add(Label::new(said).wrap());
             }
-            None => fine_print(ui, choice.command.tooltip().text(model.language)),
+            None => small_note(ui, choice.command.tooltip().text(model.language)),
         }
         // Which of them, when not all.
         if choice.files.len() < form.files.len() {
             let names: Vec<String> = choice.files.iter().map(|at| form.files[*at].name()).collect();
-            fine_print(ui, &texts::only_these(model.language, &names));
+            small_note(ui, &texts::only_these(model.language, &names));
         }
     }
 }

@@ -7,20 +7,20 @@ use egui::Ui;
 use crate::jobs::ExportSelfSigned;
 use crate::model::FileFormat;
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task, UiCommand};
+use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, Task, UiCommand};
 use crate::workspace::Workspace;
 
 pub use view::format;
 
 /// Where the self-signed certificates are saved, and how (manual 2.7.1.3).
 #[derive(Debug)]
-pub struct ExportForm {
+pub struct ExportSelfSignedForm {
     pub rows: Vec<RowId>,
     pub names: Vec<String>,
     pub format: FileFormat,
 }
 
-impl ExportForm {
+impl ExportSelfSignedForm {
     pub fn new(rows: Vec<RowId>, model: &Model) -> Self {
         Self { names: model.rows.names(&rows), rows, format: FileFormat::default() }
     }
@@ -35,19 +35,19 @@ impl UiCommand {
     /// Saves the self-signed certificates on the PC.
     pub const EXPORT_SELF_SIGNED: Self =
         Self::new(TextKey::ExportSelfSigned, TextKey::ExportSelfSignedTip, |model, rows| {
-            model.open(ExportForm::new(rows, model));
+            model.open(ExportSelfSignedForm::new(rows, model));
             vec![]
         })
         .in_menu(TextKey::MenuCertificate)
         .for_controllers();
 }
 
-impl Dialog for ExportForm {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+impl Dialog for ExportSelfSignedForm {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         let planned = Some((self.task(&model.workspace), self.rows.clone()));
         model.ask(self, planned)
     }

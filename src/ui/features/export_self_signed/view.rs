@@ -2,13 +2,13 @@ use egui::{Label, Ui};
 
 use crate::model::FileFormat;
 use crate::texts::{self, TextKey as T};
-use crate::ui::features::export_self_signed::ExportForm;
-use crate::ui::model::{Answer, Message, Model};
+use crate::ui::features::export_self_signed::ExportSelfSignedForm;
+use crate::ui::model::{DialogAnswer, Message, Model};
 use crate::ui::theme;
 use crate::ui::widgets::{Buttons, choices, dialog, form, labelled, path_line};
 
 /// Saves the self-signed certificates on this computer (manual 2.7.1.3).
-pub fn show(ui: &Ui, export: &mut ExportForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(ui: &Ui, export: &mut ExportSelfSignedForm, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Export), None)), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, T::ExportSelfSignedTitle, &export.names);

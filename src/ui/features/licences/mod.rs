@@ -6,7 +6,7 @@ use egui::Ui;
 
 use crate::licences::{Component, Licences};
 use crate::texts::TextKey as T;
-use crate::ui::model::{Answer, Dialog, Message, Model, Place, UiCommand};
+use crate::ui::model::{Dialog, DialogAnswer, DialogPlace, Message, Model, UiCommand};
 
 /// The licences of what is linked in: a list to search, and the texts of one component.
 #[derive(Debug)]
@@ -66,7 +66,7 @@ impl UiCommand {
 }
 
 impl Dialog for LicencesView {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, place.focus, model)
     }
 }

@@ -3,14 +3,14 @@ use egui::{Align, Label, Layout, RichText, ScrollArea, TextEdit, Ui, vec2};
 use crate::licences::Licences;
 use crate::texts::TextKey as T;
 use crate::ui::features::licences::LicencesView;
-use crate::ui::model::{Answer, Model};
+use crate::ui::model::{DialogAnswer, Model};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print};
+use crate::ui::widgets::{Buttons, dialog, small_note};
 
 const LIST_WIDTH: f32 = 320.0;
 
 /// The licences of everything linked in (manual appendix B-2): the list on the left, the texts on the right.
-pub fn show(ui: &Ui, view: &mut LicencesView, focus: bool, model: &Model) -> Answer {
+pub fn show(ui: &Ui, view: &mut LicencesView, focus: bool, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Close), None)), close: None };
     dialog(ui, "licences", text(T::LicencesTitle), theme::DIALOG_LOG, buttons, |ui| {
@@ -39,7 +39,7 @@ fn components(ui: &mut Ui, view: &mut LicencesView, height: f32, model: &Model) 
     ui.vertical(|ui| {
         ui.set_width(LIST_WIDTH);
         if view.shown().is_empty() {
-            fine_print(ui, T::LicencesNone.text(model.language));
+            small_note(ui, T::LicencesNone.text(model.language));
             return;
         }
         ui.spacing_mut().item_spacing.y = 0.0;

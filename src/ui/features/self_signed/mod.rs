@@ -8,7 +8,7 @@ use egui::Ui;
 use crate::jobs;
 use crate::model::FileFormat;
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task, UiCommand};
+use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, Task, UiCommand};
 
 pub use form::SelfSignedForm;
 
@@ -21,16 +21,16 @@ impl UiCommand {
 }
 
 impl Dialog for SelfSignedForm {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, model)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         let planned = self.task(model).map(|task| (task, self.rows.clone()));
         model.ask(self, planned)
     }
 
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.drop_job()
     }
 
@@ -41,7 +41,11 @@ impl Dialog for SelfSignedForm {
 
 impl Model {
     /// For a certificate, or for a request in this format.
-    pub(in crate::ui) fn open_self_signed(&mut self, rows: Vec<RowId>, request: Option<FileFormat>) -> Vec<Command> {
+    pub(in crate::ui) fn open_self_signed(
+        &mut self,
+        rows: Vec<RowId>,
+        request: Option<FileFormat>,
+    ) -> Vec<BackendCommand> {
         let form = SelfSignedForm::new(rows.clone(), request, self);
         let reading = form.reading;
         self.open(form);
@@ -50,7 +54,7 @@ impl Model {
 }
 
 fn read_policies() -> Task {
-    Task::with_results(TextKey::SettingsTitle, jobs::ReadSettings, |model, row, result| {
+    Task::with_results(TextKey::SettingsTitle, jobs::ReadBasicSettings, |model, row, result| {
         let name = model.rows.get(row).and_then(|row| row.info()).map(|info| info.application_name.clone());
         if let (Ok(settings), Some(form)) = (result, model.dialog::<SelfSignedForm>()) {
             form.reading = false;

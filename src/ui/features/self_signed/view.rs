@@ -3,13 +3,13 @@ use egui::{ComboBox, DragValue, Popup, PopupCloseBehavior, Response, RichText, S
 use crate::model::{Country, Language, Validity};
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::self_signed::SelfSignedForm;
-use crate::ui::model::{Answer, Model};
+use crate::ui::model::{DialogAnswer, Model};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, choices, dialog, fine_print, form, labelled, mistake, note, text_field};
+use crate::ui::widgets::{Buttons, choices, dialog, form, labelled, mistake, note, small_note, text_field};
 
 /// A self-signed server certificate for one controller or many (manual 2.7.1.2), or the request for one that a CA
 /// signs (2.7.1.5).
-pub fn show(ui: &Ui, certificate: &mut SelfSignedForm, model: &Model) -> Answer {
+pub fn show(ui: &Ui, certificate: &mut SelfSignedForm, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let why = match certificate.task(model) {
         Some(_) => None,
@@ -70,9 +70,9 @@ fn fields(ui: &mut Ui, certificate: &mut SelfSignedForm, model: &Model) {
             }
         });
         if certificate.is_single() {
-            fine_print(ui, text(T::KeyLengthOne));
+            small_note(ui, text(T::KeyLengthOne));
         } else if certificate.key_length.bits() != 2048 {
-            fine_print(ui, text(T::KeyLengthMany));
+            small_note(ui, text(T::KeyLengthMany));
         }
         None
     });

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 
 use egui::Ui;
 
-use crate::jobs::{LogPart, ReadLog, SaveLog, SetSettings, SettingsChange};
-use crate::model::{LogChunk, foreign_text};
+use crate::jobs::{BasicSettingsChange, LogPart, ReadLog, SaveLog, SetBasicSettings};
+use crate::model::{LogChunk, untrusted_text};
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, Task, UiCommand};
+use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, Task, UiCommand};
 
 /// The end of the log, as it was read last.
 #[derive(Debug)]
@@ -44,7 +44,7 @@ impl LogView {
     }
 
     pub fn fill(&mut self, mut log: LogChunk) {
-        log.text = foreign_text::lines(&log.text);
+        log.text = untrusted_text::lines(&log.text);
         let mut start = 0;
         let line = |line: &str| {
             let begin = start;
@@ -150,11 +150,11 @@ impl UiCommand {
 }
 
 impl Dialog for LogView {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, model, messages)
     }
 
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.drop_job()
     }
 
@@ -171,18 +171,18 @@ impl Dialog for LogView {
 }
 
 impl Dialog for SaveLogForm {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::save(ui, self, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.save_log(self)
     }
 }
 
 impl Model {
     /// Proposes a file in the controller's folder of the workspace.
-    pub(in crate::ui) fn ask_where_to_save_log(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn ask_where_to_save_log(&mut self) -> Vec<BackendCommand> {
         let Some(log) = self.top::<LogView>() else { return vec![] };
         let (row, name) = (log.row, log.name.clone());
         let serial = self.rows.get(row).and_then(|row| row.info()).map(|info| info.serial.folder_name());
@@ -193,7 +193,7 @@ impl Model {
         vec![]
     }
 
-    fn save_log(&mut self, form: Box<SaveLogForm>) -> Vec<Command> {
+    fn save_log(&mut self, form: Box<SaveLogForm>) -> Vec<BackendCommand> {
         if form.incomplete().is_some() {
             self.put_back(form);
             return vec![];
@@ -202,26 +202,26 @@ impl Model {
         self.start(Task::new(TextKey::SaveLogTitle, SaveLog { path }), vec![form.row], None)
     }
 
-    pub(in crate::ui) fn open_log(&mut self, row: RowId) -> Vec<Command> {
+    pub(in crate::ui) fn open_log(&mut self, row: RowId) -> Vec<BackendCommand> {
         let name = self.rows.names(&[row]).pop().unwrap_or_default();
         self.open(LogView::new(row, name));
         self.start(read_log(), vec![row], None)
     }
 
     /// Reads it again; what was read stays on the screen meanwhile.
-    pub(in crate::ui) fn refresh_log(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn refresh_log(&mut self) -> Vec<BackendCommand> {
         let Some(log) = self.dialog::<LogView>() else { return vec![] };
         log.reading = true;
         let row = log.row;
         self.start(read_log(), vec![row], None)
     }
 
-    pub(in crate::ui) fn delete_log(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn delete_log(&mut self) -> Vec<BackendCommand> {
         match self.top::<LogView>() {
             Some(log) if !log.reading => {
                 let row = log.row;
-                let change = SettingsChange { delete_log: true, ..SettingsChange::default() };
-                let operation = SetSettings { change, ..SetSettings::default() };
+                let change = BasicSettingsChange { delete_log: true, ..BasicSettingsChange::default() };
+                let operation = SetBasicSettings { change, ..SetBasicSettings::default() };
                 let task = Task::new(TextKey::DeleteLog, operation).act(TextKey::DeleteLog);
                 self.plan(task.on_closed(Model::refresh_log), vec![row])
             }

@@ -2,10 +2,10 @@ use egui::{Button, Frame, Label, RichText, ScrollArea, Stroke, TextEdit, TextSty
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::server_log::{LogView, SaveLogForm};
-use crate::ui::model::{Answer, BrowseField, Message, Model};
+use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print, form, path_field};
+use crate::ui::widgets::{Buttons, dialog, form, path_field, small_note};
 
 const LOG_FILE: BrowseField = BrowseField {
     kind: FileKind::Text,
@@ -14,7 +14,7 @@ const LOG_FILE: BrowseField = BrowseField {
 };
 
 /// The end of the server log of one controller. Only the lines in sight are laid out.
-pub fn show(ui: &Ui, log: &mut LogView, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(ui: &Ui, log: &mut LogView, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: None, close: Some(text(T::Close)) };
     let title = texts::title_for(model.language, T::ServerLog, std::slice::from_ref(&log.name));
@@ -29,12 +29,12 @@ pub fn show(ui: &Ui, log: &mut LogView, model: &Model, messages: &mut Vec<Messag
         let (size, here) = log.size();
         let found = (log.shown() < log.lines()).then(|| log.shown());
         let said = texts::log_size(model.language, size, here, log.lines(), found);
-        fine_print(ui, if log.reading { text(T::Reading) } else { &said });
+        small_note(ui, if log.reading { text(T::Reading) } else { &said });
     })
 }
 
 /// Where the log is to be saved.
-pub fn save(ui: &Ui, save: &mut SaveLogForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn save(ui: &Ui, save: &mut SaveLogForm, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: Some((text(T::Save), save.incomplete().map(text))), close: Some(text(T::Cancel)) };
     let title = texts::title_for(model.language, T::SaveLogTitle, std::slice::from_ref(&save.name));

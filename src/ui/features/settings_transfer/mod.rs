@@ -11,12 +11,13 @@ use crate::jobs::{ExportSettings, ImportSettings};
 use crate::model::{ControllerInfo, Feature, Problem};
 use crate::texts::TextKey;
 use crate::ui::model::{
-    Answer, Command, Dialog, ExportFound, JobId, Message, Model, Place, RowId, SecretInput, Targets, Task, UiCommand,
+    BackendCommand, Dialog, DialogAnswer, DialogPlace, ExportFound, JobId, Message, Model, RowId, SecretInput, Targets,
+    Task, UiCommand,
 };
 use crate::workspace::{MIN_PASSPHRASE_CHARS, Workspace};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Transfer {
+pub enum TransferDirection {
     Export,
     Import,
 }
@@ -24,7 +25,7 @@ pub enum Transfer {
 /// Where the settings of one controller or many go to or come from, and what protects them.
 #[derive(Debug)]
 pub struct TransferForm {
-    pub transfer: Transfer,
+    pub transfer: TransferDirection,
     pub rows: Vec<RowId>,
     pub names: Vec<String>,
     /// With `<serial>` in it when it is not that of one known controller.
@@ -35,12 +36,12 @@ pub struct TransferForm {
     /// Empty: the connection password protects the file.
     pub passphrase: SecretInput,
     pub show_passphrase: bool,
-    pub preview: Preview,
+    pub preview: ExportPreview,
 }
 
 /// The file of the one controller, as far as it can be read without its passphrase.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub enum Preview {
+pub enum ExportPreview {
     /// Several controllers, or one whose serial number is not known yet.
     #[default]
     None,
@@ -51,7 +52,7 @@ pub enum Preview {
 }
 
 impl TransferForm {
-    pub fn new(transfer: Transfer, rows: Vec<RowId>, model: &Model) -> Self {
+    pub fn new(transfer: TransferDirection, rows: Vec<RowId>, model: &Model) -> Self {
         let files = model.workspace.settings_files();
         let one = one_info(&rows, model);
         Self {
@@ -63,7 +64,7 @@ impl TransferForm {
             rows,
             passphrase: SecretInput::default(),
             show_passphrase: false,
-            preview: Preview::None,
+            preview: ExportPreview::None,
         }
     }
 
@@ -78,16 +79,16 @@ impl TransferForm {
     /// An import takes whatever passphrase the file was made with.
     pub fn passphrase_error(&self) -> Option<TextKey> {
         let count = self.passphrase.0.chars().count();
-        let short = self.transfer == Transfer::Export && (1..MIN_PASSPHRASE_CHARS).contains(&count);
+        let short = self.transfer == TransferDirection::Export && (1..MIN_PASSPHRASE_CHARS).contains(&count);
         short.then_some(TextKey::PassphraseRule)
     }
 
     /// Why the form cannot be sent yet.
     pub fn incomplete(&self) -> Option<TextKey> {
         match self.preview {
-            Preview::Reading(_) => Some(TextKey::Reading),
-            Preview::Unfit(_) => Some(TextKey::ImportNothing),
-            Preview::None | Preview::Found(_) => self.passphrase_error(),
+            ExportPreview::Reading(_) => Some(TextKey::Reading),
+            ExportPreview::Unfit(_) => Some(TextKey::ImportNothing),
+            ExportPreview::None | ExportPreview::Found(_) => self.passphrase_error(),
         }
     }
 
@@ -98,11 +99,11 @@ impl TransferForm {
         }
         let passphrase = (!self.passphrase.0.is_empty()).then(|| SecretString::from(self.passphrase.0.clone()));
         Some(match self.transfer {
-            Transfer::Export => {
+            TransferDirection::Export => {
                 let operation = ExportSettings { files: workspace.settings_files(), passphrase };
                 Task::new(TextKey::ExportTitle, operation).act(TextKey::ExportButton)
             }
-            Transfer::Import => {
+            TransferDirection::Import => {
                 let files = workspace.settings_files();
                 let files = self.file.clone().map_or(files.clone(), |file| files.of_file(file));
                 let operation = ImportSettings { files, passphrase };
@@ -122,7 +123,7 @@ fn one_info<'a>(rows: &[RowId], model: &'a Model) -> Option<&'a ControllerInfo> 
 impl UiCommand {
     /// Saves the settings of legacy controllers.
     pub const EXPORT_SETTINGS: Self = Self::new(TextKey::ExportSettings, TextKey::ExportSettingsTip, |model, rows| {
-        model.open_transfer(Transfer::Export, rows)
+        model.open_transfer(TransferDirection::Export, rows)
     })
     .in_menu(TextKey::MenuServer)
     .for_controllers()
@@ -130,7 +131,7 @@ impl UiCommand {
 
     /// Puts saved settings back.
     pub const IMPORT_SETTINGS: Self = Self::new(TextKey::ImportSettings, TextKey::ImportSettingsTip, |model, rows| {
-        model.open_transfer(Transfer::Import, rows)
+        model.open_transfer(TransferDirection::Import, rows)
     })
     .in_menu(TextKey::MenuServer)
     .for_controllers()
@@ -142,11 +143,11 @@ fn why_no_transfer(model: &Model, targets: Targets) -> Option<TextKey> {
 }
 
 impl Dialog for TransferForm {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, place.focus, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         let planned = self.task(&model.workspace).map(|task| (task, self.rows.clone()));
         model.ask(self, planned)
     }
@@ -157,13 +158,17 @@ impl Dialog for TransferForm {
 }
 
 impl Model {
-    pub(in crate::ui) fn open_transfer(&mut self, transfer: Transfer, rows: Vec<RowId>) -> Vec<Command> {
+    pub(in crate::ui) fn open_transfer(
+        &mut self,
+        transfer: TransferDirection,
+        rows: Vec<RowId>,
+    ) -> Vec<BackendCommand> {
         self.open_transfer_form(TransferForm::new(transfer, rows, self))
     }
 
     /// For the one ticked controller.
-    pub(in crate::ui) fn open_import_of(&mut self, paths: Vec<PathBuf>) -> Vec<Command> {
-        let mut form = TransferForm::new(Transfer::Import, self.rows.ticked(), self);
+    pub(in crate::ui) fn open_import_of(&mut self, paths: Vec<PathBuf>) -> Vec<BackendCommand> {
+        let mut form = TransferForm::new(TransferDirection::Import, self.rows.ticked(), self);
         form.file = paths.into_iter().next();
         if let Some(file) = &form.file {
             (form.path, form.path_of_one) = (file.clone(), true);
@@ -171,13 +176,13 @@ impl Model {
         self.open_transfer_form(form)
     }
 
-    fn open_transfer_form(&mut self, mut form: TransferForm) -> Vec<Command> {
-        let known = one_info(&form.rows, self).filter(|_| form.transfer == Transfer::Import).cloned();
+    fn open_transfer_form(&mut self, mut form: TransferForm) -> Vec<BackendCommand> {
+        let known = one_info(&form.rows, self).filter(|_| form.transfer == TransferDirection::Import).cloned();
         let commands = match known {
             Some(info) => {
                 let job = self.next_job();
-                form.preview = Preview::Reading(job);
-                vec![Command::LookAtExport { job, of: Box::new(info), file: form.file.clone() }]
+                form.preview = ExportPreview::Reading(job);
+                vec![BackendCommand::LookAtExport { job, of: Box::new(info), file: form.file.clone() }]
             }
             None => vec![],
         };
@@ -186,11 +191,11 @@ impl Model {
     }
 
     pub(in crate::ui) fn export_seen(&mut self, job: JobId, result: Result<ExportFound, Problem>) {
-        let waiting = self.dialog::<TransferForm>().filter(|form| form.preview == Preview::Reading(job));
+        let waiting = self.dialog::<TransferForm>().filter(|form| form.preview == ExportPreview::Reading(job));
         if let Some(form) = waiting {
             form.preview = match result {
-                Ok(found) => Preview::Found(found),
-                Err(problem) => Preview::Unfit(problem),
+                Ok(found) => ExportPreview::Found(found),
+                Err(problem) => ExportPreview::Unfit(problem),
             };
         }
     }

@@ -1,18 +1,24 @@
 use egui::{Label, RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
-use crate::ui::features::settings_transfer::{Preview, Transfer, TransferForm};
-use crate::ui::model::{Answer, Message, Model};
+use crate::ui::features::settings_transfer::{ExportPreview, TransferDirection, TransferForm};
+use crate::ui::model::{DialogAnswer, Message, Model};
 use crate::ui::shell::error;
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print, form, labelled, mistake, note, path_line, secret_field};
+use crate::ui::widgets::{Buttons, dialog, form, labelled, mistake, note, path_line, secret_field, small_note};
 
 /// Export or import of settings, for one controller or many (manual 2.6.4, 2.6.5).
-pub fn show(ui: &Ui, transfer: &mut TransferForm, focus: bool, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(
+    ui: &Ui,
+    transfer: &mut TransferForm,
+    focus: bool,
+    model: &Model,
+    messages: &mut Vec<Message>,
+) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let (title, submit, what) = match transfer.transfer {
-        Transfer::Export => (T::ExportTitle, T::ExportButton, T::ExportText),
-        Transfer::Import => (T::ImportTitle, T::ImportButton, T::ImportSettingsText),
+        TransferDirection::Export => (T::ExportTitle, T::ExportButton, T::ExportText),
+        TransferDirection::Import => (T::ImportTitle, T::ImportButton, T::ImportSettingsText),
     };
     let buttons =
         Buttons { submit: Some((text(submit), transfer.incomplete().map(text))), close: Some(text(T::Cancel)) };
@@ -21,7 +27,7 @@ pub fn show(ui: &Ui, transfer: &mut TransferForm, focus: bool, model: &Model, me
         ui.add(Label::new(text(what)).wrap());
         ui.add_space(theme::SPACE_LARGE);
         form(ui, "transfer", |ui| fields(ui, transfer, focus, model, messages));
-        if let Preview::Unfit(problem) = &transfer.preview {
+        if let ExportPreview::Unfit(problem) = &transfer.preview {
             ui.add_space(theme::SPACE);
             note(ui, palette(ui).error, |ui| {
                 ui.label(RichText::new(problem.code.explain(model.language).message).strong());
@@ -34,13 +40,13 @@ pub fn show(ui: &Ui, transfer: &mut TransferForm, focus: bool, model: &Model, me
 
 fn fields(ui: &mut Ui, transfer: &mut TransferForm, focus: bool, model: &Model, messages: &mut Vec<Message>) {
     let text = |key: T| key.text(model.language);
-    let export = transfer.transfer == Transfer::Export;
+    let export = transfer.transfer == TransferDirection::Export;
     labelled(ui, text(T::File), |ui| {
         ui.add_space(theme::SPACE / 2.0);
         let path = RichText::new(transfer.path.display().to_string()).monospace();
         ui.add(Label::new(path).wrap().selectable(true));
         if !transfer.path_of_one {
-            fine_print(ui, text(T::FilePerSerial));
+            small_note(ui, text(T::FilePerSerial));
         }
         None
     });
@@ -49,24 +55,24 @@ fn fields(ui: &mut Ui, transfer: &mut TransferForm, focus: bool, model: &Model, 
         None
     });
     match &transfer.preview {
-        Preview::Reading(_) => labelled(ui, text(T::ExportedAt), |ui| {
+        ExportPreview::Reading(_) => labelled(ui, text(T::ExportedAt), |ui| {
             ui.add_space(theme::SPACE / 2.0);
             ui.label(RichText::new(text(T::Reading)).color(palette(ui).weak));
             None
         }),
-        Preview::Found(found) => labelled(ui, text(T::ExportedAt), |ui| {
+        ExportPreview::Found(found) => labelled(ui, text(T::ExportedAt), |ui| {
             ui.add_space(theme::SPACE / 2.0);
             let at = model.zone.date_time(found.exported);
             ui.label(texts::exported_at(model.language, &at, found.firmware));
             None
         }),
         // The row stays: else the field below would lose the keyboard.
-        Preview::Unfit(_) => labelled(ui, text(T::ExportedAt), |ui| {
+        ExportPreview::Unfit(_) => labelled(ui, text(T::ExportedAt), |ui| {
             ui.add_space(theme::SPACE / 2.0);
             ui.label("—");
             None
         }),
-        Preview::None => {}
+        ExportPreview::None => {}
     }
     labelled(ui, text(T::Passphrase), |ui| {
         let TransferForm { passphrase, show_passphrase, .. } = transfer;
@@ -77,7 +83,7 @@ fn fields(ui: &mut Ui, transfer: &mut TransferForm, focus: bool, model: &Model, 
         if let Some(error) = transfer.passphrase_error() {
             mistake(ui, text(error));
         }
-        fine_print(ui, text(if export { T::ExportPassphraseTip } else { T::ImportPassphraseTip }));
+        small_note(ui, text(if export { T::ExportPassphraseTip } else { T::ImportPassphraseTip }));
         Some(response)
     });
 }

@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use crate::jobs;
-use crate::model::{Credential, MAX_USERS, RevisionToken, UserName, UserPassword};
+use crate::model::{MAX_USERS, RevisionToken, UserCredential, UserName, UserPassword};
 use crate::texts::TextKey;
 use crate::ui::model::{RowId, SecretInput};
 
@@ -46,6 +46,6 @@ impl AddUserForm {
         let name: UserName = self.name.parse().ok()?;
         let password = UserPassword::new(&self.password.0).ok()?;
         let fits = !self.existing.contains(&name) && self.existing.len() < MAX_USERS;
-        fits.then_some(jobs::AddUser { credential: Credential { name, password }, based_on: self.revision })
+        fits.then_some(jobs::AddUser { credential: UserCredential { name, password }, based_on: self.revision })
     }
 }

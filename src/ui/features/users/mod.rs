@@ -9,7 +9,9 @@ use egui::{Key, Modifiers, Ui};
 
 use crate::jobs::{self, RemoveUsers};
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task, UiCommand};
+use crate::ui::model::{
+    BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, SecretInput, Task, UiCommand,
+};
 
 pub use form::{AddUserForm, UsersForm};
 
@@ -22,21 +24,21 @@ impl UiCommand {
 }
 
 impl Dialog for UsersForm {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::list(ui, self, model, messages)
     }
 
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.drop_job()
     }
 }
 
 impl Dialog for AddUserForm {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         view::add(ui, self, place.focus, model)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         let planned = self.operation().map(|operation| (add_user(operation), self.rows.clone()));
         model.ask(self, planned)
     }
@@ -47,7 +49,7 @@ impl Dialog for AddUserForm {
 }
 
 impl Model {
-    pub(in crate::ui) fn open_users(&mut self, rows: Vec<RowId>) -> Vec<Command> {
+    pub(in crate::ui) fn open_users(&mut self, rows: Vec<RowId>) -> Vec<BackendCommand> {
         match rows[..] {
             [row] => {
                 let name = self.rows.names(&rows).pop().unwrap_or_default();
@@ -85,7 +87,7 @@ impl Model {
         });
     }
 
-    pub(in crate::ui) fn new_user(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn new_user(&mut self) -> Vec<BackendCommand> {
         if let Some(form) = self.top::<UsersForm>() {
             let (rows, revision, users) = (vec![form.row], form.revision, form.users.clone());
             self.push_add_user(rows, revision, users);
@@ -93,7 +95,7 @@ impl Model {
         vec![]
     }
 
-    pub(in crate::ui) fn delete_users(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn delete_users(&mut self) -> Vec<BackendCommand> {
         let Some(form) = self.top::<UsersForm>() else { return vec![] };
         if form.ticked.is_empty() {
             return vec![];
@@ -106,7 +108,7 @@ impl Model {
         self.plan(task, vec![row])
     }
 
-    fn reload_users(&mut self) -> Vec<Command> {
+    fn reload_users(&mut self) -> Vec<BackendCommand> {
         let Some(form) = self.dialog::<UsersForm>() else { return vec![] };
         form.reading = true;
         form.ticked.clear();

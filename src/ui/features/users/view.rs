@@ -3,12 +3,12 @@ use egui::{Button, Frame, RichText, Stroke, Ui};
 use crate::model::MAX_USERS;
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::users::{AddUserForm, UsersForm};
-use crate::ui::model::{Answer, Message, Model};
+use crate::ui::model::{DialogAnswer, Message, Model};
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, dialog, fine_print, form, labelled, mistake, note, secret_field, text_field};
+use crate::ui::widgets::{Buttons, dialog, form, labelled, mistake, note, secret_field, small_note, text_field};
 
 /// The users of one controller (manual 2.6.2).
-pub fn list(ui: &Ui, users: &mut UsersForm, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn list(ui: &Ui, users: &mut UsersForm, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let buttons = Buttons { submit: None, close: Some(text(T::Close)) };
     let title = texts::title_for(model.language, T::UsersTitle, std::slice::from_ref(&users.name));
@@ -37,7 +37,7 @@ pub fn list(ui: &Ui, users: &mut UsersForm, model: &Model, messages: &mut Vec<Me
                 }
             },
         );
-        fine_print(ui, &texts::user_count(model.language, users.users.len(), MAX_USERS));
+        small_note(ui, &texts::user_count(model.language, users.users.len(), MAX_USERS));
         ui.add_space(theme::SPACE);
         ui.horizontal(|ui| {
             let add = ui.add_enabled(users.users.len() < MAX_USERS, Button::new(text(T::AddUser)));
@@ -53,7 +53,7 @@ pub fn list(ui: &Ui, users: &mut UsersForm, model: &Model, messages: &mut Vec<Me
 }
 
 /// One more user, for one controller or many.
-pub fn add(ui: &Ui, user: &mut AddUserForm, focus: bool, model: &Model) -> Answer {
+pub fn add(ui: &Ui, user: &mut AddUserForm, focus: bool, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let why = user.operation().is_none().then(|| text(T::UserRule));
     let buttons = Buttons { submit: Some((text(T::Add), why)), close: Some(text(T::Cancel)) };
@@ -71,7 +71,7 @@ pub fn add(ui: &Ui, user: &mut AddUserForm, focus: bool, model: &Model) -> Answe
                 }
                 match user.name_error() {
                     Some(error) => mistake(ui, text(error)),
-                    None => fine_print(ui, text(T::UserRule)),
+                    None => small_note(ui, text(T::UserRule)),
                 }
                 Some(response)
             });
@@ -79,7 +79,7 @@ pub fn add(ui: &Ui, user: &mut AddUserForm, focus: bool, model: &Model) -> Answe
                 let response = secret_field(ui, &mut user.password.0, &mut user.show_password, "", model.language);
                 match user.password_error() {
                     Some(error) => mistake(ui, text(error)),
-                    None => fine_print(ui, text(T::UserRule)),
+                    None => small_note(ui, text(T::UserRule)),
                 }
                 Some(response)
             });

@@ -7,7 +7,9 @@ use secrecy::SecretString;
 
 use crate::model::{ErrorCode, Problem};
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task, VaultWork};
+use crate::ui::model::{
+    BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, SecretInput, Task, VaultWork,
+};
 use crate::workspace::{MIN_PASSPHRASE_CHARS, PasswordPlace, StoreStatus, VaultState};
 
 pub use view::options;
@@ -106,15 +108,15 @@ impl VaultForm {
 }
 
 impl Dialog for VaultForm {
-    fn show(&mut self, ui: &Ui, place: Place, model: &Model, _messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, place: DialogPlace, model: &Model, _messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, place.focus, model)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.submit_vault(self)
     }
 
-    fn close(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn close(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.close_vault(self)
     }
 }
@@ -126,17 +128,17 @@ impl Model {
     }
 
     /// Does what was asked for in the options or the status bar.
-    pub fn vault_request(&mut self, request: VaultRequest) -> Vec<Command> {
+    pub fn vault_request(&mut self, request: VaultRequest) -> Vec<BackendCommand> {
         match (request, self.vault()) {
             (VaultRequest::Use(PasswordPlace::Vault), VaultState::None) => self.ask_vault(VaultAction::Create, None),
             (VaultRequest::Use(place), _) => {
                 self.options.passwords = place;
                 let mut commands = self.save();
-                commands.push(Command::Vault(VaultWork::Use(place)));
+                commands.push(BackendCommand::Vault(VaultWork::Use(place)));
                 return commands;
             }
             (VaultRequest::Open, _) => self.ask_vault(VaultAction::Open, None),
-            (VaultRequest::Close, _) => return vec![Command::Vault(VaultWork::Close)],
+            (VaultRequest::Close, _) => return vec![BackendCommand::Vault(VaultWork::Close)],
             (VaultRequest::ChangePassphrase, _) => self.ask_vault(VaultAction::ChangePassphrase, None),
             (VaultRequest::NotKept, vault) => match (&self.not_kept, vault) {
                 (None, _) => {}
@@ -185,7 +187,7 @@ impl Model {
         }
     }
 
-    fn submit_vault(&mut self, mut form: Box<VaultForm>) -> Vec<Command> {
+    fn submit_vault(&mut self, mut form: Box<VaultForm>) -> Vec<BackendCommand> {
         let mut commands = Vec::new();
         if form.incomplete().is_none() {
             let secret = |typed: &SecretInput| SecretString::from(typed.0.as_str());
@@ -199,14 +201,14 @@ impl Model {
                 VaultAction::ChangePassphrase => VaultWork::ChangePassphrase { passphrase, new: secret(&form.new) },
             };
             (form.working, form.problem) = (true, None);
-            commands.push(Command::Vault(work));
+            commands.push(BackendCommand::Vault(work));
         }
         self.put_back(form);
         commands
     }
 
     /// The work of the dialog has ended.
-    pub(in crate::ui) fn vault_done(&mut self, result: Result<(), Problem>) -> Vec<Command> {
+    pub(in crate::ui) fn vault_done(&mut self, result: Result<(), Problem>) -> Vec<BackendCommand> {
         if let Err(problem) = result {
             if let Some(form) = self.dialog::<VaultForm>().filter(|form| form.working) {
                 (form.working, form.problem) = (false, Some(problem));
@@ -233,7 +235,7 @@ impl Model {
     }
 
     /// Cancel: from now on passwords are asked for instead.
-    fn close_vault(&mut self, form: Box<VaultForm>) -> Vec<Command> {
+    fn close_vault(&mut self, form: Box<VaultForm>) -> Vec<BackendCommand> {
         if form.working {
             self.put_back(form);
             return vec![];
@@ -244,6 +246,6 @@ impl Model {
         if form.waiting.is_some() {
             self.ask_connection_passwords();
         }
-        vec![Command::Vault(VaultWork::Decline)]
+        vec![BackendCommand::Vault(VaultWork::Decline)]
     }
 }

@@ -2,14 +2,14 @@ use egui::{Button, Label, RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::vault::{VaultAction, VaultForm, VaultRequest};
-use crate::ui::model::{Answer, Message, Model, SecretInput};
+use crate::ui::model::{DialogAnswer, Message, Model, SecretInput};
 use crate::ui::shell::error;
 use crate::ui::theme::{self, palette};
-use crate::ui::widgets::{Buttons, choices, dialog, fine_print, form, labelled, mistake, note, secret_field};
+use crate::ui::widgets::{Buttons, choices, dialog, form, labelled, mistake, note, secret_field, small_note};
 use crate::workspace::{PasswordPlace, StoreStatus, VaultState};
 
 /// Asks for the passphrase of the vault.
-pub fn show(ui: &Ui, asked: &mut VaultForm, focus: bool, model: &Model) -> Answer {
+pub fn show(ui: &Ui, asked: &mut VaultForm, focus: bool, model: &Model) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     let (title, what, submit) = match asked.action {
         VaultAction::Create => (T::VaultCreateTitle, T::VaultCreateText, T::VaultCreateNow),
@@ -74,7 +74,7 @@ pub fn options(ui: &mut Ui, store: &StoreStatus, model: &Model, messages: &mut V
                 }
             }
         });
-        fine_print(ui, &texts::vault_state(model.language, store));
+        small_note(ui, &texts::vault_state(model.language, store));
         let offered: &[(VaultRequest, T)] = match store.vault {
             VaultState::None => &[],
             VaultState::Closed | VaultState::Declined => &[(VaultRequest::Open, T::VaultOpen)],

@@ -7,10 +7,12 @@ use std::collections::BTreeMap;
 use egui::Ui;
 
 use crate::jobs::{TrustConfigurator, Verify, VerifyReport};
-use crate::model::{Credential, ErrorCode, Problem, UserName, UserPassword};
+use crate::model::{ErrorCode, Problem, UserCredential, UserName, UserPassword};
 use crate::session::opcua_client::ConnectTimeouts;
 use crate::texts::TextKey;
-use crate::ui::model::{Answer, Command, Dialog, Message, Model, Place, RowId, SecretInput, Task, UiCommand};
+use crate::ui::model::{
+    BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, SecretInput, Task, UiCommand,
+};
 use crate::ui::shell::processing::ProcessingDialog;
 
 /// The reports of one or more controllers. Not to be seen before all of them are there.
@@ -54,13 +56,13 @@ impl VerifyView {
     }
 
     /// Who logs in.
-    fn login(&self) -> Result<Option<Credential>, TextKey> {
+    fn login(&self) -> Result<Option<UserCredential>, TextKey> {
         if self.user.is_empty() && self.password.0.is_empty() {
             return Ok(None);
         }
         let name = self.user.parse::<UserName>().map_err(|_| TextKey::UserRule)?;
         let password = UserPassword::new(&self.password.0).map_err(|_| TextKey::UserRule)?;
-        Ok(Some(Credential { name, password }))
+        Ok(Some(UserCredential { name, password }))
     }
 }
 
@@ -71,18 +73,18 @@ impl UiCommand {
 }
 
 impl Dialog for VerifyView {
-    fn show(&mut self, ui: &Ui, _place: Place, model: &Model, messages: &mut Vec<Message>) -> Answer {
+    fn show(&mut self, ui: &Ui, _place: DialogPlace, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
         view::show(ui, self, model, messages)
     }
 
-    fn submit(self: Box<Self>, model: &mut Model) -> Vec<Command> {
+    fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
         model.verify_again(self)
     }
 }
 
 impl Model {
     /// Connects to these controllers as a client, and shows the reports in the end.
-    pub(in crate::ui) fn verify(&mut self, rows: Vec<RowId>) -> Vec<Command> {
+    pub(in crate::ui) fn verify(&mut self, rows: Vec<RowId>) -> Vec<BackendCommand> {
         self.open(VerifyView {
             names: self.rows.names(&rows),
             rows: rows.clone(),
@@ -97,14 +99,14 @@ impl Model {
         self.start(task, rows, None)
     }
 
-    fn verification(&self, login: Option<Credential>) -> Task {
+    fn verification(&self, login: Option<UserCredential>) -> Task {
         let identity = self.workspace.own_identity();
-        let operation = Verify { identity, login, trust_first: false, patience: ConnectTimeouts::default() };
+        let operation = Verify { identity, login, trust_first: false, timeouts: ConnectTimeouts::default() };
         Task::with_results(TextKey::VerifyTitle, operation, Self::verified).on_end(Self::verify_ended)
     }
 
     /// The main button of the dialog.
-    fn verify_again(&mut self, mut view: Box<VerifyView>) -> Vec<Command> {
+    fn verify_again(&mut self, mut view: Box<VerifyView>) -> Vec<BackendCommand> {
         let login = view.login().ok().filter(|_| !view.running);
         view.running |= login.is_some();
         let rows = view.rows.clone();
@@ -119,7 +121,7 @@ impl Model {
     }
 
     /// What the ended job changed, looked at as a client would.
-    pub(in crate::ui) fn verify_changed(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn verify_changed(&mut self) -> Vec<BackendCommand> {
         let rows = self.changed_servers();
         // A form that lies under it waits for what was changed.
         if rows.is_empty() || !self.is_only::<ProcessingDialog>() {
@@ -130,7 +132,7 @@ impl Model {
     }
 
     /// Asks whether this program's certificate may be put into the trusted lists.
-    pub(in crate::ui) fn trust_configurator(&mut self) -> Vec<Command> {
+    pub(in crate::ui) fn trust_configurator(&mut self) -> Vec<BackendCommand> {
         match self.top::<VerifyView>() {
             Some(view) if !view.running => {
                 let rows = view.lacking_trust();
@@ -148,7 +150,7 @@ impl Model {
     }
 
     /// One controller was verified, or could not be asked.
-    fn verified(&mut self, row: RowId, result: Result<VerifyReport, Problem>) -> Vec<Command> {
+    fn verified(&mut self, row: RowId, result: Result<VerifyReport, Problem>) -> Vec<BackendCommand> {
         // The verification of a controller that was not begun has no result.
         let begun = !matches!(&result, Err(problem) if problem.code == ErrorCode::Cancelled);
         if let Some(view) = self.verifying().filter(|_| begun) {
@@ -158,7 +160,7 @@ impl Model {
     }
 
     /// All were.
-    fn verify_ended(&mut self) -> Vec<Command> {
+    fn verify_ended(&mut self) -> Vec<BackendCommand> {
         self.end_processing();
         let Some(view) = self.verifying() else { return vec![] };
         view.running = false;

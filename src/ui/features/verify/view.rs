@@ -6,18 +6,18 @@ use crate::pki::Severity;
 use crate::session::opcua_client::TokenKind;
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::verify::VerifyView;
-use crate::ui::model::{Answer, Message, Model};
+use crate::ui::model::{DialogAnswer, Message, Model};
 use crate::ui::theme::{self, Palette, palette};
 use crate::ui::widgets::{
-    Buttons, dialog, fine_print, form, labelled, mistake, note, path_line, secret_field, text_field, word,
+    Buttons, dialog, form, labelled, mistake, note, path_line, secret_field, small_note, text_field, word,
 };
 
 /// What works at each controller's OPC UA server, and why not.
-pub fn show(ui: &Ui, view: &mut VerifyView, model: &Model, messages: &mut Vec<Message>) -> Answer {
+pub fn show(ui: &Ui, view: &mut VerifyView, model: &Model, messages: &mut Vec<Message>) -> DialogAnswer {
     let text = |key: T| key.text(model.language);
     if view.shown.is_none() {
         // The dialog of the job lies over it.
-        return Answer::None;
+        return DialogAnswer::None;
     }
     let why = if view.running { Some(T::Reading) } else { view.incomplete() };
     let buttons = Buttons { submit: Some((text(T::VerifyAgain), why.map(text))), close: Some(text(T::Close)) };
@@ -71,7 +71,7 @@ fn not_asked(ui: &mut Ui, problem: &Problem, model: &Model) {
     let explained = problem.code.explain(model.language);
     note(ui, palette(ui).error, |ui| {
         ui.label(RichText::new(explained.message).strong());
-        fine_print(ui, explained.remedy);
+        small_note(ui, explained.remedy);
     });
 }
 
@@ -120,12 +120,12 @@ fn certificate(ui: &mut Ui, verdict: &CertificateVerdict, model: &Model) {
             ui.label(RichText::new(T::VerifyCertificate.text(language)).strong());
             word(ui, key.text(language), color);
         });
-        fine_print(ui, &texts::stored_certificate(language, &verdict.summary, model.zone));
+        small_note(ui, &texts::stored_certificate(language, &verdict.summary, model.zone));
         if let Some(rejection) = &verdict.refused {
             let said = rejection.cause().explain(language);
             ui.add(Label::new(RichText::new(said).color(palette.error)).wrap().selectable(true));
             // The words an OPC UA client would log.
-            fine_print(ui, rejection.status().as_str());
+            small_note(ui, rejection.status().as_str());
         }
         for finding in verdict.further_findings() {
             line(ui, finding.severity, &finding.explain(language), model);
@@ -209,7 +209,7 @@ fn reasons(ui: &mut Ui, report: &VerifyReport, model: &Model) {
     for (sentence, color, names) in said {
         ui.add_space(theme::SPACE / 2.0);
         ui.add(Label::new(RichText::new(sentence).color(color)).wrap().selectable(true));
-        fine_print(ui, &texts::endpoints_named(model.language, &names));
+        small_note(ui, &texts::endpoints_named(model.language, &names));
     }
 }
 
@@ -224,7 +224,7 @@ fn trust(ui: &mut Ui, view: &VerifyView, lacking: usize, model: &Model, messages
         }
         let clicked = ui.add_enabled(!view.running, egui::Button::new(text(T::VerifyTrust))).clicked();
         if view.rows.len() > 1 {
-            fine_print(ui, &texts::controllers(model.language, lacking));
+            small_note(ui, &texts::controllers(model.language, lacking));
         }
         if clicked {
             messages.push(Message::act(Model::trust_configurator));
@@ -235,7 +235,7 @@ fn trust(ui: &mut Ui, view: &VerifyView, lacking: usize, model: &Model, messages
 fn login(ui: &mut Ui, view: &mut VerifyView, model: &Model) {
     let text = |key: T| key.text(model.language);
     ui.add_space(theme::SPACE);
-    fine_print(ui, text(T::VerifyLogin));
+    small_note(ui, text(T::VerifyLogin));
     form(ui, "verify login", |ui| {
         labelled(ui, text(T::UserName), |ui| Some(text_field(ui, &mut view.user, text(T::UserRule))));
         labelled(ui, text(T::UserPassword), |ui| {

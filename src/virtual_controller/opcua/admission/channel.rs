@@ -8,16 +8,16 @@ use super::sessions::SessionNumber;
 
 /// What the gate knows of the secure channel of one connection.
 #[derive(Debug, Default)]
-pub(super) struct Channel {
+pub(super) struct ChannelState {
     /// The newest last; a client may use the one before until it has used the newest.
     keys: Vec<Arc<ChannelKeys>>,
-    last: Option<Sent>,
-    asked: HashMap<u32, Asked>,
+    last: Option<LastRequest>,
+    asked: HashMap<u32, PendingCreateSession>,
 }
 
 /// The last message of the client that went to the server.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Sent {
+pub(super) struct LastRequest {
     pub(super) channel: u32,
     pub(super) token: u32,
     pub(super) sequence: u32,
@@ -25,13 +25,13 @@ pub(super) struct Sent {
 
 /// A CreateSession request that the server has not answered yet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Asked {
+pub(super) enum PendingCreateSession {
     Session(SessionNumber),
     /// The server is made to refuse it, and the client is told this status.
     Refused(StatusCode),
 }
 
-impl Channel {
+impl ChannelState {
     pub(super) fn opened(&mut self, keys: ChannelKeys) {
         self.keys.push(Arc::new(keys));
         if self.keys.len() > 2 {
@@ -43,7 +43,7 @@ impl Channel {
         self.keys.iter().rev().find(|keys| keys.are_of(token)).cloned()
     }
 
-    pub(super) fn sent(&mut self, sent: Sent) {
+    pub(super) fn sent(&mut self, sent: LastRequest) {
         self.last = Some(sent);
     }
 
@@ -55,7 +55,7 @@ impl Channel {
     }
 
     /// False if too many requests are unanswered.
-    pub(super) fn ask(&mut self, request: u32, asked: Asked) -> bool {
+    pub(super) fn ask(&mut self, request: u32, asked: PendingCreateSession) -> bool {
         self.asked.len() < MAX_ASKED && self.asked.insert(request, asked).is_none()
     }
 
@@ -63,7 +63,7 @@ impl Channel {
         self.asked.contains_key(&request)
     }
 
-    pub(super) fn answered(&mut self, request: u32) -> Option<Asked> {
+    pub(super) fn answered(&mut self, request: u32) -> Option<PendingCreateSession> {
         self.asked.remove(&request)
     }
 

@@ -34,7 +34,7 @@ struct Keys {
 
 /// How the first chunk of a message begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Beginning {
+pub(super) struct MessageStart {
     pub(super) sequence: u32,
     pub(super) request: u32,
     /// `None` if no service has this number.
@@ -87,7 +87,7 @@ impl ChannelKeys {
     }
 
     /// How the first chunk of a message begins; its first [`BEGINNING`] bytes are enough. `None` if it is too short.
-    pub(super) fn begin(&self, sender: Sender, chunk: &[u8]) -> Option<Beginning> {
+    pub(super) fn begin(&self, sender: Sender, chunk: &[u8]) -> Option<MessageStart> {
         let sealed = chunk.get(CLEAR..)?;
         let plain = match self.keys_of(sender) {
             Some((keys, true)) => {
@@ -102,7 +102,7 @@ impl ChannelKeys {
         let (request, mut service) = rest.split_first_chunk()?;
         let contexts = contexts();
         let service = NodeId::decode(&mut service, &contexts.context()).ok().and_then(|id| id.as_object_id().ok());
-        Some(Beginning { sequence: u32::from_le_bytes(*sequence), request: u32::from_le_bytes(*request), service })
+        Some(MessageStart { sequence: u32::from_le_bytes(*sequence), request: u32::from_le_bytes(*request), service })
     }
 
     /// Sequence header and body of a chunk (OPC 10000-6 §6.7.2). `None` if it is not sealed as it should be.

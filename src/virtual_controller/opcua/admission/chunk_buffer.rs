@@ -1,5 +1,5 @@
 use super::fault::Fault;
-use super::frame::Header;
+use super::frame::MessageHeader;
 
 /// Bytes on their way in one direction, chunk by chunk: first those that may go on, then those still to be looked at.
 #[derive(Debug, Default)]
@@ -17,11 +17,11 @@ impl ChunkBuffer {
     }
 
     /// The header of the next chunk to look at, once what is before it was let pass. `None` if it is not there yet.
-    pub(in super::super) fn next(&mut self, max_chunk: usize) -> Result<Option<Header>, Fault> {
+    pub(in super::super) fn next(&mut self, max_chunk: usize) -> Result<Option<MessageHeader>, Fault> {
         let here = self.passing.min(self.bytes.len() - self.good);
         self.good += here;
         self.passing -= here;
-        if self.passing > 0 { Ok(None) } else { Header::parse(self.rest(), max_chunk) }
+        if self.passing > 0 { Ok(None) } else { MessageHeader::parse(self.rest(), max_chunk) }
     }
 
     /// From the header of the next chunk on.
@@ -30,17 +30,17 @@ impl ChunkBuffer {
     }
 
     /// The next chunk, if all of it is here.
-    pub(in super::super) fn chunk(&self, header: Header) -> Option<&[u8]> {
+    pub(in super::super) fn chunk(&self, header: MessageHeader) -> Option<&[u8]> {
         self.rest().get(..header.size)
     }
 
     /// Lets the next chunk pass, here or not.
-    pub(in super::super) fn pass(&mut self, header: Header) {
+    pub(in super::super) fn pass(&mut self, header: MessageHeader) {
         self.passing = header.size;
     }
 
     /// Puts another chunk in the place of the next one, which is here, and lets it pass.
-    pub(in super::super) fn replace(&mut self, header: Header, chunk: Vec<u8>) {
+    pub(in super::super) fn replace(&mut self, header: MessageHeader, chunk: Vec<u8>) {
         self.passing = chunk.len();
         self.bytes.splice(self.good..self.good + header.size, chunk);
     }

@@ -10,21 +10,21 @@ use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
 use tokio::task::spawn_blocking;
 use tokio::time::{Instant, timeout, timeout_at};
 
-use super::channel::{Asked, Sent};
-use super::channel_keys::{Beginning, ChannelKeys, Sender, decode, token_of};
+use super::channel::{LastRequest, PendingCreateSession};
+use super::channel_keys::{ChannelKeys, MessageStart, Sender, decode, token_of};
 use super::chunk_buffer::ChunkBuffer;
-use super::connections::{Connection, Identity, Stop};
+use super::connections::{ClaimedIdentity, GateConnection, StopReason};
 use super::fault::Fault;
-use super::frame::{Header, Kind, channel_of};
+use super::frame::{MessageHeader, MessageKind, channel_of};
 use super::gate::Gate;
 use super::logins;
 
 /// From one client to the server: whole chunks only, and none that was not looked at.
 pub(super) struct ClientToServer<'a> {
     gate: &'a Arc<Gate>,
-    connection: &'a Arc<Connection>,
+    connection: &'a Arc<GateConnection>,
     chunk_buffer: ChunkBuffer,
-    identity: Option<Arc<Identity>>,
+    identity: Option<Arc<ClaimedIdentity>>,
     /// A message has begun whose last chunk was not seen yet.
     in_message: bool,
     /// The client has closed its channel.
@@ -37,8 +37,8 @@ pub(super) struct ClientToServer<'a> {
 pub(super) async fn read_hello(from: &mut OwnedReadHalf, deadline: Instant) -> Result<Option<Vec<u8>>, Fault> {
     let mut bytes = Vec::with_capacity(4096);
     loop {
-        if let Some(header) = Header::parse(&bytes, 0)? {
-            if header.kind != Kind::Hello {
+        if let Some(header) = MessageHeader::parse(&bytes, 0)? {
+            if header.kind != MessageKind::Hello {
                 return Err(Fault::new(StatusCode::BadTcpMessageTypeInvalid, "a Hello has to come first"));
             }
             if bytes.len() >= header.size {
@@ -54,7 +54,7 @@ pub(super) async fn read_hello(from: &mut OwnedReadHalf, deadline: Instant) -> R
 
 impl<'a> ClientToServer<'a> {
     /// `bytes` begin with a Hello that was looked at.
-    pub(super) fn new(gate: &'a Arc<Gate>, connection: &'a Arc<Connection>, bytes: Vec<u8>) -> Self {
+    pub(super) fn new(gate: &'a Arc<Gate>, connection: &'a Arc<GateConnection>, bytes: Vec<u8>) -> Self {
         Self {
             gate,
             connection,
@@ -72,7 +72,7 @@ impl<'a> ClientToServer<'a> {
         from: &mut OwnedReadHalf,
         to: &mut OwnedWriteHalf,
         deadline: Instant,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), StopReason> {
         if let Some(hello) = self.next()? {
             self.chunk_buffer.pass(hello);
         }
@@ -110,23 +110,23 @@ impl<'a> ClientToServer<'a> {
             return false;
         }
         let _ = timeout(ANSWER_TIMEOUT, self.connection.all_answered()).await;
-        let messages = self.gate.farewell(self.connection);
+        let messages = self.gate.closing_message(self.connection);
         let _ = timeout(ANSWER_TIMEOUT, to.write_all(&messages)).await;
         let _ = to.shutdown().await;
         !messages.is_empty()
     }
 
     /// Lets pass what is in order.
-    async fn look(&mut self) -> Result<(), Stop> {
+    async fn look(&mut self) -> Result<(), StopReason> {
         while !self.is_closed
             && let Some(header) = self.next()?
         {
             let looked_at = match (header.kind, self.identity.is_some()) {
-                (Kind::Open, _) => self.open(header).await?,
-                (Kind::Message, true) => {
+                (MessageKind::Open, _) => self.open(header).await?,
+                (MessageKind::Message, true) => {
                     self.message(header).map_err(|fault| self.gate.refuse(self.connection, fault))?
                 }
-                (Kind::Close, true) => {
+                (MessageKind::Close, true) => {
                     self.is_closed = true;
                     true
                 }
@@ -142,12 +142,12 @@ impl<'a> ClientToServer<'a> {
         Ok(())
     }
 
-    fn next(&mut self) -> Result<Option<Header>, Stop> {
+    fn next(&mut self) -> Result<Option<MessageHeader>, StopReason> {
         self.chunk_buffer.next(self.gate.limits().chunk).map_err(|fault| self.gate.refuse(self.connection, fault))
     }
 
     /// False while the chunk is not whole.
-    async fn open(&mut self, header: Header) -> Result<bool, Stop> {
+    async fn open(&mut self, header: MessageHeader) -> Result<bool, StopReason> {
         let Some(chunk) = self.chunk_buffer.chunk(header) else { return Ok(false) };
         let identity = self.gate.admit(self.connection, chunk).await?;
         let secured = self.connection.state.lock().secured.clone();
@@ -162,7 +162,8 @@ impl<'a> ClientToServer<'a> {
                 self.chunk_buffer.replace(header, sealed);
             }
             None => {
-                let sequence = super::frame::Open::parse(chunk).ok().and_then(|open| sequence_at(chunk, open.body));
+                let sequence =
+                    super::frame::OpenChannelHeader::parse(chunk).ok().and_then(|open| sequence_at(chunk, open.body));
                 let mut channel = self.connection.channel.lock();
                 if self.identity.is_none() {
                     channel.opened(ChannelKeys::none());
@@ -177,7 +178,7 @@ impl<'a> ClientToServer<'a> {
     }
 
     /// A chunk of a message. False while it is not whole.
-    fn message(&mut self, header: Header) -> Result<bool, Fault> {
+    fn message(&mut self, header: MessageHeader) -> Result<bool, Fault> {
         let Some(chunk) = self.chunk_buffer.chunk(header) else { return Ok(false) };
         let (channel, token) = (channel_of(chunk).unwrap_or_default(), token_of(chunk).unwrap_or_default());
         let keys = self.connection.channel.lock().keys(token);
@@ -187,7 +188,7 @@ impl<'a> ClientToServer<'a> {
         let beginning = keys
             .begin(Sender::Client, chunk)
             .ok_or_else(|| Fault::new(StatusCode::BadSecurityChecksFailed, "a message that is too short"))?;
-        self.connection.channel.lock().sent(Sent { channel, token, sequence: beginning.sequence });
+        self.connection.channel.lock().sent(LastRequest { channel, token, sequence: beginning.sequence });
         let is_first = !self.in_message;
         self.in_message = header.last == b'C';
         let edited = if is_first { self.request(header, chunk, &keys, beginning)? } else { None };
@@ -199,7 +200,7 @@ impl<'a> ClientToServer<'a> {
     }
 
     /// What takes the place of the first chunk of a request, if something has to.
-    fn request(&self, header: Header, chunk: &[u8], keys: &ChannelKeys, beginning: Beginning) -> Edited {
+    fn request(&self, header: MessageHeader, chunk: &[u8], keys: &ChannelKeys, beginning: MessageStart) -> Edited {
         use ObjectId::{
             ActivateSessionRequest_Encoding_DefaultBinary as ACTIVATE,
             CreateSessionRequest_Encoding_DefaultBinary as CREATE,
@@ -245,12 +246,12 @@ impl<'a> ClientToServer<'a> {
             self.gate.enter_session(self.connection).ok_or((StatusCode::BadTooManySessions, "too many sessions"))
         };
         let asked = match refusal {
-            Ok(session) => Asked::Session(session),
+            Ok(session) => PendingCreateSession::Session(session),
             Err((status, reason)) => {
                 self.gate.spoilt(self.connection, reason);
                 request.endpoint_url = UAString::null();
                 is_edited = true;
-                Asked::Refused(status)
+                PendingCreateSession::Refused(status)
             }
         };
         if self.connection.channel.lock().ask(number, asked) {

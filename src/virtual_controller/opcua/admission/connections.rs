@@ -6,29 +6,29 @@ use opcua::crypto::SecurityPolicy;
 use parking_lot::Mutex;
 use tokio::sync::{Notify, watch};
 
-use super::channel::Channel;
+use super::channel::ChannelState;
 use super::fault::Fault;
 use super::rewrap::SecuredClient;
 use crate::pki::Certificate;
 use crate::virtual_controller::connection_limits::{
-    Activity, ConnectionLimits, ConnectionSlot, ConnectionSlots, ConnectionStage, LimitedConnection, Source,
+    Activity, ConnectionLimits, ConnectionSlot, ConnectionSlots, ConnectionStage, LimitedConnection, SourceNetwork,
 };
 
 /// The connections there are, and the secure channel of each.
 #[derive(Debug)]
-pub(super) struct Connections {
-    slots: Arc<ConnectionSlots<Connection>>,
-    by_channel: Mutex<HashMap<u32, Arc<Connection>>>,
+pub(super) struct GateConnections {
+    slots: Arc<ConnectionSlots<GateConnection>>,
+    by_channel: Mutex<HashMap<u32, Arc<GateConnection>>>,
 }
 
 /// One connection of a client.
 #[derive(Debug)]
-pub(super) struct Connection {
+pub(super) struct GateConnection {
     pub(super) peer: SocketAddr,
     pub(super) activity: Activity,
-    stop: watch::Sender<Option<Stop>>,
+    stop: watch::Sender<Option<StopReason>>,
     pub(super) state: Mutex<ConnectionState>,
-    pub(super) channel: Mutex<Channel>,
+    pub(super) channel: Mutex<ChannelState>,
     answered: Notify,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Connection {
 #[derive(Debug, Default)]
 pub(super) struct ConnectionState {
     /// With what it was admitted.
-    pub(super) identity: Option<Arc<Identity>>,
+    pub(super) identity: Option<Arc<ClaimedIdentity>>,
     /// The secure channel the server gave it.
     pub(super) channel: Option<u32>,
     /// Sessions on it that were looked at and found to belong there.
@@ -49,7 +49,7 @@ pub(super) struct ConnectionState {
 
 /// Who asks for a secure channel, as its OpenSecureChannel says in clear.
 #[derive(Debug)]
-pub(super) struct Identity {
+pub(super) struct ClaimedIdentity {
     pub(super) policy: SecurityPolicy,
     /// The certificate and what was sent with it, byte for byte; empty without security.
     pub(super) sent: Vec<u8>,
@@ -67,7 +67,7 @@ impl ConnectionState {
     }
 }
 
-impl Identity {
+impl ClaimedIdentity {
     pub(super) fn leaf(&self) -> Option<&Certificate> {
         self.chain.first()
     }
@@ -75,7 +75,7 @@ impl Identity {
 
 /// Why a connection has to end.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) enum Stop {
+pub(super) enum StopReason {
     /// It is told this.
     Told(Fault),
     /// Nobody waits until it has read this.
@@ -83,7 +83,7 @@ pub(super) enum Stop {
 }
 
 /// Why the connection with this has to end, once it has to.
-pub(super) async fn stop_asked(stopped: &mut watch::Receiver<Option<Stop>>) -> Stop {
+pub(super) async fn stop_asked(stopped: &mut watch::Receiver<Option<StopReason>>) -> StopReason {
     let asked = stopped.wait_for(Option::is_some).await.map(|stop| stop.clone());
     match asked {
         Ok(Some(stop)) => stop,
@@ -94,24 +94,28 @@ pub(super) async fn stop_asked(stopped: &mut watch::Receiver<Option<Stop>>) -> S
 
 /// A connection that is served, until this is dropped.
 #[derive(Debug)]
-pub(super) struct Entered<'a> {
-    connections: &'a Connections,
-    slot: ConnectionSlot<Connection>,
+pub(super) struct ServedConnection<'a> {
+    connections: &'a GateConnections,
+    slot: ConnectionSlot<GateConnection>,
 }
 
-impl Connections {
+impl GateConnections {
     pub(super) fn new(limits: ConnectionLimits) -> Self {
         Self { slots: Arc::new(ConnectionSlots::new(limits)), by_channel: Mutex::default() }
     }
 
     /// Takes in one more, as [`ConnectionSlots::enter`] does.
-    pub(super) fn enter(&self, peer: SocketAddr, stop: watch::Sender<Option<Stop>>) -> Option<Entered<'_>> {
-        let slot = self.slots.enter(Connection::new(peer, stop))?;
-        Some(Entered { connections: self, slot })
+    pub(super) fn enter(
+        &self,
+        peer: SocketAddr,
+        stop: watch::Sender<Option<StopReason>>,
+    ) -> Option<ServedConnection<'_>> {
+        let slot = self.slots.enter(GateConnection::new(peer, stop))?;
+        Some(ServedConnection { connections: self, slot })
     }
 
     /// Notes which secure channel the server gave a connection.
-    pub(super) fn opened(&self, connection: &Arc<Connection>, channel: u32) {
+    pub(super) fn opened(&self, connection: &Arc<GateConnection>, channel: u32) {
         let mut by_channel = self.by_channel.lock();
         if channel == 0 || !self.slots.has(connection) {
             return;
@@ -128,30 +132,30 @@ impl Connections {
         by_channel.insert(channel, connection.clone());
     }
 
-    pub(super) fn of_channel(&self, channel: u32) -> Option<Arc<Connection>> {
+    pub(super) fn of_channel(&self, channel: u32) -> Option<Arc<GateConnection>> {
         self.by_channel.lock().get(&channel).cloned()
     }
 
     /// Whether a connection that does not have to end was admitted with this certificate, `one` aside.
-    pub(super) fn any_other_has(&self, leaf: &Certificate, one: &Connection) -> bool {
+    pub(super) fn any_other_has(&self, leaf: &Certificate, one: &GateConnection) -> bool {
         self.all().iter().filter(|other| !std::ptr::eq(&***other, one) && !other.is_stopped()).any(|other| {
             let identity = other.state.lock().identity.clone();
             identity.is_some_and(|identity| identity.leaf() == Some(leaf))
         })
     }
 
-    pub(super) fn all(&self) -> Vec<Arc<Connection>> {
+    pub(super) fn all(&self) -> Vec<Arc<GateConnection>> {
         self.slots.all()
     }
 }
 
-impl Entered<'_> {
-    pub(super) fn connection(&self) -> &Arc<Connection> {
+impl ServedConnection<'_> {
+    pub(super) fn connection(&self) -> &Arc<GateConnection> {
         &self.slot.connection
     }
 }
 
-impl Drop for Entered<'_> {
+impl Drop for ServedConnection<'_> {
     fn drop(&mut self) {
         let mut by_channel = self.connections.by_channel.lock();
         let channel = self.connection().state.lock().channel;
@@ -163,8 +167,8 @@ impl Drop for Entered<'_> {
     }
 }
 
-impl Connection {
-    pub(super) fn new(peer: SocketAddr, stop: watch::Sender<Option<Stop>>) -> Self {
+impl GateConnection {
+    pub(super) fn new(peer: SocketAddr, stop: watch::Sender<Option<StopReason>>) -> Self {
         Self {
             peer,
             activity: Activity::new(),
@@ -191,7 +195,7 @@ impl Connection {
     }
 
     /// Ends it, unless that has begun already.
-    pub(super) fn stop(&self, stop: Stop) {
+    pub(super) fn stop(&self, stop: StopReason) {
         self.stop.send_if_modified(|slot| {
             let first = slot.is_none();
             if first {
@@ -206,9 +210,9 @@ impl Connection {
     }
 }
 
-impl LimitedConnection for Connection {
-    fn source(&self) -> Source {
-        Source::new(self.peer.ip())
+impl LimitedConnection for GateConnection {
+    fn source(&self) -> SourceNetwork {
+        SourceNetwork::new(self.peer.ip())
     }
 
     fn activity(&self) -> &Activity {
@@ -217,7 +221,7 @@ impl LimitedConnection for Connection {
 
     fn evict(&self) {
         let status = opcua::types::StatusCode::BadTcpNotEnoughResources;
-        self.stop(Stop::AtOnce(Fault::new(status, "others need the connection")));
+        self.stop(StopReason::AtOnce(Fault::new(status, "others need the connection")));
     }
 }
 
@@ -233,7 +237,7 @@ mod tests {
     #[test]
     fn a_connection_is_known_by_its_channel_until_it_ends() {
         let limits = ConnectionLimits { connections: 4, per_source: 3, silence: Duration::from_secs(60) };
-        let connections = Connections::new(limits);
+        let connections = GateConnections::new(limits);
         let peer = SocketAddr::from(([192, 168, 0, 1], 50_000));
         let entered = connections.enter(peer, watch::channel(None).0).unwrap();
         let connection = entered.connection().clone();

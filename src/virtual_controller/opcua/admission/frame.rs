@@ -15,7 +15,7 @@ pub(super) const MAX_SENT_CERTIFICATES: usize = 8;
 
 /// What travels on a connection (OPC 10000-6 §7.1.2.2, §6.7.2.2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in super::super) enum Kind {
+pub(in super::super) enum MessageKind {
     Hello,
     Acknowledge,
     Error,
@@ -26,28 +26,28 @@ pub(in super::super) enum Kind {
 
 /// The first eight bytes of a message or chunk.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in super::super) struct Header {
-    pub(in super::super) kind: Kind,
+pub(in super::super) struct MessageHeader {
+    pub(in super::super) kind: MessageKind,
     /// `F`, or for parts of a longer message `C` and `A`.
     pub(super) last: u8,
     /// Of the whole chunk, header included.
     pub(super) size: usize,
 }
 
-impl Header {
+impl MessageHeader {
     /// `None` while fewer than [`HEADER`] bytes are there. `max_chunk` bounds messages; the rest has limits of its own.
     pub(super) fn parse(bytes: &[u8], max_chunk: usize) -> Result<Option<Self>, Fault> {
         let Some(&[a, b, c, last, ref size @ ..]) = bytes.first_chunk::<HEADER>() else { return Ok(None) };
         let (kind, min, max) = match &[a, b, c] {
-            b"HEL" => (Kind::Hello, HEADER + 5 * 4 + 4, MAX_HELLO),
-            b"ACK" => (Kind::Acknowledge, HEADER + 5 * 4, HEADER + 5 * 4),
-            b"ERR" => (Kind::Error, HEADER + 4 + 4, MAX_HELLO),
-            b"OPN" => (Kind::Open, HEADER + 4 + 3 * 4, MAX_OPEN),
-            b"MSG" => (Kind::Message, SYMMETRIC_HEADER, max_chunk),
-            b"CLO" => (Kind::Close, SYMMETRIC_HEADER, max_chunk),
+            b"HEL" => (MessageKind::Hello, HEADER + 5 * 4 + 4, MAX_HELLO),
+            b"ACK" => (MessageKind::Acknowledge, HEADER + 5 * 4, HEADER + 5 * 4),
+            b"ERR" => (MessageKind::Error, HEADER + 4 + 4, MAX_HELLO),
+            b"OPN" => (MessageKind::Open, HEADER + 4 + 3 * 4, MAX_OPEN),
+            b"MSG" => (MessageKind::Message, SYMMETRIC_HEADER, max_chunk),
+            b"CLO" => (MessageKind::Close, SYMMETRIC_HEADER, max_chunk),
             _ => return Err(Fault::new(StatusCode::BadTcpMessageTypeInvalid, "not an OPC UA message")),
         };
-        if last != b'F' && !(kind == Kind::Message && matches!(last, b'C' | b'A')) {
+        if last != b'F' && !(kind == MessageKind::Message && matches!(last, b'C' | b'A')) {
             return Err(Fault::new(StatusCode::BadTcpMessageTypeInvalid, "not a chunk of this kind of message"));
         }
         let size = u32::from_le_bytes(*size) as usize;
@@ -64,7 +64,7 @@ impl Header {
 
 /// The part of an OpenSecureChannel chunk that is not encrypted (OPC 10000-6 §6.7.2.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in super::super) struct Open<'a> {
+pub(in super::super) struct OpenChannelHeader<'a> {
     /// 0 in the first request of a connection.
     pub(in super::super) channel: u32,
     pub(in super::super) policy_uri: &'a str,
@@ -75,7 +75,7 @@ pub(in super::super) struct Open<'a> {
     pub(super) body: usize,
 }
 
-impl<'a> Open<'a> {
+impl<'a> OpenChannelHeader<'a> {
     /// `chunk` is a whole one.
     pub(in super::super) fn parse(chunk: &'a [u8]) -> Result<Self, Fault> {
         let mut rest = chunk.get(HEADER..).unwrap_or_default();
@@ -163,20 +163,20 @@ pub(in super::super) mod tests {
         chunk
     }
 
-    fn header(kind: &[u8; 4], size: u32) -> Result<Option<Header>, StatusCode> {
+    fn header(kind: &[u8; 4], size: u32) -> Result<Option<MessageHeader>, StatusCode> {
         let mut bytes = kind.to_vec();
         bytes.extend(size.to_le_bytes());
-        Header::parse(&bytes, CHUNK).map_err(|fault| fault.status)
+        MessageHeader::parse(&bytes, CHUNK).map_err(|fault| fault.status)
     }
 
     #[test]
     fn a_header_says_what_comes_and_how_much() {
-        let good = |kind, last, size| Ok(Some(Header { kind, last, size }));
-        assert_eq!(header(b"HELF", 60), good(Kind::Hello, b'F', 60));
-        assert_eq!(header(b"OPNF", 16_384), good(Kind::Open, b'F', 16_384));
-        assert_eq!(header(b"MSGC", 65_535), good(Kind::Message, b'C', 65_535));
-        assert_eq!(header(b"CLOF", 60), good(Kind::Close, b'F', 60));
-        assert_eq!(Header::parse(b"HELF\0\0\0", CHUNK), Ok(None), "one byte is missing");
+        let good = |kind, last, size| Ok(Some(MessageHeader { kind, last, size }));
+        assert_eq!(header(b"HELF", 60), good(MessageKind::Hello, b'F', 60));
+        assert_eq!(header(b"OPNF", 16_384), good(MessageKind::Open, b'F', 16_384));
+        assert_eq!(header(b"MSGC", 65_535), good(MessageKind::Message, b'C', 65_535));
+        assert_eq!(header(b"CLOF", 60), good(MessageKind::Close, b'F', 60));
+        assert_eq!(MessageHeader::parse(b"HELF\0\0\0", CHUNK), Ok(None), "one byte is missing");
     }
 
     #[test]
@@ -196,24 +196,24 @@ pub(in super::super) mod tests {
     #[test]
     fn the_clear_part_of_an_open_request_is_read_and_its_lengths_are_not_believed() {
         let chunk = open(7, "policy", b"certificate", b"thumbprint", b"secret");
-        let read = Open::parse(&chunk).unwrap();
+        let read = OpenChannelHeader::parse(&chunk).unwrap();
         assert_eq!((read.channel, read.policy_uri), (7, "policy"));
         assert_eq!((read.certificates, read.receiver_thumbprint), (&b"certificate"[..], &b"thumbprint"[..]));
         assert_eq!(&chunk[read.body..], b"secret");
 
         let mut null = open(0, "", b"", b"", b"");
         null[12..].fill(0xff);
-        let read = Open::parse(&null).unwrap();
+        let read = OpenChannelHeader::parse(&null).unwrap();
         assert_eq!((read.policy_uri, read.certificates), ("", &b""[..]));
 
         for length in [0x7fff_ffff_u32, u32::MAX - 1, 100] {
             let mut chunk = open(0, "policy", b"certificate", b"thumbprint", b"");
             chunk[12..16].copy_from_slice(&length.to_le_bytes());
-            assert_eq!(Open::parse(&chunk).unwrap_err().status, StatusCode::BadDecodingError, "{length}");
+            assert_eq!(OpenChannelHeader::parse(&chunk).unwrap_err().status, StatusCode::BadDecodingError, "{length}");
         }
         let not_text =
             open(0, "x", b"", b"", b"").into_iter().map(|b| if b == b'x' { 0xff } else { b }).collect::<Vec<_>>();
-        assert_eq!(Open::parse(&not_text).unwrap_err().status, StatusCode::BadSecurityPolicyRejected);
+        assert_eq!(OpenChannelHeader::parse(&not_text).unwrap_err().status, StatusCode::BadSecurityPolicyRejected);
     }
 
     #[test]

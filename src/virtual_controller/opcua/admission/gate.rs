@@ -10,17 +10,17 @@ use tokio::task::spawn_blocking;
 
 use super::super::certificate_store::PkiFolder;
 use super::super::endpoints::wire;
-use super::connections::{Connection, Connections, Identity, Stop};
+use super::client_verifier::{self, ClientVerifier, invalid, read_chain};
+use super::connections::{ClaimedIdentity, GateConnection, GateConnections, StopReason};
 use super::fault::Fault;
-use super::frame::Open;
+use super::frame::OpenChannelHeader;
 use super::inner_server::InnerServer;
-use super::judge::{self, Judge, invalid, read_chain};
-use super::limits::Limits;
-use super::report::Reporter;
+use super::limits::AdmissionLimits;
+use super::report::AdmissionReporter;
 use super::rewrap::{SecuredClient, ServerKeyPair};
-use super::sessions::{SessionNumber, Sessions};
+use super::sessions::{OpcUaSessions, SessionNumber};
 use crate::model::SecurityPolicy;
-use crate::pki::{Certificate, CertificateFlaw, Rejection, TrustLists, check_application_uri};
+use crate::pki::{Certificate, CertificateFlaw, CertificateRejection, TrustLists, check_application_uri};
 use crate::virtual_controller::connection_limits::ConnectionStage;
 
 /// Stands in front of the OPC UA crate's server, which has no port of its own, and lets in whom it may.
@@ -29,51 +29,60 @@ use crate::virtual_controller::connection_limits::ConnectionStage;
 /// clients' connections are therefore ours; dropping [`Gate::run`] closes them all, and the port.
 #[derive(Debug)]
 pub(in super::super) struct Gate {
-    settings: Settings,
+    settings: GateSettings,
     pub(super) server: InnerServer,
     own: Arc<ServerKeyPair>,
-    judge: Judge,
+    verifier: ClientVerifier,
     pki: PkiFolder,
-    pub(super) connections: Connections,
-    sessions: Sessions,
-    pub(super) reporter: Reporter,
+    pub(super) connections: GateConnections,
+    sessions: OpcUaSessions,
+    pub(super) reporter: AdmissionReporter,
 }
 
 /// What the gate of one server does not change.
 #[derive(Debug)]
-pub(in super::super) struct Settings {
-    pub(super) limits: Limits,
+pub(in super::super) struct GateSettings {
+    pub(super) limits: AdmissionLimits,
     pub(super) policies: BTreeSet<SecurityPolicy>,
     pub(super) detailed_status: bool,
 }
 
-impl Settings {
+impl GateSettings {
     pub(in super::super) fn new(policies: BTreeSet<SecurityPolicy>, detailed_status: bool) -> Self {
-        Self { limits: Limits::default(), policies, detailed_status }
+        Self { limits: AdmissionLimits::default(), policies, detailed_status }
     }
 }
 
 /// An open connection that was ended because its certificate is not trusted any more.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct CutConnection {
+pub struct DisconnectedConnection {
     pub address: SocketAddr,
     /// The client's own.
     pub certificate: Certificate,
     /// Why it would not be let in now.
-    pub rejection: Rejection,
+    pub rejection: CertificateRejection,
 }
 
 impl Gate {
     pub(in super::super) fn new(
-        settings: Settings,
+        settings: GateSettings,
         server: InnerServer,
         own: ServerKeyPair,
-        judge: Judge,
+        verifier: ClientVerifier,
         pki: PkiFolder,
-        reporter: Reporter,
+        reporter: AdmissionReporter,
     ) -> Self {
-        let connections = Connections::new(settings.limits.slots);
-        Self { settings, server, own: Arc::new(own), judge, pki, connections, sessions: Sessions::default(), reporter }
+        let connections = GateConnections::new(settings.limits.slots);
+        Self {
+            settings,
+            server,
+            own: Arc::new(own),
+            verifier,
+            pki,
+            connections,
+            sessions: OpcUaSessions::default(),
+            reporter,
+        }
     }
 
     /// Makes the crate's server the one that clients are led to, until the answer is dropped.
@@ -85,20 +94,20 @@ impl Gate {
     /// Puts other trust lists in force and ends every open connection that would not be let in now.
     ///
     /// Blocks as [`TrustLists::validate`] does, for each connection.
-    pub(in super::super) fn set_trust(&self, lists: TrustLists) -> Vec<CutConnection> {
-        self.judge.replace(lists);
+    pub(in super::super) fn set_trust(&self, lists: TrustLists) -> Vec<DisconnectedConnection> {
+        self.verifier.replace(lists);
         let mut cut = Vec::new();
         for connection in self.connections.all() {
             let Some(identity) = connection.state.lock().identity.clone() else { continue };
             let Some(leaf) = identity.leaf() else { continue };
-            if let Err(rejection) = self.judge.admit(&identity.chain, identity.policy, || ()) {
-                connection.stop(Stop::Told(judge::fault(&rejection, self.settings.detailed_status)));
+            if let Err(rejection) = self.verifier.admit(&identity.chain, identity.policy, || ()) {
+                connection.stop(StopReason::Told(client_verifier::fault(&rejection, self.settings.detailed_status)));
                 self.forget(leaf, &connection);
                 if connection.state.lock().channel.is_none() {
                     continue;
                 }
                 self.reporter.cut(connection.peer, &identity.chain, &rejection);
-                cut.push(CutConnection { address: connection.peer, certificate: leaf.clone(), rejection });
+                cut.push(DisconnectedConnection { address: connection.peer, certificate: leaf.clone(), rejection });
             }
         }
         cut
@@ -108,7 +117,7 @@ impl Gate {
         &self.pki
     }
 
-    pub(super) fn limits(&self) -> &Limits {
+    pub(super) fn limits(&self) -> &AdmissionLimits {
         &self.settings.limits
     }
 
@@ -116,23 +125,23 @@ impl Gate {
         &self.own
     }
 
-    pub(super) fn sessions(&self) -> &Sessions {
+    pub(super) fn sessions(&self) -> &OpcUaSessions {
         &self.sessions
     }
 
     /// A client asks for one more session. `None` if it cannot have one.
-    pub(super) fn enter_session(&self, connection: &Arc<Connection>) -> Option<SessionNumber> {
+    pub(super) fn enter_session(&self, connection: &Arc<GateConnection>) -> Option<SessionNumber> {
         self.sessions.enter(connection, &|token| self.server.find_session(token))
     }
 
     /// What the server is told when a client has left: which of its sessions end.
-    pub(super) fn farewell(&self, connection: &Arc<Connection>) -> Vec<u8> {
+    pub(super) fn closing_message(&self, connection: &Arc<GateConnection>) -> Vec<u8> {
         let Some(channel) = connection.state.lock().channel else { return Vec::new() };
         let ended = self.sessions.leave(connection, channel, &|token| self.server.find_session(token));
         connection.channel.lock().close_sessions(&ended)
     }
 
-    pub(super) fn connection_of_mark(&self, mark: &str) -> Option<Arc<Connection>> {
+    pub(super) fn connection_of_mark(&self, mark: &str) -> Option<Arc<GateConnection>> {
         self.connections
             .all()
             .into_iter()
@@ -150,24 +159,29 @@ impl Gate {
     }
 
     /// Tells of a refusal, and says how the connection is to end.
-    pub(super) fn refuse(&self, connection: &Connection, fault: Fault) -> Stop {
+    pub(super) fn refuse(&self, connection: &GateConnection, fault: Fault) -> StopReason {
         let told = self.reporter.refused(connection.peer, &fault.reason);
-        if told { Stop::Told(fault) } else { Stop::AtOnce(fault) }
+        if told { StopReason::Told(fault) } else { StopReason::AtOnce(fault) }
     }
 
-    fn reject(&self, connection: &Connection, chain: &[Certificate], rejection: &Rejection) -> Stop {
-        let fault = judge::fault(rejection, self.settings.detailed_status);
+    fn reject(
+        &self,
+        connection: &GateConnection,
+        chain: &[Certificate],
+        rejection: &CertificateRejection,
+    ) -> StopReason {
+        let fault = client_verifier::fault(rejection, self.settings.detailed_status);
         let told = self.reporter.rejected(connection.peer, chain, rejection);
-        if told { Stop::Told(fault) } else { Stop::AtOnce(fault) }
+        if told { StopReason::Told(fault) } else { StopReason::AtOnce(fault) }
     }
 
     /// Looks at an OpenSecureChannel request: the first of a connection, or a renewal by the same client.
     pub(super) async fn admit(
         self: &Arc<Self>,
-        connection: &Arc<Connection>,
+        connection: &Arc<GateConnection>,
         chunk: &[u8],
-    ) -> Result<Arc<Identity>, Stop> {
-        let open = Open::parse(chunk).map_err(|fault| self.refuse(connection, fault))?;
+    ) -> Result<Arc<ClaimedIdentity>, StopReason> {
+        let open = OpenChannelHeader::parse(chunk).map_err(|fault| self.refuse(connection, fault))?;
         let refuse = |status, reason| Err(self.refuse(connection, Fault::new(status, reason)));
         let (known, channel) = {
             let state = connection.state.lock();
@@ -189,7 +203,7 @@ impl Gate {
             _ => {}
         }
         if policy == WirePolicy::None {
-            let identity = Arc::new(Identity { policy, sent: open.certificates.to_vec(), chain: Vec::new() });
+            let identity = Arc::new(ClaimedIdentity { policy, sent: open.certificates.to_vec(), chain: Vec::new() });
             connection.state.lock().identity = Some(identity.clone());
             return Ok(identity);
         }
@@ -197,15 +211,20 @@ impl Gate {
             return refuse(StatusCode::BadCertificateInvalid, "the request is for another server certificate");
         }
         let (gate, connection, sent) = (self.clone(), connection.clone(), open.certificates.to_vec());
-        spawn_blocking(move || gate.judge(&connection, policy, sent))
+        spawn_blocking(move || gate.verifier(&connection, policy, sent))
             .await
-            .unwrap_or_else(|_| Err(Stop::Told(Fault::internal())))
+            .unwrap_or_else(|_| Err(StopReason::Told(Fault::internal())))
     }
 
-    fn judge(&self, connection: &Connection, policy: WirePolicy, sent: Vec<u8>) -> Result<Arc<Identity>, Stop> {
+    fn verifier(
+        &self,
+        connection: &GateConnection,
+        policy: WirePolicy,
+        sent: Vec<u8>,
+    ) -> Result<Arc<ClaimedIdentity>, StopReason> {
         let chain = read_chain(&sent).map_err(|rejection| self.reject(connection, &[], &rejection))?;
-        let identity = Arc::new(Identity { policy, sent, chain });
-        let let_in = self.judge.admit(&identity.chain, policy, || {
+        let identity = Arc::new(ClaimedIdentity { policy, sent, chain });
+        let let_in = self.verifier.admit(&identity.chain, policy, || {
             let Some(leaf) = identity.leaf() else { return Ok::<_, io::Error>(()) };
             {
                 let mut state = connection.state.lock();
@@ -226,7 +245,7 @@ impl Gate {
             }
             Ok(Err(e)) => {
                 tracing::error!("the certificate of an OPC UA client cannot be kept: {e}");
-                Err(Stop::Told(Fault::internal()))
+                Err(StopReason::Told(Fault::internal()))
             }
             Err(rejection) => {
                 if let Some(leaf) = identity.leaf() {
@@ -240,7 +259,7 @@ impl Gate {
     /// Takes the certificate of a client that was refused out of the server's hands; not if another connection was let
     /// in with it. Certificates are public: whoever shows somebody else's in a way that is refused must not lock its
     /// owner out.
-    fn forget(&self, leaf: &Certificate, refused: &Connection) {
+    fn forget(&self, leaf: &Certificate, refused: &GateConnection) {
         self.pki.forget(leaf.der(), || self.connections.any_other_has(leaf, refused));
     }
 
@@ -252,12 +271,12 @@ impl Gate {
     }
 
     /// The server has answered an OpenSecureChannel with this channel.
-    pub(super) fn opened(&self, connection: &Arc<Connection>, channel: u32) {
+    pub(super) fn opened(&self, connection: &Arc<GateConnection>, channel: u32) {
         self.connections.opened(connection, channel);
     }
 
     /// The server hangs up with an error of its own.
-    pub(super) fn server_refused(&self, connection: &Connection) {
+    pub(super) fn server_refused(&self, connection: &GateConnection) {
         let state = connection.state.lock();
         let unopened = state.identity.clone().filter(|_| state.channel.is_none());
         drop(state);
@@ -267,13 +286,13 @@ impl Gate {
     }
 
     /// The request of a client with this certificate could not be opened.
-    pub(super) fn unproven(&self, connection: &Connection, identity: &Identity, fault: Fault) -> Stop {
+    pub(super) fn unproven(&self, connection: &GateConnection, identity: &ClaimedIdentity, fault: Fault) -> StopReason {
         let told = identity.leaf().is_none_or(|leaf| self.reporter.refused(connection.peer, &unproven(leaf)));
-        if told { Stop::Told(fault) } else { Stop::AtOnce(fault) }
+        if told { StopReason::Told(fault) } else { StopReason::AtOnce(fault) }
     }
 
     /// Tells of a request that the server is made to refuse; the connection stays.
-    pub(super) fn spoilt(&self, connection: &Connection, reason: &str) {
+    pub(super) fn spoilt(&self, connection: &GateConnection, reason: &str) {
         self.reporter.refused(connection.peer, reason);
     }
 
@@ -300,7 +319,7 @@ impl Gate {
         let (certificate, application_uri) = facts();
         let problem = match identity.leaf() {
             Some(leaf) if certificate.as_deref() != Some(leaf.der()) => {
-                Some(Rejection::of(CertificateFlaw::NotThatOfTheChannel, leaf))
+                Some(CertificateRejection::of(CertificateFlaw::NotThatOfTheChannel, leaf))
             }
             Some(leaf) => check_application_uri(leaf, &application_uri).err(),
             None if certificate.is_some() => {

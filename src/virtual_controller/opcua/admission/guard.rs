@@ -24,12 +24,12 @@ use super::gate::Gate;
 /// ApplicationUri with its certificate (OPC 10000-4 §5.6.2). Here every service that reaches a node does, and so does
 /// the activation of a session, which asks every node manager for its namespaces. Whoever finds the port behind the
 /// gate has no channel the gate knows, and gets nothing either.
-pub(in super::super) struct Guarded {
+pub(in super::super) struct GuardedNodeManager {
     inner: Arc<DynNodeManager>,
     gate: Arc<Gate>,
 }
 
-impl Guarded {
+impl GuardedNodeManager {
     /// Gives a function that builds what `builder` builds, guarded.
     pub(in super::super) fn builder(
         builder: impl NodeManagerBuilder + 'static,
@@ -40,7 +40,7 @@ impl Guarded {
 
     fn check(&self, context: &RequestContext) -> Result<(), StatusCode> {
         // Nobody holds it for long; the crate holds it nowhere it calls a node manager.
-        let session = context.session().try_read_for(PATIENCE).ok_or(StatusCode::BadTooManyOperations)?;
+        let session = context.session().try_read_for(WAIT_LIMIT).ok_or(StatusCode::BadTooManyOperations)?;
         self.gate.vouch(session.session_id_numeric(), session.secure_channel_id(), || {
             let certificate = session.client_certificate().and_then(|certificate| certificate.to_der().ok());
             (certificate, session.application_description().application_uri.to_string())
@@ -48,13 +48,13 @@ impl Guarded {
     }
 }
 
-const PATIENCE: Duration = Duration::from_secs(1);
+const WAIT_LIMIT: Duration = Duration::from_secs(1);
 
 /// Methods that pass a request on once its session was checked.
 macro_rules! checked {
     ($($method:ident($($name:ident: $type:ty),*);)*) => {
         #[async_trait]
-        impl NodeManager for Guarded {
+        impl NodeManager for GuardedNodeManager {
             fn owns_node(&self, id: &NodeId) -> bool {
                 self.inner.owns_node(id)
             }

@@ -70,7 +70,7 @@ impl InnerServer {
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await?;
         let mut secret = [0; 32];
         getrandom::fill(&mut secret).map_err(|error| io::Error::other(error.to_string()))?;
-        let call = Call::new(&handle, listener.local_addr()?, hex::encode(secret))?;
+        let call = ReverseConnect::new(&handle, listener.local_addr()?, hex::encode(secret))?;
         timeout(CALL_TIMEOUT, answer(&listener, &call.expected)).await?
     }
 
@@ -89,14 +89,14 @@ impl std::fmt::Debug for InnerServer {
 }
 
 /// The server is asked to connect, until this is dropped.
-struct Call<'a> {
+struct ReverseConnect<'a> {
     server: &'a ServerHandle,
     secret: String,
     /// The server's first message, which has the secret in it.
     expected: Vec<u8>,
 }
 
-impl<'a> Call<'a> {
+impl<'a> ReverseConnect<'a> {
     fn new(server: &'a ServerHandle, address: SocketAddr, secret: String) -> io::Result<Self> {
         let hello = ReverseHelloMessage::new(server.info().application_uri.as_ref(), &secret);
         let mut expected = Vec::new();
@@ -128,7 +128,7 @@ async fn answer(listener: &TcpListener, expected: &[u8]) -> io::Result<TcpStream
     }
 }
 
-impl Drop for Call<'_> {
+impl Drop for ReverseConnect<'_> {
     fn drop(&mut self) {
         self.server.remove_reverse_connect_target(&self.secret);
     }

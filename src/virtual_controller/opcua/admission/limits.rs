@@ -4,7 +4,7 @@ use crate::virtual_controller::connection_limits::ConnectionLimits;
 
 /// What peers may take of a server before, and without, being let in.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Limits {
+pub(super) struct AdmissionLimits {
     /// Connections: far more than the sessions a server takes, since discovery needs connections too.
     pub(super) slots: ConnectionLimits,
     /// From the first byte of a connection to the end of its first OpenSecureChannel request.
@@ -19,7 +19,7 @@ pub(super) struct Limits {
     pub(super) chunk: usize,
 }
 
-impl Default for Limits {
+impl Default for AdmissionLimits {
     fn default() -> Self {
         Self {
             slots: ConnectionLimits {

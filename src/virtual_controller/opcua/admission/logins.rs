@@ -2,18 +2,18 @@ use std::net::SocketAddr;
 
 use opcua::types::UserNameIdentityToken;
 
-use super::connections::Connection;
+use super::connections::GateConnection;
 use super::gate::Gate;
 use crate::pki::Fingerprint;
-use crate::virtual_controller::connection_limits::{LimitedConnection as _, Source};
+use crate::virtual_controller::connection_limits::{LimitedConnection as _, SourceNetwork};
 
 /// Who logs in with a password.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(in super::super) struct Login {
+pub(in super::super) struct PasswordLogin {
     /// As the client gave it.
     pub(in super::super) name: String,
     pub(in super::super) client: SocketAddr,
-    pub(in super::super) source: Source,
+    pub(in super::super) source: SourceNetwork,
     /// Of the trusted certificate of its secure channel.
     pub(in super::super) certificate: Option<Fingerprint>,
 }
@@ -31,12 +31,12 @@ pub(super) fn passed_on(token: &UserNameIdentityToken, is_secured: bool, mark: &
 
 impl Gate {
     /// Who gave this marked name. `None` if the mark is of no connection that is open.
-    pub(in super::super) fn login(&self, marked: &str) -> Option<Login> {
+    pub(in super::super) fn login(&self, marked: &str) -> Option<PasswordLogin> {
         let (name, mark) = marked.rsplit_once(SEPARATOR)?;
         let connection = self.connection_of_mark(mark)?;
         let state = connection.state.lock();
         let leaf = state.identity.as_ref().and_then(|identity| identity.leaf());
-        Some(Login {
+        Some(PasswordLogin {
             name: name.to_owned(),
             client: connection.peer,
             source: connection.source(),
@@ -45,7 +45,7 @@ impl Gate {
     }
 }
 
-impl Connection {
+impl GateConnection {
     /// A random text that stands for the connection.
     pub(super) fn login_mark(&self) -> Result<String, getrandom::Error> {
         let mut state = self.state.lock();

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | `gate` | [`Gate`]: which clients are accepted |
 //! | `service` | accepts connections, and serves each from its first byte to its last |
-//! | `judge` | the trust lists in force, and what a peer is told of its rejection |
+//! | `verifier` | the trust lists in force, and what a peer is told of its rejection |
 //! | `inner_server` | how the gate, and nothing else, reaches the crate's server |
 //! | `client_to_server` | whole chunks only, and requests for sessions and logins looked at |
 //! | `server_to_client` | the answers to them, and last words |
@@ -26,7 +26,7 @@
 //! | `fault` | why a peer is turned away, in the words it is told |
 //!
 //! # Layers
-//! `service` uses `client_to_server` and `server_to_client`; these, `guard` and `logins` use `gate`; `gate` uses `judge`,
+//! `service` uses `client_to_server` and `server_to_client`; these, `guard` and `logins` use `gate`; `gate` uses `verifier`,
 //! `connections`, `sessions`, `report` and `inner_server`; these use what is left. Nothing uses a layer above its own.
 //!
 //! # The walk of a connection
@@ -51,13 +51,13 @@ mod channel;
 mod channel_keys;
 mod chunk_buffer;
 mod client_to_server;
+mod client_verifier;
 mod connections;
 mod fault;
 mod frame;
 mod gate;
 mod guard;
 mod inner_server;
-mod judge;
 mod limits;
 mod logins;
 #[cfg(test)]
@@ -70,15 +70,15 @@ mod sessions;
 #[cfg(test)]
 mod tests;
 
-pub use gate::CutConnection;
-pub(super) use gate::{Attached, Gate, Settings};
-pub(super) use guard::Guarded;
+pub use client_verifier::CertificateClock;
+pub(super) use client_verifier::ClientVerifier;
+pub use gate::DisconnectedConnection;
+pub(super) use gate::{Attached, Gate, GateSettings};
+pub(super) use guard::GuardedNodeManager;
 pub(super) use inner_server::{InnerServer, deaf_listener};
-pub use judge::Clock;
-pub(super) use judge::Judge;
-pub(super) use logins::Login;
-pub use report::Refusals;
-pub(super) use report::Reporter;
+pub(super) use logins::PasswordLogin;
+pub(super) use report::AdmissionReporter;
+pub use report::RejectionRecorder;
 pub(super) use rewrap::ServerKeyPair;
 
 /// Sessions the crate's server takes: those of all clients, and those that are being closed.
@@ -90,6 +90,6 @@ pub(super) mod wire {
     pub(in super::super) use super::channel_keys::{ChannelKeys, Sender};
     pub(in super::super) use super::chunk_buffer::ChunkBuffer;
     pub(in super::super) use super::frame::tests;
-    pub(in super::super) use super::frame::{Kind, Open};
-    pub(in super::super) use super::rewrap::{Envelope, unseal};
+    pub(in super::super) use super::frame::{MessageKind, OpenChannelHeader};
+    pub(in super::super) use super::rewrap::{ChunkEnvelope, unseal};
 }

@@ -8,7 +8,8 @@ use proptest::prelude::*;
 
 use super::chunk_buffer::ChunkBuffer;
 use super::frame::{
-    HEADER, Header, Kind, MAX_HELLO, MAX_OPEN, Open, SYMMETRIC_HEADER, split_certificates, tests::open,
+    HEADER, MAX_HELLO, MAX_OPEN, MessageHeader, MessageKind, OpenChannelHeader, SYMMETRIC_HEADER, split_certificates,
+    tests::open,
 };
 use super::{
     channel_keys::{ChannelKeys, Sender, decode},
@@ -71,12 +72,12 @@ proptest! {
         rest in bytes(16),
     ) {
         let bytes = [kind.as_bytes(), &[last], &size.to_le_bytes(), &rest].concat();
-        if let Ok(header) = Header::parse(&bytes, CHUNK) {
+        if let Ok(header) = MessageHeader::parse(&bytes, CHUNK) {
             let header = header.expect("eight bytes are there");
             let most = match header.kind {
-                Kind::Hello | Kind::Acknowledge | Kind::Error => MAX_HELLO,
-                Kind::Open => MAX_OPEN,
-                Kind::Message | Kind::Close => CHUNK,
+                MessageKind::Hello | MessageKind::Acknowledge | MessageKind::Error => MAX_HELLO,
+                MessageKind::Open => MAX_OPEN,
+                MessageKind::Message | MessageKind::Close => CHUNK,
             };
             prop_assert!(header.size >= HEADER && header.size <= most && header.size == size as usize);
         }
@@ -91,7 +92,7 @@ proptest! {
         body in bytes(60),
     ) {
         let chunk = open(channel, &policy, &certificates, &thumbprint, &body);
-        let read = Open::parse(&chunk).unwrap();
+        let read = OpenChannelHeader::parse(&chunk).unwrap();
         prop_assert_eq!((read.channel, read.policy_uri), (channel, policy.as_str()));
         prop_assert_eq!((read.certificates, read.receiver_thumbprint), (&certificates[..], &thumbprint[..]));
         prop_assert_eq!(&chunk[read.body..], &body[..]);
@@ -108,7 +109,7 @@ proptest! {
                 place.copy_from_slice(&length.to_le_bytes());
             }
         }
-        if let Ok(read) = Open::parse(&chunk) {
+        if let Ok(read) = OpenChannelHeader::parse(&chunk) {
             let parts = read.policy_uri.len() + read.certificates.len() + read.receiver_thumbprint.len();
             prop_assert_eq!(read.body, HEADER + 4 * 4 + parts);
             prop_assert!(read.body <= chunk.len());
@@ -197,7 +198,7 @@ proptest! {
                 request.user_identity_token = ExtensionObject::from_message(UserNameIdentityToken::default());
                 let harmless = keys.replace(Sender::Client, &chunk, &body, service, &request).unwrap();
                 prop_assert!(!harmless.windows(password.len()).any(|window| window == password));
-                let header = Header::parse(&harmless, CHUNK).unwrap().expect("a header");
+                let header = MessageHeader::parse(&harmless, CHUNK).unwrap().expect("a header");
                 prop_assert_eq!(header.size, harmless.len());
             }
         }

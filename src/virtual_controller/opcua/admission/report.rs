@@ -5,34 +5,34 @@ use std::time::Instant;
 
 use parking_lot::Mutex;
 
-use super::super::{Event, Events};
-use crate::pki::{Certificate, Rejection};
-use crate::virtual_controller::connection_limits::{Line, Lines, Refusal, Source};
+use super::super::{ServerEvent, ServerEvents};
+use crate::pki::{Certificate, CertificateRejection};
+use crate::virtual_controller::connection_limits::{LineDecision, LineLimiter, RefusalDecision, SourceNetwork};
 
 /// Who keeps the list of rejected clients.
-pub trait Refusals: Send + Sync {
+pub trait RejectionRecorder: Send + Sync {
     /// A client at `address` was refused because of its certificate. `sent` is what it sent, leaf first, and never
     /// empty; `rejection` is the true reason, whatever the client was told.
     ///
     /// Called on the server's own tasks, so it must not take long; not more than about thirty times a minute for one
     /// address.
-    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection);
+    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &CertificateRejection);
 }
 
 /// Tells of connections and refusals, and keeps quiet when one source causes too many of them.
-pub(in super::super) struct Reporter {
-    events: Events,
-    refusals: Option<Arc<dyn Refusals>>,
-    lines: Mutex<Lines>,
+pub(in super::super) struct AdmissionReporter {
+    events: ServerEvents,
+    refusals: Option<Arc<dyn RejectionRecorder>>,
+    lines: Mutex<LineLimiter>,
 }
 
-impl Reporter {
-    pub(in super::super) fn new(events: Events, refusals: Option<Arc<dyn Refusals>>) -> Self {
+impl AdmissionReporter {
+    pub(in super::super) fn new(events: ServerEvents, refusals: Option<Arc<dyn RejectionRecorder>>) -> Self {
         Self { events, refusals, lines: Mutex::default() }
     }
 
     /// A certificate was refused. False if nobody was told, because its source is kept quiet.
-    pub(super) fn rejected(&self, client: SocketAddr, sent: &[Certificate], rejection: &Rejection) -> bool {
+    pub(super) fn rejected(&self, client: SocketAddr, sent: &[Certificate], rejection: &CertificateRejection) -> bool {
         let told = self.refused(client, &rejection.to_string());
         if told
             && !sent.is_empty()
@@ -45,75 +45,75 @@ impl Reporter {
 
     /// Something else than a certificate was refused. False if nobody was told, because its source is kept quiet.
     pub(super) fn refused(&self, client: SocketAddr, reason: &str) -> bool {
-        self.refusal(client, Event::Refused { client, reason })
+        self.refusal(client, ServerEvent::Refused { client, reason })
     }
 
     /// A user was not let in.
     pub(super) fn login_refused(&self, client: SocketAddr, user: Option<&str>, reason: &str) {
-        self.refusal(client, Event::LoginRefused { client: Some(client), user, reason });
+        self.refusal(client, ServerEvent::LoginRefused { client: Some(client), user, reason });
     }
 
-    fn refusal(&self, client: SocketAddr, event: Event<'_>) -> bool {
-        let source = Source::new(client.ip());
+    fn refusal(&self, client: SocketAddr, event: ServerEvent<'_>) -> bool {
+        let source = SourceNetwork::new(client.ip());
         let refusal = self.lines.lock().refused(source, Instant::now());
         match refusal {
-            Refusal::Tell { left_out } => {
+            RefusalDecision::Tell { left_out } => {
                 self.left_out(source, left_out);
                 self.events.tell(event);
                 tracing::info!("OPC UA: {event}");
             }
-            Refusal::TellLast => {
+            RefusalDecision::TellLast => {
                 self.events.tell(event);
-                self.events.tell(Event::RefusalsQuiet { source });
+                self.events.tell(ServerEvent::RefusalsQuiet { source });
                 tracing::warn!("OPC UA: {event}, as too many before; no more is said of this address for a while");
             }
-            Refusal::Quiet => return false,
+            RefusalDecision::Quiet => return false,
         }
         true
     }
 
-    fn left_out(&self, source: Source, count: u64) {
+    fn left_out(&self, source: SourceNetwork, count: u64) {
         if count > 0 {
-            self.events.tell(Event::LinesLeftOut { source, count });
+            self.events.tell(ServerEvent::LinesLeftOut { source, count });
         }
     }
 
     /// An open connection was ended because its certificate is not trusted any more. Never kept quiet: it was let in.
-    pub(super) fn cut(&self, client: SocketAddr, sent: &[Certificate], rejection: &Rejection) {
-        self.events.tell(Event::Cut { client, reason: &rejection.to_string() });
+    pub(super) fn cut(&self, client: SocketAddr, sent: &[Certificate], rejection: &CertificateRejection) {
+        self.events.tell(ServerEvent::Cut { client, reason: &rejection.to_string() });
         if let Some(refusals) = &self.refusals {
             refusals.record(sent, client.ip().to_canonical(), rejection);
         }
     }
 
     pub(super) fn connected(&self, client: SocketAddr) {
-        self.line(client, Event::Connected { client });
+        self.line(client, ServerEvent::Connected { client });
     }
 
     pub(super) fn disconnected(&self, client: SocketAddr) {
-        self.line(client, Event::Disconnected { client });
+        self.line(client, ServerEvent::Disconnected { client });
     }
 
     pub(super) fn too_many(&self, client: SocketAddr) {
-        self.line(client, Event::TooManyConnections { client });
+        self.line(client, ServerEvent::TooManyConnections { client });
     }
 
-    fn line(&self, client: SocketAddr, event: Event<'_>) {
-        let source = Source::new(client.ip());
+    fn line(&self, client: SocketAddr, event: ServerEvent<'_>) {
+        let source = SourceNetwork::new(client.ip());
         let line = self.lines.lock().line(source, Instant::now());
         match line {
-            Line::Tell { left_out } => {
+            LineDecision::Tell { left_out } => {
                 self.left_out(source, left_out);
                 self.events.tell(event);
             }
-            Line::LastOne => self.events.tell(Event::ConnectionsQuiet { source }),
-            Line::Quiet => {}
+            LineDecision::LastOne => self.events.tell(ServerEvent::ConnectionsQuiet { source }),
+            LineDecision::Quiet => {}
         }
     }
 }
 
-impl fmt::Debug for Reporter {
+impl fmt::Debug for AdmissionReporter {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Reporter").field("events", &self.events).finish_non_exhaustive()
+        f.debug_struct("AdmissionReporter").field("events", &self.events).finish_non_exhaustive()
     }
 }

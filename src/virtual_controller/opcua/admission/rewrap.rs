@@ -7,7 +7,7 @@ use parking_lot::Mutex;
 use super::channel_keys::ChannelKeys;
 use super::client_to_server::sequence_at;
 use super::fault::Fault;
-use super::frame::Open;
+use super::frame::OpenChannelHeader;
 
 /// The server's own certificate and key, as the OPC UA crate takes them.
 pub(in super::super) struct ServerKeyPair {
@@ -75,8 +75,8 @@ impl SecuredClient {
         receiver_thumbprint: &[u8],
         receiver: &PublicKey,
     ) -> Result<Vec<u8>, Fault> {
-        let open = Open::parse(chunk)?;
-        let envelope = Envelope {
+        let open = OpenChannelHeader::parse(chunk)?;
+        let envelope = ChunkEnvelope {
             policy: self.policy,
             channel: open.channel,
             sender: &own.certificate,
@@ -96,7 +96,7 @@ pub(in super::super) fn unseal(
     key: &PrivateKey,
     sender: &PublicKey,
 ) -> Result<Vec<u8>, Fault> {
-    let (head, encrypted) = chunk.split_at(Open::parse(chunk)?.body);
+    let (head, encrypted) = chunk.split_at(OpenChannelHeader::parse(chunk)?.body);
     if encrypted.is_empty() || !encrypted.len().is_multiple_of(key.size()) {
         return Err(refused());
     }
@@ -119,7 +119,7 @@ pub(in super::super) fn unseal(
 }
 
 /// What an OpenSecureChannel chunk is put into.
-pub(in super::super) struct Envelope<'a> {
+pub(in super::super) struct ChunkEnvelope<'a> {
     pub(in super::super) policy: SecurityPolicy,
     pub(in super::super) channel: u32,
     /// Certificate, or chain, of whom it comes from.
@@ -129,7 +129,7 @@ pub(in super::super) struct Envelope<'a> {
     pub(in super::super) receiver: &'a PublicKey,
 }
 
-impl Envelope<'_> {
+impl ChunkEnvelope<'_> {
     /// The chunk, signed by its sender and encrypted for its receiver. `body` begins with the sequence header.
     pub(in super::super) fn seal(&self, body: &[u8]) -> Result<Vec<u8>, Fault> {
         let mut chunk = b"OPNF\0\0\0\0".to_vec();

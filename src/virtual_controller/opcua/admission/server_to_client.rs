@@ -8,23 +8,23 @@ use tokio::sync::watch;
 use tokio::task::spawn_blocking;
 use tokio::time::{Instant, sleep_until, timeout};
 
-use super::channel::Asked;
+use super::channel::PendingCreateSession;
 use super::channel_keys::{BEGINNING, ChannelKeys, SEQUENCE_HEADER, Sender, contexts, decode, token_of};
 use super::chunk_buffer::ChunkBuffer;
-use super::connections::{Connection, Stop, stop_asked};
+use super::connections::{GateConnection, StopReason, stop_asked};
 use super::fault::Fault;
-use super::frame::{Header, Kind, channel_of};
+use super::frame::{MessageHeader, MessageKind, channel_of};
 use super::gate::Gate;
 
 /// From the server to one client. Says to the client why its connection ends, between two chunks.
 pub(super) struct ServerToClient<'a> {
     gate: &'a Gate,
-    connection: &'a Arc<Connection>,
+    connection: &'a Arc<GateConnection>,
     chunk_buffer: ChunkBuffer,
 }
 
 impl<'a> ServerToClient<'a> {
-    pub(super) fn new(gate: &'a Gate, connection: &'a Arc<Connection>) -> Self {
+    pub(super) fn new(gate: &'a Gate, connection: &'a Arc<GateConnection>) -> Self {
         Self { gate, connection, chunk_buffer: ChunkBuffer::default() }
     }
 
@@ -34,9 +34,9 @@ impl<'a> ServerToClient<'a> {
         &mut self,
         from: &mut OwnedReadHalf,
         to: &mut OwnedWriteHalf,
-        mut stopped: watch::Receiver<Option<Stop>>,
+        mut stopped: watch::Receiver<Option<StopReason>>,
     ) -> bool {
-        let (mut stop, mut boundary_by): (Option<Stop>, Option<Instant>) = (None, None);
+        let (mut stop, mut boundary_by): (Option<StopReason>, Option<Instant>) = (None, None);
         loop {
             if let Some(stop) = &stop
                 && self.chunk_buffer.is_between_chunks()
@@ -56,7 +56,7 @@ impl<'a> ServerToClient<'a> {
                 () = sleep_until(boundary_by.unwrap_or_else(Instant::now)), if boundary_by.is_some() => return false,
             }
             if let Err(fault) = self.look().await {
-                self.connection.stop(Stop::Told(fault));
+                self.connection.stop(StopReason::Told(fault));
             }
             if !self.chunk_buffer.good().is_empty() {
                 let written = timeout(self.gate.limits().stall, to.write_all(self.chunk_buffer.good()));
@@ -79,7 +79,7 @@ impl<'a> ServerToClient<'a> {
     }
 
     /// Reads what the server still says to a client that has left, until it hangs up.
-    pub(super) async fn hear_out(&mut self, from: &mut OwnedReadHalf) {
+    pub(super) async fn read_until_end(&mut self, from: &mut OwnedReadHalf) {
         loop {
             self.chunk_buffer.sent();
             if self.look().await.is_err() || !matches!(from.read_buf(self.chunk_buffer.room()).await, Ok(1..)) {
@@ -91,17 +91,17 @@ impl<'a> ServerToClient<'a> {
     async fn look(&mut self) -> Result<(), Fault> {
         while let Some(header) = self.chunk_buffer.next(self.gate.limits().chunk)? {
             match header.kind {
-                Kind::Open => {
+                MessageKind::Open => {
                     if !self.opened(header).await? {
                         return Ok(());
                     }
                 }
-                Kind::Message if self.connection.channel.lock().awaits_answers() => {
+                MessageKind::Message if self.connection.channel.lock().awaits_answers() => {
                     if !self.answered(header) {
                         return Ok(());
                     }
                 }
-                Kind::Error => {
+                MessageKind::Error => {
                     self.gate.server_refused(self.connection);
                     self.chunk_buffer.pass(header);
                 }
@@ -112,7 +112,7 @@ impl<'a> ServerToClient<'a> {
     }
 
     /// The server has answered an OpenSecureChannel. False while the answer is not whole.
-    async fn opened(&mut self, header: Header) -> Result<bool, Fault> {
+    async fn opened(&mut self, header: MessageHeader) -> Result<bool, Fault> {
         let Some(chunk) = self.chunk_buffer.chunk(header) else { return Ok(false) };
         if let Some(channel) = channel_of(chunk) {
             self.gate.opened(self.connection, channel);
@@ -134,7 +134,7 @@ impl<'a> ServerToClient<'a> {
     }
 
     /// A message, perhaps the answer to a request for a session. False while too little of it is here.
-    fn answered(&mut self, header: Header) -> bool {
+    fn answered(&mut self, header: MessageHeader) -> bool {
         let bytes = self.chunk_buffer.rest();
         if bytes.len() < BEGINNING.min(header.size) {
             return false;
@@ -161,17 +161,17 @@ impl<'a> ServerToClient<'a> {
     }
 
     /// What takes the place of the first chunk of the answer, if something has to.
-    fn session_answer(&self, keys: &ChannelKeys, chunk: &[u8], asked: Asked) -> Option<Vec<u8>> {
+    fn session_answer(&self, keys: &ChannelKeys, chunk: &[u8], asked: PendingCreateSession) -> Option<Vec<u8>> {
         let body = keys.open(Sender::Server, chunk);
         match asked {
-            Asked::Session(number) => {
+            PendingCreateSession::Session(number) => {
                 match body.as_deref().and_then(created_token) {
                     Some(token) => self.gate.sessions().created(number, token),
                     None => self.gate.sessions().refused(number),
                 }
                 None
             }
-            Asked::Refused(status) => {
+            PendingCreateSession::Refused(status) => {
                 let body = body?;
                 let service = ObjectId::ServiceFault_Encoding_DefaultBinary;
                 let mut fault: ServiceFault = decode(&body, service)?;
@@ -198,13 +198,13 @@ fn created_token(body: &[u8]) -> Option<NodeId> {
 }
 
 /// Last words. Whether the client should be given time to read them.
-pub(super) async fn say(to: &mut OwnedWriteHalf, stop: &Stop) -> bool {
+pub(super) async fn say(to: &mut OwnedWriteHalf, stop: &StopReason) -> bool {
     match stop {
-        Stop::Told(fault) => {
+        StopReason::Told(fault) => {
             timeout(LAST_WORDS, to.write_all(&fault.to_message())).await.is_ok_and(|written| written.is_ok())
                 && to.shutdown().await.is_ok()
         }
-        Stop::AtOnce(fault) => {
+        StopReason::AtOnce(fault) => {
             let _ = to.try_write(&fault.to_message());
             false
         }

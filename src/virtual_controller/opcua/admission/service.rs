@@ -11,7 +11,7 @@ use tokio::task::JoinSet;
 use tokio::time::{Instant, sleep, sleep_until, timeout};
 
 use super::client_to_server::{ClientToServer, read_hello};
-use super::connections::{Connection, Stop, stop_asked};
+use super::connections::{GateConnection, StopReason, stop_asked};
 use super::fault::Fault;
 use super::gate::Gate;
 use super::server_to_client::{ServerToClient, say};
@@ -61,10 +61,10 @@ impl Gate {
     /// From the first byte to the last word. Whether the client should be given time to read that.
     async fn talk(
         self: &Arc<Self>,
-        connection: &Arc<Connection>,
+        connection: &Arc<GateConnection>,
         from: &mut OwnedReadHalf,
         to: &mut OwnedWriteHalf,
-        mut stopped: watch::Receiver<Option<Stop>>,
+        mut stopped: watch::Receiver<Option<StopReason>>,
     ) -> bool {
         let limits = self.limits();
         let start = Instant::now();
@@ -93,7 +93,7 @@ impl Gate {
         let _ = timeout(LEAVE, async {
             tokio::select! {
                 () = left => {}
-                () = down.hear_out(&mut from_server) => {}
+                () = down.read_until_end(&mut from_server) => {}
             }
         })
         .await;
@@ -104,10 +104,10 @@ impl Gate {
     /// read its last words.
     async fn pass_on(
         self: &Arc<Self>,
-        connection: &Arc<Connection>,
+        connection: &Arc<GateConnection>,
         (up, from, to_server): (&mut ClientToServer<'_>, &mut OwnedReadHalf, &mut OwnedWriteHalf),
         (down, from_server, to): (&mut ServerToClient<'_>, &mut OwnedReadHalf, &mut OwnedWriteHalf),
-        stopped: watch::Receiver<Option<Stop>>,
+        stopped: watch::Receiver<Option<StopReason>>,
         start: Instant,
     ) -> bool {
         let limits = self.limits();
@@ -122,7 +122,7 @@ impl Gate {
         let without_session = async {
             sleep_until(start + limits.open + limits.session).await;
             if !connection.activity.has_session() {
-                connection.stop(Stop::Told(Fault::new(StatusCode::BadTimeout, "no session in time")));
+                connection.stop(StopReason::Told(Fault::new(StatusCode::BadTimeout, "no session in time")));
             }
             std::future::pending::<()>().await;
         };

@@ -4,10 +4,10 @@ use std::sync::Arc;
 use opcua::types::NodeId;
 use parking_lot::Mutex;
 
-use super::connections::{Connection, Stop};
+use super::connections::{GateConnection, StopReason};
 use super::fault::Fault;
 use crate::pki::Certificate;
-use crate::virtual_controller::connection_limits::{LimitedConnection as _, Source};
+use crate::virtual_controller::connection_limits::{LimitedConnection as _, SourceNetwork};
 
 /// The sessions of the server, the oldest first, and how many more there may be.
 ///
@@ -16,23 +16,23 @@ use crate::virtual_controller::connection_limits::{LimitedConnection as _, Sourc
 /// certificate first; and a client that has its share already makes room itself. A client is told apart by its source
 /// and its certificate.
 #[derive(Debug, Default)]
-pub(super) struct Sessions(Mutex<Taken>);
+pub(super) struct OpcUaSessions(Mutex<SessionTable>);
 
 #[derive(Debug, Default)]
-struct Taken {
+struct SessionTable {
     next: SessionNumber,
-    held: Vec<Held>,
+    held: Vec<SessionSlot>,
 }
 
 pub(super) type SessionNumber = u64;
 
 #[derive(Debug)]
-struct Held {
+struct SessionSlot {
     number: SessionNumber,
     /// What the client shows in every request; `None` until the server has created the session.
     token: Option<NodeId>,
     /// The one that asked for it.
-    connection: Arc<Connection>,
+    connection: Arc<GateConnection>,
     /// Another one takes its slot.
     is_closing: bool,
 }
@@ -48,14 +48,14 @@ pub(super) struct LiveSession {
 /// Asks the server for a session by its token; `None` if there is none any more.
 pub(super) type FindSession<'a> = &'a dyn Fn(&NodeId) -> Option<LiveSession>;
 
-impl Sessions {
+impl OpcUaSessions {
     /// Takes in one more session, for which another one may have to end. `None` if the client has its share, or if all
     /// sessions are activated.
-    pub(super) fn enter(&self, connection: &Arc<Connection>, find: FindSession<'_>) -> Option<SessionNumber> {
+    pub(super) fn enter(&self, connection: &Arc<GateConnection>, find: FindSession<'_>) -> Option<SessionNumber> {
         let mut taken = self.0.lock();
         taken.forget_ended(find);
-        let of_connection = |held: &Held| Arc::ptr_eq(&held.connection, connection);
-        let waiting = |held: &Held| of_connection(held) && !held.is_activated(find);
+        let of_connection = |held: &SessionSlot| Arc::ptr_eq(&held.connection, connection);
+        let waiting = |held: &SessionSlot| of_connection(held) && !held.is_activated(find);
         if taken.count(of_connection) >= PER_CONNECTION || taken.count(waiting) >= WAITING_PER_CONNECTION {
             return None;
         }
@@ -72,7 +72,7 @@ impl Sessions {
         }
         let number = taken.next;
         taken.next += 1;
-        taken.held.push(Held { number, token: None, connection: connection.clone(), is_closing: false });
+        taken.held.push(SessionSlot { number, token: None, connection: connection.clone(), is_closing: false });
         Some(number)
     }
 
@@ -91,7 +91,7 @@ impl Sessions {
     /// The sessions that end with their connection, by their tokens: those that are not activated, since they can be on
     /// no other channel. The others can be taken up again by their client (OPC 10000-4 §5.7.1), as long as fewer than
     /// half of the sessions are taken.
-    pub(super) fn leave(&self, connection: &Arc<Connection>, channel: u32, find: FindSession<'_>) -> Vec<NodeId> {
+    pub(super) fn leave(&self, connection: &Arc<GateConnection>, channel: u32, find: FindSession<'_>) -> Vec<NodeId> {
         let mut taken = self.0.lock();
         taken.held.retain(|held| held.token.is_some() || !Arc::ptr_eq(&held.connection, connection));
         taken.forget_ended(find);
@@ -110,26 +110,26 @@ impl Sessions {
     }
 }
 
-impl Taken {
+impl SessionTable {
     fn forget_ended(&mut self, find: FindSession<'_>) {
         self.held.retain(|held| held.token.as_ref().is_none_or(|token| find(token).is_some()));
     }
 
-    fn count(&self, counts: impl Fn(&Held) -> bool) -> usize {
+    fn count(&self, counts: impl Fn(&SessionSlot) -> bool) -> usize {
         self.held.iter().filter(|held| !held.is_closing && counts(held)).count()
     }
 
     /// Ends a connection that has only sessions that are not activated, and is not `new`.
     fn make_room(
         &mut self,
-        new: &Arc<Connection>,
+        new: &Arc<GateConnection>,
         find: FindSession<'_>,
-        may_go: impl Fn(&Connection) -> bool,
+        may_go: impl Fn(&GateConnection) -> bool,
     ) -> Option<()> {
-        let is_used = |connection: &Arc<Connection>| {
+        let is_used = |connection: &Arc<GateConnection>| {
             self.held.iter().any(|held| Arc::ptr_eq(&held.connection, connection) && held.is_activated(find))
         };
-        let candidates: Vec<&Held> = self
+        let candidates: Vec<&SessionSlot> = self
             .held
             .iter()
             .filter(|held| !held.is_closing && may_go(&held.connection))
@@ -150,20 +150,20 @@ impl Taken {
             held.is_closing = true;
         }
         let status = opcua::types::StatusCode::BadTcpNotEnoughResources;
-        connection.stop(Stop::AtOnce(Fault::new(status, "others need the session, which was not activated")));
+        connection.stop(StopReason::AtOnce(Fault::new(status, "others need the session, which was not activated")));
         Some(())
     }
 }
 
-type Client = (Source, Option<Vec<u8>>);
+type Client = (SourceNetwork, Option<Vec<u8>>);
 
-impl Held {
+impl SessionSlot {
     fn is_activated(&self, find: FindSession<'_>) -> bool {
         self.token.as_ref().and_then(find).is_some_and(|live| live.is_activated)
     }
 }
 
-impl Connection {
+impl GateConnection {
     /// The client's own, if it has one.
     fn certificate(&self) -> Option<Certificate> {
         self.state.lock().identity.as_ref().and_then(|identity| identity.leaf().cloned())
@@ -196,13 +196,18 @@ mod tests {
         }
 
         /// One session on a connection of its own.
-        fn create(&self, sessions: &Sessions, address: u8, is_activated: bool) -> Option<Arc<Connection>> {
+        fn create(&self, sessions: &OpcUaSessions, address: u8, is_activated: bool) -> Option<Arc<GateConnection>> {
             let connection = connection(address);
             self.create_on(sessions, &connection, is_activated)?;
             Some(connection)
         }
 
-        fn create_on(&self, sessions: &Sessions, connection: &Arc<Connection>, is_activated: bool) -> Option<NodeId> {
+        fn create_on(
+            &self,
+            sessions: &OpcUaSessions,
+            connection: &Arc<GateConnection>,
+            is_activated: bool,
+        ) -> Option<NodeId> {
             let number = sessions.enter(connection, &self.find())?;
             let token = NodeId::new(0, u32::try_from(number).unwrap());
             self.0.lock().insert(token.clone(), LiveSession { is_activated, channel: 7 });
@@ -211,13 +216,13 @@ mod tests {
         }
     }
 
-    fn connection(address: u8) -> Arc<Connection> {
-        Arc::new(Connection::new(([192, 168, 0, address], 50_000).into(), watch::channel(None).0))
+    fn connection(address: u8) -> Arc<GateConnection> {
+        Arc::new(GateConnection::new(([192, 168, 0, address], 50_000).into(), watch::channel(None).0))
     }
 
     #[test]
     fn the_oldest_session_that_is_not_activated_makes_room() {
-        let (sessions, server) = (Sessions::default(), Server::default());
+        let (sessions, server) = (OpcUaSessions::default(), Server::default());
         let used: Vec<_> = (0..5).map(|i| server.create(&sessions, i, true).unwrap()).collect();
         let hogs: Vec<_> = (0..100).map(|_| server.create(&sessions, 77, false).unwrap()).collect();
         let ended = hogs.iter().filter(|hog| hog.is_stopped()).count();
@@ -232,7 +237,7 @@ mod tests {
 
     #[test]
     fn sessions_in_use_make_no_room_and_one_client_cannot_have_them_all() {
-        let (sessions, server) = (Sessions::default(), Server::default());
+        let (sessions, server) = (OpcUaSessions::default(), Server::default());
         let held: Vec<_> = (0..PER_SOURCE).map(|_| server.create(&sessions, 1, true).unwrap()).collect();
         assert!(server.create(&sessions, 1, true).is_none(), "its share");
         for address in 2..7 {
@@ -246,7 +251,7 @@ mod tests {
 
     #[test]
     fn one_connection_has_few_sessions() {
-        let (sessions, server, connection) = (Sessions::default(), Server::default(), connection(1));
+        let (sessions, server, connection) = (OpcUaSessions::default(), Server::default(), connection(1));
         for _ in 0..WAITING_PER_CONNECTION {
             server.create_on(&sessions, &connection, false).unwrap();
         }
@@ -256,7 +261,7 @@ mod tests {
 
     #[test]
     fn what_nobody_can_use_any_more_ends_with_its_connection() {
-        let (sessions, server, connection) = (Sessions::default(), Server::default(), connection(1));
+        let (sessions, server, connection) = (OpcUaSessions::default(), Server::default(), connection(1));
         let used = server.create_on(&sessions, &connection, true).unwrap();
         let waiting = server.create_on(&sessions, &connection, false).unwrap();
         sessions.enter(&connection, &server.find()).unwrap();

@@ -12,43 +12,47 @@ use tokio::net::{TcpListener, TcpStream};
 use tokio::task::JoinHandle;
 use tokio::time::{Instant, sleep, timeout};
 
-use super::super::Events;
+use super::super::ServerEvents;
 use super::super::certificate_store::PkiFolder;
-use super::super::tests::identity::Identity;
+use super::super::tests::test_application::TestApplication;
+use super::client_verifier::ClientVerifier;
 use super::fault::Fault;
-use super::gate::{Gate, Settings};
+use super::gate::{Gate, GateSettings};
 use super::inner_server::InnerServer;
-use super::judge::Judge;
-use super::limits::Limits;
-use super::report::Reporter;
+use super::limits::AdmissionLimits;
+use super::report::AdmissionReporter;
 use super::rewrap::ServerKeyPair;
-use super::{frame, judge};
+use super::{client_verifier, frame};
 use crate::model::SecurityPolicy;
 use crate::pki::{TrustLists, TrustPolicy};
 
-static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("server"));
-const PATIENCE: Duration = Duration::from_secs(90);
+static SERVER: LazyLock<TestApplication> = LazyLock::new(|| TestApplication::new("server"));
+const WAIT_LIMIT: Duration = Duration::from_secs(90);
 
-struct Stand {
+struct GateFixture {
     address: SocketAddr,
     server: TcpListener,
     gate: JoinHandle<()>,
     _folder: TempDir,
 }
 
-impl Stand {
-    async fn new(limits: Limits) -> Self {
+impl GateFixture {
+    async fn new(limits: AdmissionLimits) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let clients = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await.unwrap();
         let server = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await.unwrap();
         let address = clients.local_addr().unwrap();
         let gate = Gate::new(
-            Settings { limits, ..Settings::new(SecurityPolicy::ALL.into(), false) },
+            GateSettings { limits, ..GateSettings::new(SecurityPolicy::ALL.into(), false) },
             InnerServer::standing_in(server.local_addr().unwrap()),
             ServerKeyPair::new(&SERVER.der, &SERVER.key.serialize_pem()).unwrap(),
-            Judge::new(TrustLists::default(), TrustPolicy::default(), judge::Clock::default()),
+            ClientVerifier::new(
+                TrustLists::default(),
+                TrustPolicy::default(),
+                client_verifier::CertificateClock::default(),
+            ),
             PkiFolder::create(folder.path().join("pki")).unwrap(),
-            Reporter::new(Events::default(), None),
+            AdmissionReporter::new(ServerEvents::default(), None),
         );
         let gate = tokio::spawn(Arc::new(gate).run(clients));
         Self { address, server, gate, _folder: folder }
@@ -76,7 +80,7 @@ impl Stand {
     }
 }
 
-impl Drop for Stand {
+impl Drop for GateFixture {
     fn drop(&mut self) {
         self.gate.abort();
     }
@@ -95,16 +99,16 @@ fn opening() -> Vec<u8> {
     frame::tests::open(0, NONE, b"", b"", b"request")
 }
 
-fn hurried() -> Limits {
+fn short_limits() -> AdmissionLimits {
     let short = Duration::from_millis(300);
-    Limits { open: short, session: short, stall: short, linger: short, ..Limits::default() }
+    AdmissionLimits { open: short, session: short, stall: short, linger: short, ..AdmissionLimits::default() }
 }
 
 /// What the client is told at the end, and when.
 async fn end_of(mut client: TcpStream) -> (Vec<u8>, Duration) {
     let start = Instant::now();
     let mut rest = Vec::new();
-    let _ = timeout(PATIENCE, client.read_to_end(&mut rest)).await.expect("the connection is still open");
+    let _ = timeout(WAIT_LIMIT, client.read_to_end(&mut rest)).await.expect("the connection is still open");
     (rest, start.elapsed())
 }
 
@@ -114,7 +118,7 @@ fn error(message: &[u8]) -> StatusCode {
 
 #[tokio::test]
 async fn bytes_pass_both_ways_and_a_last_word_arrives() {
-    let stand = Stand::new(Limits::default()).await;
+    let stand = GateFixture::new(AdmissionLimits::default()).await;
     let (mut client, mut server) = stand.open().await;
     let goodbye = Fault::new(StatusCode::BadServerHalted, "bye").to_message();
     server.write_all(&goodbye).await.unwrap();
@@ -126,7 +130,7 @@ async fn bytes_pass_both_ways_and_a_last_word_arrives() {
 
 #[tokio::test]
 async fn nothing_reaches_the_server_before_a_hello() {
-    let stand = Stand::new(hurried()).await;
+    let stand = GateFixture::new(short_limits()).await;
     let mut client = stand.dial().await;
     client.write_all(&hello()[..31]).await.unwrap();
     assert_eq!(error(&end_of(client).await.0), StatusCode::BadTimeout);
@@ -135,7 +139,7 @@ async fn nothing_reaches_the_server_before_a_hello() {
 
 #[tokio::test]
 async fn who_is_silent_or_slow_is_told_that_it_takes_too_long() {
-    let stand = Stand::new(hurried()).await;
+    let stand = GateFixture::new(short_limits()).await;
     for begin in [vec![], hello(), [&hello()[..], &opening()[..20]].concat()] {
         let mut client = stand.dial().await;
         client.write_all(&begin).await.unwrap();
@@ -144,7 +148,7 @@ async fn who_is_silent_or_slow_is_told_that_it_takes_too_long() {
         assert!(after >= Duration::from_millis(250) && after < Duration::from_secs(3), "{after:?}");
     }
     let mut client = stand.dial().await;
-    let sent = timeout(PATIENCE, async {
+    let sent = timeout(WAIT_LIMIT, async {
         for byte in [hello(), opening()].concat() {
             if client.write_all(&[byte]).await.is_err() {
                 return;
@@ -158,7 +162,7 @@ async fn who_is_silent_or_slow_is_told_that_it_takes_too_long() {
 
 #[tokio::test]
 async fn a_channel_nobody_opens_a_session_on_is_closed() {
-    let stand = Stand::new(hurried()).await;
+    let stand = GateFixture::new(short_limits()).await;
     let (client, _server) = stand.open().await;
     let (told, after) = end_of(client).await;
     assert_eq!(error(&told), StatusCode::BadTimeout);
@@ -167,9 +171,9 @@ async fn a_channel_nobody_opens_a_session_on_is_closed() {
 
 #[tokio::test]
 async fn a_client_that_does_not_read_is_dropped_and_cannot_hold_the_server() {
-    let slow = Limits { session: PATIENCE, ..hurried() };
-    for (limits, stopped) in [(slow, false), (Limits::default(), true)] {
-        let stand = Stand::new(limits).await;
+    let slow = AdmissionLimits { session: WAIT_LIMIT, ..short_limits() };
+    for (limits, stopped) in [(slow, false), (AdmissionLimits::default(), true)] {
+        let stand = GateFixture::new(limits).await;
         let (_client, mut server) = stand.open().await;
         let mut chunk = b"MSGF".to_vec();
         chunk.extend(60_000_u32.to_le_bytes());
@@ -180,25 +184,27 @@ async fn a_client_that_does_not_read_is_dropped_and_cannot_hold_the_server() {
             assert!(!writing.is_finished());
             stand.gate.abort();
         }
-        timeout(PATIENCE, writing).await.unwrap().unwrap();
+        timeout(WAIT_LIMIT, writing).await.unwrap().unwrap();
     }
 }
 
 #[tokio::test]
 async fn a_client_that_does_not_read_cannot_put_off_its_end() {
-    let stand = Stand::new(Limits { session: Duration::from_secs(1), stall: PATIENCE, ..hurried() }).await;
+    let stand =
+        GateFixture::new(AdmissionLimits { session: Duration::from_secs(1), stall: WAIT_LIMIT, ..short_limits() })
+            .await;
     let (_client, mut server) = stand.open().await;
     let mut chunk = b"MSGF".to_vec();
     chunk.extend(60_000_u32.to_le_bytes());
     chunk.resize(60_000, 0);
     let start = Instant::now();
     while server.write_all(&chunk).await.is_ok() {}
-    assert!(start.elapsed() < PATIENCE / 2, "{:?}", start.elapsed());
+    assert!(start.elapsed() < WAIT_LIMIT / 2, "{:?}", start.elapsed());
 }
 
 #[tokio::test]
 async fn a_server_that_says_too_much_at_once_is_not_believed() {
-    let stand = Stand::new(Limits::default()).await;
+    let stand = GateFixture::new(AdmissionLimits::default()).await;
     let (client, mut server) = stand.open().await;
     let mut lie = b"MSGF".to_vec();
     lie.extend(u32::MAX.to_le_bytes());
@@ -208,7 +214,7 @@ async fn a_server_that_says_too_much_at_once_is_not_believed() {
 
 #[tokio::test]
 async fn a_server_that_is_gone_is_said_to_have_stopped() {
-    let mut stand = Stand::new(Limits::default()).await;
+    let mut stand = GateFixture::new(AdmissionLimits::default()).await;
     stand.server = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await.unwrap();
     let mut client = stand.dial().await;
     client.write_all(&hello()).await.unwrap();

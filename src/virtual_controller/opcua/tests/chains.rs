@@ -3,24 +3,24 @@ use std::sync::atomic::Ordering;
 use opcua::types::MessageSecurityMode;
 use rcgen::RsaKeySize;
 
-use super::disguise::Disguise;
-use super::identity::Authority;
+use super::impersonating_proxy::ImpersonatingProxy;
+use super::test_application::TestCa;
 use super::*;
 
 /// Connects a client that sends its issuer along, over and over renews its channel, and is served all the time.
 async fn is_served_with_its_chain(size: RsaKeySize, policies: &[SecurityPolicy]) {
     let folder = tempfile::tempdir().unwrap();
-    let (root, authority) = (Authority::new("Root CA"), Authority::new("Plant CA"));
+    let (root, authority) = (TestCa::new("Root CA"), TestCa::new("Plant CA"));
     let client = authority.issue("chained", size);
     let trust = TrustLists::new(vec![authority.certificate.clone()], vec![], vec![authority.crl(1, &[])]);
     let server = start(OpcUaConfig { trust, ..config(&folder) }).await;
     let chain = [authority.certificate.der(), root.certificate.der()];
-    let disguise = Disguise::start(&server, &client, &client, &chain).await;
+    let disguise = ImpersonatingProxy::start(&server, &client, &client, &chain).await;
     let mut sessions = 0;
     for policy in policies {
         for mode in [MessageSecurityMode::Sign, MessageSecurityMode::SignAndEncrypt] {
             let through = Some(disguise.url.clone());
-            let dial = Dial { policy: *policy, mode, through, lifetime: 1000, ..Dial::new(&server) };
+            let dial = ClientOptions { policy: *policy, mode, through, lifetime: 1000, ..ClientOptions::new(&server) };
             let client = dial.identity(&client).connect().await.unwrap_or_else(|e| panic!("{policy} {mode}: {e}"));
             let start = tokio::time::Instant::now();
             // Two renewals.
@@ -50,14 +50,14 @@ async fn a_client_with_a_long_key_that_sends_its_issuers_is_served_too() {
 #[tokio::test(flavor = "multi_thread")]
 async fn an_issuer_that_was_sent_completes_a_chain_but_is_not_trusted_for_it() {
     let folder = tempfile::tempdir().unwrap();
-    let authority = Authority::new("Plant CA");
+    let authority = TestCa::new("Plant CA");
     let client = authority.issue("chained", RsaKeySize::_2048);
-    let recorded = Arc::new(Recorded::default());
-    let refusals: Arc<dyn Refusals> = recorded.clone();
+    let recorded = Arc::new(RecordedRejections::default());
+    let refusals: Arc<dyn RejectionRecorder> = recorded.clone();
     let server = start(OpcUaConfig { refusals: Some(refusals), ..config(&folder) }).await;
-    let disguise = Disguise::start(&server, &client, &client, &[authority.certificate.der()]).await;
+    let disguise = ImpersonatingProxy::start(&server, &client, &client, &[authority.certificate.der()]).await;
     let through = Some(disguise.url.clone());
-    let refused = Dial { through, ..Dial::new(&server) }.identity(&client).connect().await.err();
+    let refused = ClientOptions { through, ..ClientOptions::new(&server) }.identity(&client).connect().await.err();
     assert_eq!(refused, Some(opcua::types::StatusCode::BadSecurityChecksFailed));
     let recorded = recorded.0.lock().clone();
     let (sent, address, rejection) = &recorded[0];

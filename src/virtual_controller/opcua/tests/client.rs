@@ -11,14 +11,14 @@ use tokio::task::JoinHandle;
 use tokio::time::timeout;
 
 use super::super::{OpcUaServer, endpoints};
-use super::identity::Identity;
-use super::{CLIENT, PATIENCE};
+use super::test_application::TestApplication;
+use super::{CLIENT, WAIT_LIMIT};
 use crate::model::SecurityPolicy;
 
 /// How to connect with the OPC UA crate's client.
-pub(super) struct Dial<'a> {
+pub(super) struct ClientOptions<'a> {
     pub server: &'a OpcUaServer,
-    pub identity: &'a Identity,
+    pub identity: &'a TestApplication,
     pub policy: SecurityPolicy,
     pub mode: MessageSecurityMode,
     pub user: IdentityToken,
@@ -31,7 +31,7 @@ pub(super) struct Dial<'a> {
     pub clear_password: bool,
 }
 
-impl<'a> Dial<'a> {
+impl<'a> ClientOptions<'a> {
     /// Encrypted, with [`CLIENT`]'s certificate, anonymous.
     pub fn new(server: &'a OpcUaServer) -> Self {
         Self {
@@ -51,7 +51,7 @@ impl<'a> Dial<'a> {
         Self { policy: SecurityPolicy::None, mode: MessageSecurityMode::None, ..Self::new(server) }
     }
 
-    pub fn identity(self, identity: &'a Identity) -> Self {
+    pub fn identity(self, identity: &'a TestApplication) -> Self {
         Self { identity, application_uri: format!("urn:{}", identity.name), ..self }
     }
 
@@ -74,7 +74,7 @@ impl<'a> Dial<'a> {
             .channel_lifetime(self.lifetime)
             .client()
             .unwrap();
-        let offered = timeout(PATIENCE, client.get_server_endpoints_from_url(self.server.endpoint())).await.unwrap();
+        let offered = timeout(WAIT_LIMIT, client.get_server_endpoints_from_url(self.server.endpoint())).await.unwrap();
         let policy = endpoints::wire(self.policy).to_uri();
         let mut endpoint = offered
             .map_err(|e| e.status())?
@@ -105,7 +105,7 @@ impl<'a> Dial<'a> {
         tokio::select! {
             _ = session.wait_for_connection() => Ok(Client { session, events, _folder: folder }),
             status = &mut events => Err(status.unwrap()),
-            () = tokio::time::sleep(PATIENCE) => panic!("neither connected nor refused"),
+            () = tokio::time::sleep(WAIT_LIMIT) => panic!("neither connected nor refused"),
         }
     }
 }
@@ -120,16 +120,16 @@ pub(super) struct Client {
 
 impl Client {
     pub async fn anonymous(server: &OpcUaServer) -> Result<Self, StatusCode> {
-        Dial::plain(server).connect().await
+        ClientOptions::plain(server).connect().await
     }
 
     pub async fn encrypted(server: &OpcUaServer) -> Result<Self, StatusCode> {
-        Dial::new(server).connect().await
+        ClientOptions::new(server).connect().await
     }
 
     pub async fn log_in(server: &OpcUaServer, name: &str, password: &str) -> Result<(), StatusCode> {
         let user = IdentityToken::new_user_name(name, password);
-        Dial { user, ..Dial::plain(server) }.connect().await?.close().await;
+        ClientOptions { user, ..ClientOptions::plain(server) }.connect().await?.close().await;
         Ok(())
     }
 
@@ -139,7 +139,7 @@ impl Client {
 
     pub async fn try_read(&self, node: impl Into<NodeId>) -> Result<Variant, StatusCode> {
         let node = ReadValueId::from(node.into());
-        let read = timeout(PATIENCE, self.session.read(&[node], TimestampsToReturn::Both, 0.0)).await.unwrap();
+        let read = timeout(WAIT_LIMIT, self.session.read(&[node], TimestampsToReturn::Both, 0.0)).await.unwrap();
         let value = read.map_err(|e| e.status())?.into_iter().next().unwrap();
         match value.status {
             Some(status) if status.is_bad() => Err(status),
@@ -162,7 +162,7 @@ impl Client {
             node_class_mask: (NodeClassMask::OBJECT | NodeClassMask::VARIABLE).bits(),
             result_mask: 63,
         };
-        let results = timeout(PATIENCE, self.session.browse(&[browse], 100, None)).await.unwrap().unwrap();
+        let results = timeout(WAIT_LIMIT, self.session.browse(&[browse], 100, None)).await.unwrap().unwrap();
         let references = results.into_iter().next().unwrap().references.unwrap_or_default();
         references
             .into_iter()
@@ -172,7 +172,7 @@ impl Client {
     }
 
     pub async fn close(self) {
-        let _ = timeout(PATIENCE, self.session.disconnect()).await;
-        let _ = timeout(PATIENCE, self.events).await;
+        let _ = timeout(WAIT_LIMIT, self.session.disconnect()).await;
+        let _ = timeout(WAIT_LIMIT, self.events).await;
     }
 }

@@ -73,14 +73,14 @@ async fn last_word(address: SocketAddr, bytes: &[u8]) -> Option<StatusCode> {
 
 async fn error_of(mut peer: TcpStream) -> Option<StatusCode> {
     let mut answer = Vec::new();
-    let _ = timeout(PATIENCE, peer.read_to_end(&mut answer)).await.expect("the connection is still open");
+    let _ = timeout(WAIT_LIMIT, peer.read_to_end(&mut answer)).await.expect("the connection is still open");
     let at = answer.windows(4).rposition(|bytes| bytes == b"ERRF")?;
     Some(ErrorMessage::decode(&mut &answer[at..], &DecodingOptions::default()).unwrap().error)
 }
 
 /// A server that trusts [`CLIENT`], and what it tells.
-async fn target(folder: &TempDir) -> (OpcUaServer, SocketAddr, Told) {
-    let told = Told::default();
+async fn target(folder: &TempDir) -> (OpcUaServer, SocketAddr, EventLines) {
+    let told = EventLines::default();
     let server = start(OpcUaConfig { trust: trusting(&[&CLIENT]), events: told.events(), ..config(folder) }).await;
     let address = SocketAddr::from((Ipv4Addr::LOCALHOST, server.port()));
     (server, address, told)
@@ -140,7 +140,7 @@ async fn a_stolen_certificate_is_worth_nothing_without_its_key() {
     for stolen in [CLIENT.der.clone(), [&CLIENT.der[..], &SERVER.der].concat()] {
         let before = told.lines().matches("no proof").count();
         assert!(last_word(address, &[hello(), open_as(&stolen)].concat()).await.is_some());
-        timeout(PATIENCE, async {
+        timeout(WAIT_LIMIT, async {
             while told.lines().matches("no proof").count() == before {
                 tokio::time::sleep(Duration::from_millis(10)).await;
             }
@@ -156,12 +156,12 @@ async fn a_stolen_certificate_is_worth_nothing_without_its_key() {
 #[tokio::test(flavor = "multi_thread")]
 async fn showing_a_certificate_where_it_is_refused_does_not_lock_its_owner_out() {
     let folder = tempfile::tempdir().unwrap();
-    let authority = super::identity::Authority::new("Plant CA");
+    let authority = super::test_application::TestCa::new("Plant CA");
     let owner = authority.issue("owner", rcgen::RsaKeySize::_4096);
     let trust = TrustLists::new(vec![authority.certificate.clone()], vec![], vec![authority.crl(1, &[])]);
     let server = start(OpcUaConfig { trust, ..config(&folder) }).await;
     let held = || std::fs::read_dir(folder.path().join("pki/trusted")).unwrap().count();
-    let client = Dial::new(&server).identity(&owner).connect().await.unwrap();
+    let client = ClientOptions::new(&server).identity(&owner).connect().await.unwrap();
     assert_eq!(held(), 1);
     // Its key is too long for this policy.
     let shown = open(0, BASIC128RSA15, &owner.der, &Sha1::digest(&SERVER.der), &[7; 512]);
@@ -178,7 +178,7 @@ async fn opened(address: SocketAddr) -> (TcpStream, u32) {
     let mut peer = dial(address).await;
     peer.write_all(&[hello(), open_plain(0)].concat()).await.unwrap();
     let mut acknowledge = [0; 28];
-    timeout(PATIENCE, peer.read_exact(&mut acknowledge)).await.unwrap().unwrap();
+    timeout(WAIT_LIMIT, peer.read_exact(&mut acknowledge)).await.unwrap().unwrap();
     let channel = channel_answered(&mut peer).await;
     (peer, channel)
 }
@@ -186,11 +186,11 @@ async fn opened(address: SocketAddr) -> (TcpStream, u32) {
 /// Reads the answer to an OpenSecureChannel request.
 pub(super) async fn channel_answered(peer: &mut TcpStream) -> u32 {
     let mut head = [0; 12];
-    timeout(PATIENCE, peer.read_exact(&mut head)).await.unwrap().unwrap();
+    timeout(WAIT_LIMIT, peer.read_exact(&mut head)).await.unwrap().unwrap();
     assert_eq!(&head[..4], b"OPNF");
     let size = u32::from_le_bytes(head[4..8].try_into().unwrap()) as usize;
     let mut rest = vec![0; size - head.len()];
-    timeout(PATIENCE, peer.read_exact(&mut rest)).await.unwrap().unwrap();
+    timeout(WAIT_LIMIT, peer.read_exact(&mut rest)).await.unwrap().unwrap();
     u32::from_le_bytes(head[8..].try_into().unwrap())
 }
 
@@ -271,9 +271,9 @@ async fn thousands_of_connections_keep_no_proper_client_out() {
 #[tokio::test(flavor = "multi_thread")]
 async fn whoever_is_refused_too_often_is_kept_quiet_and_its_neighbour_is_served() {
     let folder = tempfile::tempdir().unwrap();
-    let told = Told::default();
-    let recorded = Arc::new(Recorded::default());
-    let refusals: Arc<dyn Refusals> = recorded.clone();
+    let told = EventLines::default();
+    let recorded = Arc::new(RecordedRejections::default());
+    let refusals: Arc<dyn RejectionRecorder> = recorded.clone();
     let trust = trusting(&[&CLIENT]);
     let server = start(OpcUaConfig { trust, events: told.events(), refusals: Some(refusals), ..config(&folder) }).await;
     let address = SocketAddr::from((Ipv4Addr::LOCALHOST, server.port()));

@@ -3,12 +3,12 @@
 mod admission;
 mod chains;
 mod client;
-mod disguise;
-mod hogs;
 mod hostile;
-pub(super) mod identity;
+mod impersonating_proxy;
+mod resource_exhaustion;
 mod server;
 mod sessions;
+pub(super) mod test_application;
 
 use std::net::{IpAddr, Ipv4Addr};
 use std::sync::{Arc, LazyLock};
@@ -21,16 +21,16 @@ use zeroize::Zeroizing;
 
 use super::*;
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, UserTokenPolicy};
-use crate::pki::{Certificate, Rejection, TrustLists, TrustPolicy};
+use crate::pki::{Certificate, CertificateRejection, TrustLists, TrustPolicy};
 use crate::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
-use client::{Client, Dial};
-use identity::{Identity, trusting};
+use client::{Client, ClientOptions};
+use test_application::{TestApplication, trusting};
 
 const URI: &str = "urn:EpsonRC.SN0000123.127.000.000.001";
-const PATIENCE: Duration = Duration::from_secs(90);
+const WAIT_LIMIT: Duration = Duration::from_secs(90);
 
-static SERVER: LazyLock<Identity> = LazyLock::new(|| Identity::new("EpsonRC.SN0000123.127.000.000.001"));
-static CLIENT: LazyLock<Identity> = LazyLock::new(|| Identity::new("client"));
+static SERVER: LazyLock<TestApplication> = LazyLock::new(|| TestApplication::new("EpsonRC.SN0000123.127.000.000.001"));
+static CLIENT: LazyLock<TestApplication> = LazyLock::new(|| TestApplication::new("client"));
 
 fn config(folder: &TempDir) -> OpcUaConfig {
     OpcUaConfig {
@@ -47,7 +47,7 @@ fn config(folder: &TempDir) -> OpcUaConfig {
         trust_policy: TrustPolicy::default(),
         detailed_status: false,
         refusals: None,
-        clock: Clock::default(),
+        clock: CertificateClock::default(),
         identity: DeviceIdentity {
             name: "Weld 1".to_owned(),
             series: ControllerSeries::Rc800,
@@ -55,7 +55,7 @@ fn config(folder: &TempDir) -> OpcUaConfig {
             firmware: FirmwareVersion::new(8, 0, 1),
         },
         cell: cell(),
-        events: Events::default(),
+        events: ServerEvents::default(),
         pki_folder: folder.path().join("pki"),
     }
 }
@@ -75,17 +75,17 @@ fn cell() -> CellHandle {
 }
 
 async fn start(config: OpcUaConfig) -> OpcUaServer {
-    timeout(PATIENCE, OpcUaServer::start(config)).await.unwrap().unwrap()
+    timeout(WAIT_LIMIT, OpcUaServer::start(config)).await.unwrap().unwrap()
 }
 
 /// What a server told, a line each.
 #[derive(Clone, Default)]
-struct Told(Arc<Mutex<String>>);
+struct EventLines(Arc<Mutex<String>>);
 
-impl Told {
-    fn events(&self) -> Events {
+impl EventLines {
+    fn events(&self) -> ServerEvents {
         let log = self.0.clone();
-        Events::new(move |event| *log.lock() += &format!("{event}\n"))
+        ServerEvents::new(move |event| *log.lock() += &format!("{event}\n"))
     }
 
     fn lines(&self) -> String {
@@ -94,7 +94,7 @@ impl Told {
 
     /// Waits for a line with this in it.
     async fn wait_for(&self, text: &str) {
-        let seen = timeout(PATIENCE, async {
+        let seen = timeout(WAIT_LIMIT, async {
             while !self.lines().contains(text) {
                 tokio::time::sleep(Duration::from_millis(10)).await;
             }
@@ -105,10 +105,10 @@ impl Told {
 
 /// The rejected clients: what was sent, from where, and why it was refused.
 #[derive(Default)]
-struct Recorded(Mutex<Vec<(Vec<Certificate>, IpAddr, Rejection)>>);
+struct RecordedRejections(Mutex<Vec<(Vec<Certificate>, IpAddr, CertificateRejection)>>);
 
-impl Refusals for Recorded {
-    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &Rejection) {
+impl RejectionRecorder for RecordedRejections {
+    fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &CertificateRejection) {
         self.0.lock().push((sent.to_vec(), address, rejection.clone()));
     }
 }

@@ -113,7 +113,7 @@ async fn namespace_1_is_the_servers_own_and_the_controller_lies_in_the_device_se
     }
 
     let write = WriteValue::value_attr(NodeId::new(1, "MotionDeviceSystem_0.SerialNumber"), "SN2".into());
-    let results = timeout(PATIENCE, client.session.write(&[write])).await.unwrap().unwrap();
+    let results = timeout(WAIT_LIMIT, client.session.write(&[write])).await.unwrap().unwrap();
     assert_eq!(results, [StatusCode::BadNotWritable]);
 
     client.close().await;
@@ -124,7 +124,7 @@ async fn namespace_1_is_the_servers_own_and_the_controller_lies_in_the_device_se
 async fn a_user_is_let_in_with_the_right_password_only() {
     let folder = tempfile::tempdir().unwrap();
     let user = |name: &str| OpcUaUser { name: name.to_owned(), password_hash: hash_password("Passw0rd").unwrap() };
-    let told = Told::default();
+    let told = EventLines::default();
     let server = start(OpcUaConfig {
         user_tokens: BTreeSet::from([UserTokenPolicy::UserName]),
         users: vec![user("operator1"), user("operator2")],
@@ -163,7 +163,8 @@ async fn a_password_is_encrypted_where_the_channel_is_not() {
     let server = start(OpcUaConfig { policies: BTreeSet::from([SecurityPolicy::None]), ..config(&folder) }).await;
     let client = ClientBuilder::new().application_name("c").application_uri("urn:c").product_uri("urn:c");
     let client = client.pki_dir(folder.path().join("client")).client().unwrap();
-    let endpoints = timeout(PATIENCE, client.get_server_endpoints_from_url(server.endpoint())).await.unwrap().unwrap();
+    let endpoints =
+        timeout(WAIT_LIMIT, client.get_server_endpoints_from_url(server.endpoint())).await.unwrap().unwrap();
     assert_eq!(endpoints.len(), 1);
     assert_eq!(endpoints[0].endpoint_url.as_ref(), format!("{}/", server.endpoint()));
     let tokens = endpoints[0].user_identity_tokens.clone().unwrap();
@@ -191,7 +192,7 @@ async fn trust_in_a_client_changes_while_the_server_runs() {
             SecurityPolicy::None => MessageSecurityMode::None,
             _ => MessageSecurityMode::SignAndEncrypt,
         };
-        let client = Dial { policy, mode, ..Dial::new(&server) }.connect().await;
+        let client = ClientOptions { policy, mode, ..ClientOptions::new(&server) }.connect().await;
         client.unwrap_or_else(|e| panic!("{policy}: {e}")).close().await;
     }
     server.stop().await;

@@ -2,7 +2,7 @@ use std::collections::BTreeSet;
 
 use chrono::DateTime;
 use opcua_configurator::model::{Language, SecurityPolicy};
-use opcua_configurator::pki::{Certificate, Csr, Expected, MAX_CERTIFICATE_BYTES, check_import};
+use opcua_configurator::pki::{Certificate, Csr, ExpectedServer, MAX_CERTIFICATE_BYTES, check_import};
 
 use super::assert_printable;
 
@@ -22,7 +22,7 @@ pub(super) fn assert_certificate(certificate: &Certificate) {
     }
     let policies = BTreeSet::from(SecurityPolicy::ALL);
     let hosts = ["192.168.10.1".to_owned(), "robot".to_owned()];
-    let expected = Expected {
+    let expected = ExpectedServer {
         application_uri: "urn:EpsonRC:SN0000123",
         hosts: &hosts,
         policies: &policies,

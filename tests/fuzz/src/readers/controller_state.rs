@@ -3,7 +3,7 @@ use std::net::Ipv4Addr;
 
 use chrono::DateTime;
 use opcua_configurator::model::ClientList;
-use opcua_configurator::virtual_controller::{Faults, OperatingContext, State, Store, StoreError};
+use opcua_configurator::virtual_controller::{ControllerState, Faults, OperatingContext, Store, StoreError};
 use sha2::{Digest as _, Sha256};
 use tempfile::TempDir;
 
@@ -27,7 +27,7 @@ pub fn controller_state(bytes: &[u8]) {
     }
 }
 
-fn load(bytes: &[u8]) -> Option<State> {
+fn load(bytes: &[u8]) -> Option<ControllerState> {
     FOLDER.with(|(folder, store)| {
         let path = folder.path().join("controller.state");
         fs::write(&path, bytes).expect("a file of our own");
@@ -47,7 +47,7 @@ fn load(bytes: &[u8]) -> Option<State> {
     })
 }
 
-fn assert_state(state: &State) {
+fn assert_state(state: &ControllerState) {
     state.check().expect("a state a controller may be in");
     let context = OperatingContext {
         now: DateTime::from_timestamp(1_900_000_000, 0).expect("a time"),

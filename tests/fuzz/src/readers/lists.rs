@@ -1,9 +1,9 @@
 use std::collections::HashSet;
 
-use opcua_configurator::model::activation::{self, Entry};
+use opcua_configurator::model::activation::{self, ActivationEntry};
 use opcua_configurator::model::text::decode;
 use opcua_configurator::model::{ControllerSeries, SerialNumber};
-use opcua_configurator::workspace::{Configuration, ConnectionList, NewConnection, Skipped};
+use opcua_configurator::workspace::{Configuration, ConnectionList, NewConnection, SkippedLine};
 
 /// [`activation::parse`]: every serial number once, every line number that of its line, no key in a mistake; and what
 /// was understood is understood again from its own words.
@@ -18,7 +18,7 @@ pub fn activation_file(bytes: &[u8]) {
     for line in file.lines() {
         assert!(serials.insert(line.serial.as_str().to_ascii_uppercase()), "{} twice", line.serial);
         assert!(stands_in(&line.serial, line.line), "line {}", line.line);
-        assert_eq!(file.find(&line.serial), Entry::Line(line));
+        assert_eq!(file.find(&line.serial), ActivationEntry::Line(line));
         canonical += &format!("{},{},{}\n", line.serial, line.keys.licence, line.keys.activation);
     }
     for mistake in file.mistakes() {
@@ -67,6 +67,6 @@ pub fn connection_list(bytes: &[u8]) {
             Err(skipped) => drop(skipped.problem(planned.line)),
         }
     }
-    let added = |verdict: &Result<NewConnection, Skipped>| verdict.is_ok();
+    let added = |verdict: &Result<NewConnection, SkippedLine>| verdict.is_ok();
     assert!(!list.plan(&configuration).iter().any(|planned| added(&planned.verdict)));
 }

@@ -1,11 +1,11 @@
 use opcua_configurator::model::{
-    Changed, ControllerInfo, HeldCertificates, ListedCertificate, LogChunk, Problem, Revisioned, ServerSettings,
-    UserName,
+    Changed, ControllerInfo, ListedCertificate, LogChunk, Problem, Revisioned, ServerSettings,
+    StoredServerCertificates, UserName,
 };
 use opcua_configurator::protocol::{
-    Activate, AddUser, CsrMade, EditTrust, ExportContent, ExportSettings, Failure, Hello, ImportCaSigned,
-    ImportCertificate, ImportCsr, ImportSettings, Installed, Login, MAX_EXPORT_BYTES, MakeCsr, MakeSelfSigned,
-    RemoveUsers, SelectCertificate, Session, SetSettings, SettingsExport,
+    Activate, AddUser, CertificateInstalled, CsrMade, EditTrust, ExportContent, ExportSettings, FailureBody, Hello,
+    ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Login, MAX_EXPORT_BYTES, MakeCsr, MakeSelfSigned,
+    RemoveUsers, SelectCertificate, SessionStarted, SetSettings, SettingsExport,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -28,19 +28,19 @@ pub fn management_message(bytes: &[u8]) {
     request::<ExportSettings>(bytes, |m| vec![m.passphrase.expose().to_owned()]);
     request::<ImportSettings>(bytes, |m| vec![m.passphrase.expose().to_owned()]);
 
-    request::<Session>(bytes, |m| vec![m.token.expose().to_owned()]);
+    request::<SessionStarted>(bytes, |m| vec![m.token.expose().to_owned()]);
     response::<Hello>(bytes);
     response::<Changed>(bytes);
-    response::<Installed>(bytes);
+    response::<CertificateInstalled>(bytes);
     response::<CsrMade>(bytes);
     response::<LogChunk>(bytes);
     response::<ControllerInfo>(bytes);
     response::<Revisioned<ServerSettings>>(bytes);
     response::<Revisioned<Vec<UserName>>>(bytes);
-    response::<Revisioned<HeldCertificates>>(bytes);
+    response::<Revisioned<StoredServerCertificates>>(bytes);
     response::<Revisioned<Vec<ListedCertificate>>>(bytes);
-    response::<Failure>(bytes);
-    if let Ok(failure) = serde_json::from_slice::<Failure>(bytes) {
+    response::<FailureBody>(bytes);
+    if let Ok(failure) = serde_json::from_slice::<FailureBody>(bytes) {
         let problem = Problem::from(failure);
         assert!(problem.code.is_a_controllers());
     }

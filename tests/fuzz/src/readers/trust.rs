@@ -1,7 +1,8 @@
 use chrono::DateTime;
 use opcua_configurator::model::{Language, SecurityPolicy};
 use opcua_configurator::pki::{
-    Bundle, Certificate, Crl, MAX_BUNDLE_BYTES, MAX_CRL_BYTES, Presented, Role, TrustLists, TrustPolicy, read_bundle,
+    Bundle, Certificate, Crl, MAX_BUNDLE_BYTES, MAX_CRL_BYTES, PeerRole, PresentedCertificate, TrustLists, TrustPolicy,
+    read_bundle,
 };
 
 use super::assert_printable;
@@ -48,10 +49,10 @@ pub fn trust(bytes: &[u8]) {
         allow_any_usage: allows(5),
         allow_partial_key_usage: allows(6),
     };
-    let presented = Presented {
+    let presented = PresentedCertificate {
         certificate,
         chain: &sent,
-        role: if allows(6) { Role::Client } else { Role::Either },
+        role: if allows(6) { PeerRole::Client } else { PeerRole::Either },
         now: DateTime::from_timestamp(1_900_000_000, 0).expect("a time"),
         application_uri: None,
         host: None,

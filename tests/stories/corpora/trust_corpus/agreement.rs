@@ -7,15 +7,15 @@ use std::path::Path;
 use chrono::{DateTime, Utc};
 use opcua_configurator::model::SecurityPolicy;
 use opcua_configurator::pki::{
-    Certificate, CertificateFlaw, Expected, Presented, Role, Severity, TrustLists, TrustPolicy, check_import,
-    check_server, read_bundle,
+    Certificate, CertificateFlaw, ExpectedServer, PeerRole, PresentedCertificate, Severity, TrustLists, TrustPolicy,
+    check_import, check_server, read_bundle,
 };
 
 use super::table;
 use super::world::APPLICATION_URI;
 
 /// `None` if they agree.
-fn disagreement(certificate: &Certificate, expected: &Expected<'_>) -> Option<String> {
+fn disagreement(certificate: &Certificate, expected: &ExpectedServer<'_>) -> Option<String> {
     let import = check_import(certificate, expected);
     let server = check_server(certificate, Some(certificate), expected, expected.now);
     let says = |what: &str| Some(format!("{what}: import says {import:?}, the client {server:?}"));
@@ -25,7 +25,7 @@ fn disagreement(certificate: &Certificate, expected: &Expected<'_>) -> Option<St
         return says("the import does not say what the client refuses");
     }
     let is_about_the_controller = |flaw: &CertificateFlaw| matches!(flaw, CertificateFlaw::KeyLengthNotTicked { .. });
-    let is_error = |place: &[opcua_configurator::pki::Finding]| {
+    let is_error = |place: &[opcua_configurator::pki::CertificateFinding]| {
         place.iter().any(|finding| finding.severity == Severity::Error && !is_about_the_controller(&finding.flaw))
     };
     if is_error(&import) && server.refused.is_none() {
@@ -47,10 +47,10 @@ fn disagreement(certificate: &Certificate, expected: &Expected<'_>) -> Option<St
     let lists = TrustLists::new(vec![certificate.clone()], Vec::new(), Vec::new());
     let allowed =
         TrustPolicy { allow_incomplete_chain: true, allow_unknown_revocation: true, ..TrustPolicy::default() };
-    let presented = Presented {
+    let presented = PresentedCertificate {
         certificate,
         chain: &[],
-        role: Role::Server,
+        role: PeerRole::Server,
         now: expected.now,
         application_uri: Some(expected.application_uri),
         host: expected.hosts.first().map(String::as_str),
@@ -76,7 +76,7 @@ fn disagreements(name: &str, certificate: &Certificate, now: DateTime<Utc>, uri:
     ];
     let of_policies = |policies: &[SecurityPolicy]| {
         let policies: BTreeSet<SecurityPolicy> = policies.iter().copied().collect();
-        let expected = Expected { application_uri: uri, hosts: &hosts, policies: &policies, now };
+        let expected = ExpectedServer { application_uri: uri, hosts: &hosts, policies: &policies, now };
         disagreement(certificate, &expected).map(|why| format!("{name}, {policies:?}: {why}"))
     };
     some.into_iter().filter_map(of_policies).collect()

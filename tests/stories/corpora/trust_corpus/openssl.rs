@@ -6,7 +6,7 @@ use std::process::{Command, Stdio};
 use base64::Engine as _;
 use chrono::NaiveDate;
 use opcua_configurator::model::SecurityPolicy;
-use opcua_configurator::pki::Role;
+use opcua_configurator::pki::PeerRole;
 
 use super::forge::now;
 use super::world::{Ask, Built, World};
@@ -88,9 +88,9 @@ pub fn accepts(world: &World, built: &Built, folder: &Path) -> (bool, String) {
         command.args(["-auth_level", "2"]);
     }
     match world.role {
-        Role::Client => command.args(["-purpose", "sslclient"]),
-        Role::Server => command.args(["-purpose", "sslserver"]),
-        Role::Either => &mut command,
+        PeerRole::Client => command.args(["-purpose", "sslclient"]),
+        PeerRole::Server => command.args(["-purpose", "sslserver"]),
+        PeerRole::Either => &mut command,
     };
     if world.check_policies {
         // anyPolicy, as RFC 5280 §6.1.1 (c) has it where no policy is asked for.

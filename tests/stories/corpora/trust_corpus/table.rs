@@ -11,7 +11,7 @@ mod usage_cases;
 use chrono::{Duration, NaiveDate};
 use opcua_configurator::model::CertificateStatus::{self as Status, *};
 use opcua_configurator::model::SecurityPolicy as Policy;
-use opcua_configurator::pki::{Role, TrustPolicy};
+use opcua_configurator::pki::{PeerRole, TrustPolicy};
 
 use super::der::{boolean, int, oid, seq, set, tlv};
 use super::forge::{Algorithm, *};

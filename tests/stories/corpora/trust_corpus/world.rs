@@ -2,7 +2,7 @@
 
 use chrono::Duration;
 use opcua_configurator::model::{CertificateStatus, SecurityPolicy};
-use opcua_configurator::pki::{Certificate, Crl, Presented, Role, TrustLists, TrustPolicy};
+use opcua_configurator::pki::{Certificate, Crl, PeerRole, PresentedCertificate, TrustLists, TrustPolicy};
 
 use super::forge::{
     Algorithm, CLIENT_AUTH, Cert, DNS, IP, Key, List, SERVER_AUTH, URI, alternative_names, authority_key_id,
@@ -29,7 +29,7 @@ pub struct World {
     pub uri: Option<&'static str>,
     pub host: Option<&'static str>,
     pub security_policy: Option<SecurityPolicy>,
-    pub role: Role,
+    pub role: PeerRole,
     pub policy: TrustPolicy,
     pub damage_leaf: Option<fn(&mut Vec<u8>)>,
     pub ask: Ask,
@@ -85,7 +85,7 @@ pub fn world(length: usize) -> World {
         uri: None,
         host: None,
         security_policy: None,
-        role: Role::Either,
+        role: PeerRole::Either,
         policy: TrustPolicy::default(),
         damage_leaf: None,
         // Nobody stands above a self-signed application who could revoke it; OpenSSL would want a list of itself.
@@ -214,7 +214,7 @@ pub fn judge(world: &World, built: &Built) -> Result<Option<CertificateStatus>, 
     };
     let crls: Result<Vec<Crl>, _> = built.lists.iter().map(|der| Crl::from_der(der)).collect();
     let lists = TrustLists::new(parse(&built.trusted)?, parse(&built.issuers)?, crls.map_err(|e| e.to_string())?);
-    let presented = Presented {
+    let presented = PresentedCertificate {
         certificate: &certificate,
         chain: &parse(&built.sent)?,
         role: world.role,

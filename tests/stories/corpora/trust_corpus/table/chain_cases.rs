@@ -6,7 +6,7 @@ pub(super) fn good(table: &mut Table) {
     for length in 1..=10 {
         table.one("nothing is wrong", length, None, Agrees, |_| {});
     }
-    for role in [Role::Client, Role::Server] {
+    for role in [PeerRole::Client, PeerRole::Server] {
         table.one(&format!("nothing is wrong with a {role:?}"), 3, None, Agrees, |world| world.role = role);
     }
     for policy in [Policy::None, Policy::Basic256Sha256, Policy::Aes128Sha256RsaOaep, Policy::Aes256Sha256RsaPss] {

@@ -31,7 +31,7 @@ const V6_NET: [u8; 32] = {
 
 pub(super) fn names(table: &mut Table) {
     let invalid = Some(CertificateInvalid);
-    let plant = name_in(UTF8, &[(ORGANISATION, "Plant")]);
+    let fleet = name_in(UTF8, &[(ORGANISATION, "Plant")]);
     let shouted = name_in(PRINTABLE, &[(ORGANISATION, "PLANT")]);
     let office = name_in(UTF8, &[(ORGANISATION, "Office")]);
     for (what, permitted, base, expected) in [
@@ -49,10 +49,10 @@ pub(super) fn names(table: &mut Table) {
         ("another network", EXCLUDED, &[(IP, &[10, 0, 0, 0, 255, 0, 0, 0])], None),
         ("URIs, and it has one without a host", PERMITTED, &[(URI, b"plant.example")], invalid),
         ("URIs, and it has one without a host", EXCLUDED, &[(URI, b"office.example")], invalid),
-        ("its organisation", PERMITTED, &[(DIRECTORY, &plant)], None),
+        ("its organisation", PERMITTED, &[(DIRECTORY, &fleet)], None),
         ("its organisation in other letters", PERMITTED, &[(DIRECTORY, &shouted)], None),
         ("another organisation", PERMITTED, &[(DIRECTORY, &office)], invalid),
-        ("its organisation", EXCLUDED, &[(DIRECTORY, &plant)], invalid),
+        ("its organisation", EXCLUDED, &[(DIRECTORY, &fleet)], invalid),
         ("mail, of which it has none", PERMITTED, &[(EMAIL, b"plant.example")], None),
         ("identifiers, of which it has none", PERMITTED, &[(REGISTERED_ID, &[42, 3])], None),
     ] {
@@ -95,7 +95,7 @@ pub(super) fn names(table: &mut Table) {
     });
     table.one("an intermediate of another organisation", 4, invalid, Agrees, |world| {
         world.rename(1, &office);
-        world.certs[2].set(constraints(&[(PERMITTED, &[(DIRECTORY, &plant)])]));
+        world.certs[2].set(constraints(&[(PERMITTED, &[(DIRECTORY, &fleet)])]));
     });
     table.one("constraints in the application's own certificate", 3, None, Agrees, |world| {
         world.certs[0].set(constraints(&[(PERMITTED, &[(DNS, b"office.example")])]));

@@ -11,7 +11,7 @@ pub(super) fn usages(table: &mut Table) {
             table.one(&format!("no {what}"), length, Some(UseNotAllowed), peer, |world| {
                 let rest: Vec<u8> = (0..4).filter(|number| *number != left_out).collect();
                 world.certs[0].set(key_usage(&rest));
-                world.role = Role::Client;
+                world.role = PeerRole::Client;
             });
             table.one(&format!("no {what}, which is allowed"), length, None, Agrees, |world| {
                 let rest: Vec<u8> = (0..4).filter(|number| *number != left_out).collect();
@@ -25,16 +25,16 @@ pub(super) fn usages(table: &mut Table) {
         table.one("no extended key usage", length, None, Agrees, |world| world.certs[0].drop(EXTENDED_KEY_USAGE));
     }
     for (role, purposes, expected) in [
-        (Role::Client, &[CLIENT_AUTH][..], None),
-        (Role::Server, &[SERVER_AUTH], None),
-        (Role::Client, &[ANY_USAGE], None),
-        (Role::Server, &[CODE_SIGNING, SERVER_AUTH], None),
-        (Role::Client, &[SERVER_AUTH], Some(UseNotAllowed)),
-        (Role::Server, &[CLIENT_AUTH], Some(UseNotAllowed)),
-        (Role::Client, &[CODE_SIGNING], Some(UseNotAllowed)),
-        (Role::Server, &[CODE_SIGNING], Some(UseNotAllowed)),
-        (Role::Either, &[CLIENT_AUTH], None),
-        (Role::Either, &[SERVER_AUTH], None),
+        (PeerRole::Client, &[CLIENT_AUTH][..], None),
+        (PeerRole::Server, &[SERVER_AUTH], None),
+        (PeerRole::Client, &[ANY_USAGE], None),
+        (PeerRole::Server, &[CODE_SIGNING, SERVER_AUTH], None),
+        (PeerRole::Client, &[SERVER_AUTH], Some(UseNotAllowed)),
+        (PeerRole::Server, &[CLIENT_AUTH], Some(UseNotAllowed)),
+        (PeerRole::Client, &[CODE_SIGNING], Some(UseNotAllowed)),
+        (PeerRole::Server, &[CODE_SIGNING], Some(UseNotAllowed)),
+        (PeerRole::Either, &[CLIENT_AUTH], None),
+        (PeerRole::Either, &[SERVER_AUTH], None),
     ] {
         for length in 1..=2 {
             let is_any = purposes == [ANY_USAGE];
@@ -118,7 +118,7 @@ pub(super) fn hosts_and_uris(table: &mut Table) {
         for length in 1..=2 {
             table.one(&format!("reached as {host}"), length, expected, Agrees, |world| {
                 world.host = Some(host);
-                world.role = Role::Server;
+                world.role = PeerRole::Server;
             });
         }
     }
@@ -129,7 +129,7 @@ pub(super) fn hosts_and_uris(table: &mut Table) {
         table.one(&format!("reached as {host}, a DNS name there"), 2, Some(HostNameInvalid), Agrees, |world| {
             world.certs[0].set(alternative_names(&[(DNS, host.as_bytes())]));
             world.host = Some(host);
-            world.role = Role::Server;
+            world.role = PeerRole::Server;
         });
     }
     table.one("for every host", 2, Some(HostNameInvalid), Differs("there are no wildcards in OPC UA"), |world| {
