@@ -34,6 +34,7 @@ mod vault;
 mod verify;
 mod virtual_fleet;
 mod virtual_fleet_host;
+mod virtual_problem;
 mod virtual_switch;
 mod window;
 

@@ -1,5 +1,5 @@
 use super::JobContext;
-use crate::model::{Address, ConnectionKind, ControllerInfo, Credentials, Problem};
+use crate::model::{Address, ConnectionKind, ControllerInfo, Credentials, ErrorCode, Problem};
 use crate::pki::Fingerprint;
 
 /// A controller that was met for the first time.
@@ -32,7 +32,9 @@ pub async fn enroll(
     let info = session.info().await;
     session.close().await;
     let info = info?;
-    info.series.check_firmware(info.firmware)?;
+    info.series
+        .check_firmware(info.firmware)
+        .map_err(|error| Problem::with_detail(ErrorCode::FirmwareNotSupported, error))?;
     let passwords = context.passwords.clone();
     let password_not_kept =
         tokio::task::spawn_blocking(move || passwords.set(fingerprint, credentials).err().map(Problem::from))

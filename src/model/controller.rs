@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::file_names::is_reserved;
-use super::{ErrorCode, Problem};
 
 /// The controller series a configurator can talk to (manual 1.3.1.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -47,16 +46,19 @@ impl ControllerSeries {
     }
 
     /// Refuses firmware without OPC UA with the message of manual 6.2.
-    pub fn check_firmware(self, firmware: FirmwareVersion) -> Result<(), Problem> {
+    pub fn check_firmware(self, firmware: FirmwareVersion) -> Result<(), UnsupportedFirmware> {
         let oldest = self.oldest_firmware();
-        if firmware < oldest {
-            return Err(Problem::with_detail(
-                ErrorCode::FirmwareNotSupported,
-                format!("{} {firmware} < {oldest}", self.as_str()),
-            ));
-        }
-        Ok(())
+        if firmware < oldest { Err(UnsupportedFirmware { series: self, firmware, oldest }) } else { Ok(()) }
     }
+}
+
+/// The firmware of a controller is older than the first with OPC UA for its series.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("{} {firmware} < {oldest}", series.as_str())]
+pub struct UnsupportedFirmware {
+    pub series: ControllerSeries,
+    pub firmware: FirmwareVersion,
+    pub oldest: FirmwareVersion,
 }
 
 impl fmt::Display for ControllerSeries {
@@ -255,7 +257,7 @@ mod tests {
     #[test]
     fn firmware_without_opc_ua_is_refused() {
         let old = ControllerSeries::TVt.check_firmware(FirmwareVersion::new(7, 5, 53)).expect_err("too old");
-        assert_eq!(old.code, ErrorCode::FirmwareNotSupported);
+        assert_eq!(old.to_string(), "T/VT 7.5.53 < 7.5.54");
         assert!(ControllerSeries::TVt.check_firmware(FirmwareVersion::new(7, 5, 54)).is_ok());
         assert!(ControllerSeries::Rc90.check_firmware(FirmwareVersion::new(7, 5, 4)).is_ok());
         assert!(ControllerSeries::Rc800.check_firmware(FirmwareVersion::new(7, 9, 0)).is_err());

@@ -11,6 +11,7 @@ mod address;
 mod authority;
 mod base64_bytes;
 mod capabilities;
+mod cause;
 mod certificate;
 mod certificate_status;
 mod changed;
@@ -41,6 +42,7 @@ pub use address::{Address, AddressError, DEFAULT_MANAGEMENT_PORT};
 pub use authority::{AuthorityRequest, AuthorityValidity, CertificateProfile, InvalidAuthorityValidity};
 pub use base64_bytes::Base64Bytes;
 pub use capabilities::{Capabilities, Feature, MissingReason};
+pub use cause::{Cause, with_cause, with_sources, with_told_cause};
 pub use certificate::{
     CertificateSummary, CertificateType, CsrRequest, FileFormat, KeyLength, SelfSignedRequest, Subject, SubjectError,
     Validity, default_common_name, offered_key_lengths,
@@ -50,7 +52,8 @@ pub use changed::Changed;
 pub use client_list::{ClientList, ListLimits};
 pub use connection_kind::ConnectionKind;
 pub use controller::{
-    ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber, VersionError,
+    ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber,
+    UnsupportedFirmware, VersionError,
 };
 pub use country::Country;
 pub use credentials::Credentials;

@@ -3,6 +3,7 @@
 use super::parts::{FilePart, parts};
 use super::size::check_size;
 use super::{Certificate, Crl, FileContent, MAX_CRL_BYTES, PkiError, Wanted, tlv};
+use crate::model::Cause;
 
 /// The largest file that is read for certificates and revocation lists: a revocation list of the largest size in PEM,
 /// and its certificates.
@@ -61,12 +62,12 @@ impl Bundle {
 
     /// The degenerate signed data of RFC 2315 §9 and RFC 5652 §5: nothing is signed, it only carries certificates.
     fn add_pkcs7(&mut self, der: &[u8]) -> Result<(), PkiError> {
-        let damaged = || PkiError::NotPkcs7("it cannot be read");
+        let damaged = || PkiError::NotPkcs7(Cause::finding("it cannot be read"));
         let whole = tlv::sole(der).ok_or_else(damaged)?;
         let parts = tlv::all(whole.content).ok_or_else(damaged)?;
         let [kind, content] = parts.as_slice() else { return Err(damaged()) };
         if kind.tag != OBJECT_IDENTIFIER || kind.content != SIGNED_DATA || content.tag != tlv::CONTEXT_0 {
-            return Err(PkiError::NotPkcs7("it is of another kind than signed data"));
+            return Err(PkiError::NotPkcs7(Cause::finding("it is of another kind than signed data")));
         }
         let signed = tlv::sole(content.content).filter(|signed| signed.tag == tlv::SEQUENCE).ok_or_else(damaged)?;
         let parts = tlv::all(signed.content).ok_or_else(damaged)?;

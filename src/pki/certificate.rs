@@ -12,7 +12,7 @@ use super::pem;
 use super::signature::{PublicKey, SignatureCheck};
 use super::size::check_size;
 use super::{PkiError, tlv};
-use crate::model::CertificateSummary;
+use crate::model::{Cause, CertificateSummary, with_cause};
 
 /// The largest certificate that is read, in bytes of DER.
 pub const MAX_CERTIFICATE_BYTES: usize = 16 * 1024;
@@ -32,12 +32,16 @@ impl Certificate {
     /// From DER and nothing but DER.
     pub fn from_der(der: &[u8]) -> Result<Self, PkiError> {
         check_size(der, MAX_CERTIFICATE_BYTES)?;
-        let (rest, parsed) = X509Certificate::from_der(der).map_err(|_| PkiError::NotACertificate)?;
+        let (rest, parsed) = X509Certificate::from_der(der).map_err(with_cause(PkiError::NotACertificate))?;
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
         let facts = Arc::new(CertificateFields::of(der, &parsed)?);
-        if tlv::is_signed_object(der) { Ok(Self { der: der.into(), facts }) } else { Err(PkiError::NotACertificate) }
+        if tlv::is_signed_object(der) {
+            Ok(Self { der: der.into(), facts })
+        } else {
+            Err(PkiError::NotACertificate(Cause::finding("its parts are not those of a signed object")))
+        }
     }
 
     /// The certificate itself, as it was read.
@@ -218,9 +222,13 @@ mod tests {
         assert_eq!(Certificate::from_any(b""), Err(PkiError::Empty));
         assert_eq!(Certificate::from_der(&[der, b"\0\0"].concat()), Err(PkiError::TrailingBytes(2)));
         for end in [1, 4, der.len() / 2, der.len() - 1] {
-            assert_eq!(Certificate::from_der(&der[..end]), Err(PkiError::NotACertificate), "first {end} bytes");
+            assert_eq!(
+                Certificate::from_der(&der[..end]),
+                Err(PkiError::NotACertificate(Cause::any())),
+                "first {end} bytes"
+            );
         }
-        assert_eq!(Certificate::from_any(b"hello, robot"), Err(PkiError::NotACertificate));
+        assert_eq!(Certificate::from_any(b"hello, robot"), Err(PkiError::NotACertificate(Cause::any())));
     }
 
     #[test]

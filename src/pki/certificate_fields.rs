@@ -15,6 +15,7 @@ use super::general_name::{GeneralName, NameConstraints};
 use super::name::quoted;
 use super::signature::{PublicKey, SignatureAlgorithm};
 use super::{CertificateFlaw, Fingerprint, KeyUsage, PkiError, name};
+use crate::model::Cause;
 
 /// What a certificate is for (RFC 5280 §4.2.1.12), by the names of that document.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
@@ -146,7 +147,10 @@ impl CertificateFields {
         if parsed.signature_algorithm != parsed.tbs_certificate.signature {
             return Err(PkiError::SignatureAlgorithms);
         }
+        // The only error is that an extension is repeated.
         parsed.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;
+        let damaged = |finding| PkiError::NotACertificate(Cause::finding(finding));
+        let beyond = || damaged("a date is out of range");
         let mut extensions = Extensions::default();
         let mut distribution_points = Vec::new();
         for extension in parsed.extensions() {
@@ -170,13 +174,14 @@ impl CertificateFields {
             version: parsed.version().0.saturating_add(1),
             serial_number: serial_number(parsed.raw_serial()),
             serial: significant(parsed.raw_serial()).to_vec(),
-            not_before: date(parsed.validity().not_before)?,
-            not_after: date(parsed.validity().not_after)?,
+            not_before: date(parsed.validity().not_before).ok_or_else(beyond)?,
+            not_after: date(parsed.validity().not_after).ok_or_else(beyond)?,
             public_key: PublicKey::of(parsed.public_key())?,
             extensions,
             distribution_points,
             signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
-            signed: range_within(der, parsed.tbs_certificate.as_ref()).ok_or(PkiError::NotACertificate)?,
+            signed: range_within(der, parsed.tbs_certificate.as_ref())
+                .ok_or_else(|| damaged("what is signed is not within it"))?,
             signature: parsed.signature_value.data.to_vec(),
             sha256: *Fingerprint::of(der).as_bytes(),
         })
@@ -374,8 +379,9 @@ pub(super) fn significant(mut number: &[u8]) -> &[u8] {
     number
 }
 
-pub(super) fn date(time: ASN1Time) -> Result<DateTime<Utc>, PkiError> {
-    DateTime::from_timestamp(time.timestamp(), 0).ok_or(PkiError::NotACertificate)
+/// `None` for a date that is out of range.
+pub(super) fn date(time: ASN1Time) -> Option<DateTime<Utc>> {
+    DateTime::from_timestamp(time.timestamp(), 0)
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use zeroize::Zeroizing;
 
 use super::self_signed::{CLOCK_SKEW, alternative_names, date, distinguished_name, random_serial_number};
 use super::{Certificate, PkiError, PrivateKey, ServerNames, pem};
-use crate::model::{KeyLength, Subject, Validity};
+use crate::model::{KeyLength, Subject, Validity, with_cause, with_told_cause};
 
 /// The application instance certificate an OPC UA client of this computer shows to servers, and its key.
 ///
@@ -37,7 +37,7 @@ impl fmt::Debug for ClientIdentity {
 pub fn client_identity(application: &str, host: &str, now: DateTime<Utc>) -> Result<ClientIdentity, PkiError> {
     let host = presentable(host);
     let mut random = [0; 8];
-    getrandom::fill(&mut random).map_err(|_| PkiError::Random)?;
+    getrandom::fill(&mut random).map_err(with_told_cause(PkiError::Random))?;
     let slug = application.to_ascii_lowercase().replace(' ', "-");
     let names = ServerNames {
         application_uri: format!("urn:{host}:{slug}:{}", hex::encode(random)),
@@ -70,7 +70,7 @@ pub fn client_identity(application: &str, host: &str, now: DateTime<Utc>) -> Res
     params.serial_number = Some(random_serial_number()?.into());
     params.not_before = date(now.checked_sub_signed(CLOCK_SKEW))?;
     params.not_after = date(now.checked_add_signed(validity.duration()))?;
-    let certificate = params.self_signed(&key).map_err(|_| PkiError::Signing)?;
+    let certificate = params.self_signed(&key).map_err(with_cause(PkiError::Signing))?;
     Ok(ClientIdentity { certificate: Certificate::from_der(certificate.der())?, key })
 }
 

@@ -15,7 +15,7 @@ use super::name::quoted;
 use super::signature::{SignatureAlgorithm, SignatureCheck};
 use super::size::check_size;
 use super::{Certificate, CrlUnusable, OutOfScope, PkiError, RevocationReason, name, pem, tlv};
-use crate::model::CrlSummary;
+use crate::model::{Cause, CrlSummary, with_cause};
 
 /// The largest revocation list that is read, in bytes of DER: room for 150,000 entries with long serial numbers.
 pub const MAX_CRL_BYTES: usize = 8 * 1024 * 1024;
@@ -70,7 +70,7 @@ impl Crl {
     /// From DER and nothing but DER, of at most [`MAX_CRL_BYTES`].
     pub fn from_der(der: &[u8]) -> Result<Self, PkiError> {
         check_size(der, MAX_CRL_BYTES)?;
-        let (rest, parsed) = CertificateRevocationList::from_der(der).map_err(|_| PkiError::NotACrl(UNREADABLE))?;
+        let (rest, parsed) = CertificateRevocationList::from_der(der).map_err(with_cause(PkiError::NotACrl))?;
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
@@ -78,7 +78,7 @@ impl Crl {
         if tlv::is_signed_object(der) {
             Ok(Self { der: der.into(), facts })
         } else {
-            Err(PkiError::NotACrl(UNREADABLE))
+            Err(PkiError::NotACrl(Cause::finding(UNREADABLE)))
         }
     }
 
@@ -286,19 +286,20 @@ impl RevokedEntry {
 
 impl CrlFields {
     fn of(der: &[u8], parsed: &CertificateRevocationList<'_>) -> Result<Self, PkiError> {
-        let damaged = |_: PkiError| PkiError::NotACrl("a date is out of range");
+        let damaged = || PkiError::NotACrl(Cause::finding("a date is out of range"));
         let list = &parsed.tbs_cert_list;
         if parsed.signature_algorithm != list.signature {
             return Err(PkiError::SignatureAlgorithms);
         }
         if !matches!(list.version.map(|version| version.0), None | Some(1)) {
-            return Err(PkiError::NotACrl("it has a version nobody knows"));
+            return Err(PkiError::NotACrl(Cause::finding("it has a version nobody knows")));
         }
+        // The only error is that an extension is repeated.
         parsed.tbs_cert_list.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;
         let entries = &list.revoked_certificates;
         // The parser passes over a table of entries that it cannot read, as if there were none.
         if count_entries(der) != Some(entries.len()) {
-            return Err(PkiError::NotACrl("its entries are damaged"));
+            return Err(PkiError::NotACrl(Cause::finding("its entries are damaged")));
         }
         let mut facts = Self {
             issuer: name::full(parsed.issuer()),
@@ -307,13 +308,13 @@ impl CrlFields {
             authority_key_id: None,
             number: None,
             number_text: None,
-            this_update: date(parsed.last_update()).map_err(damaged)?,
-            next_update: parsed.next_update().map(date).transpose().map_err(damaged)?,
+            this_update: date(parsed.last_update()).ok_or_else(damaged)?,
+            next_update: parsed.next_update().map(|at| date(at).ok_or_else(damaged)).transpose()?,
             entries: Vec::with_capacity(entries.len()),
             unusable: None,
             scope: CrlScope::default(),
             signature_algorithm: SignatureAlgorithm::of(&parsed.signature_algorithm),
-            signed: range_within(der, list.as_ref()).ok_or(PkiError::NotACrl(UNREADABLE))?,
+            signed: range_within(der, list.as_ref()).ok_or(PkiError::NotACrl(Cause::finding(UNREADABLE)))?,
             signature: parsed.signature_value.data.to_vec(),
         };
         for extension in parsed.extensions() {
@@ -327,7 +328,7 @@ impl CrlFields {
     }
 
     fn read(&mut self, extension: &X509Extension<'_>, issuer: &X509Name<'_>) -> Result<(), PkiError> {
-        let damaged = PkiError::NotACrl("one of its extensions is damaged");
+        let damaged = PkiError::NotACrl(Cause::finding("one of its extensions is damaged"));
         match extension.parsed_extension() {
             _ if extension.oid.to_id_string() == ISSUING_DISTRIBUTION_POINT => {
                 self.scope = CrlScope::read(extension.value, issuer).ok_or(damaged)?;
@@ -338,7 +339,7 @@ impl CrlFields {
             ParsedExtension::CRLNumber(number) => {
                 let bytes = number.to_bytes_be();
                 if bytes.len() > MAX_NUMBER_BYTES {
-                    return Err(PkiError::NotACrl("its number is too long"));
+                    return Err(PkiError::NotACrl(Cause::finding("its number is too long")));
                 }
                 self.number_text = Some(number.to_string());
                 self.number = Some(bytes);
@@ -356,7 +357,7 @@ impl CrlFields {
     }
 
     fn add(&mut self, der: &[u8], entry: &RevokedCertificate<'_>) -> Result<(), PkiError> {
-        let damaged = PkiError::NotACrl("its entries are damaged");
+        let damaged = PkiError::NotACrl(Cause::finding("its entries are damaged"));
         let mut reason = RevocationReason::Unspecified;
         for extension in entry.extensions() {
             match extension.parsed_extension() {
@@ -375,9 +376,10 @@ impl CrlFields {
         let serial = significant(entry.raw_serial());
         let at = range_within(der, serial).ok_or(damaged.clone())?;
         self.entries.push(RevokedEntry {
+            // A list is shorter than 4 GiB.
             start: u32::try_from(at.start).map_err(|_| damaged.clone())?,
             length: u32::try_from(at.len()).map_err(|_| damaged.clone())?,
-            date: date(entry.revocation_date).map_err(|_| damaged)?.timestamp(),
+            date: date(entry.revocation_date).ok_or(damaged)?.timestamp(),
             reason,
         });
         Ok(())

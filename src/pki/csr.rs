@@ -12,7 +12,7 @@ use super::self_signed::{alternative_names, distinguished_name};
 use super::signature::{PublicKey, SignatureAlgorithm, SignatureCheck};
 use super::size::check_size;
 use super::{Certificate, FileContent, MAX_CERTIFICATE_BYTES, PkiError, PrivateKey, ServerNames, Wanted, name, tlv};
-use crate::model::CsrRequest;
+use crate::model::{Cause, CsrRequest, with_cause};
 
 /// A certificate signing request (PKCS#10) for an RSA key, found whole, with a signature that proves that whoever made
 /// it holds the key.
@@ -29,19 +29,21 @@ impl Csr {
     /// From DER and nothing but DER, of at most [`MAX_CERTIFICATE_BYTES`].
     pub fn from_der(der: &[u8]) -> Result<Self, PkiError> {
         check_size(der, MAX_CERTIFICATE_BYTES)?;
-        let (rest, parsed) = X509CertificationRequest::from_der(der).map_err(|_| PkiError::NotACsr)?;
+        let (rest, parsed) = X509CertificationRequest::from_der(der).map_err(with_cause(PkiError::NotACsr))?;
         if !rest.is_empty() {
             return Err(PkiError::TrailingBytes(rest.len()));
         }
         let info = &parsed.certification_request_info;
-        let key = PublicKey::of(&info.subject_pki).map_err(|_| PkiError::NotACsr)?;
+        let key = PublicKey::of(&info.subject_pki).map_err(with_cause(PkiError::NotACsr))?;
         let algorithm = SignatureAlgorithm::of(&parsed.signature_algorithm);
         let check = algorithm.verify(&key, info.raw, &parsed.signature_value.data);
-        let PublicKey::Rsa { pkcs1: public_key, bits: key_bits, .. } = key else { return Err(PkiError::NotACsr) };
+        let PublicKey::Rsa { pkcs1: public_key, bits: key_bits, .. } = key else {
+            return Err(PkiError::NotACsr(Cause::finding("its key is of another kind")));
+        };
         match check {
             SignatureCheck::Valid => {}
             SignatureCheck::Invalid => return Err(PkiError::CsrSignature),
-            SignatureCheck::CannotVerify(_) => return Err(PkiError::NotACsr),
+            SignatureCheck::CannotVerify(why) => return Err(PkiError::NotACsr(Cause::new(why))),
         }
         Ok(Self { der: der.to_vec(), common_name: name::common_name(&info.subject), key_bits, public_key })
     }
@@ -109,7 +111,8 @@ impl fmt::Debug for Csr {
 pub(super) fn requested_extensions<'a>(
     request: &X509CertificationRequest<'a>,
 ) -> Result<Vec<X509Extension<'a>>, PkiError> {
-    let damaged = || PkiError::CsrRefused("has a damaged attribute");
+    let part = "attribute";
+    let damaged = || PkiError::CsrDamaged { part, cause: Cause::finding("it is not whole") };
     let info = tlv::sole(request.certification_request_info.raw).and_then(|info| tlv::all(info.content));
     let parts = info.ok_or_else(damaged)?;
     let Some(attributes) = parts.iter().find(|part| part.tag == tlv::CONTEXT_0) else { return Ok(Vec::new()) };
@@ -122,7 +125,8 @@ pub(super) fn requested_extensions<'a>(
     };
     match values(EXTENSION_REQUEST).or_else(|| values(CERT_EXTENSIONS)) {
         Some(values) => {
-            let (rest, request) = ExtensionRequest::from_der(values).map_err(|_| damaged())?;
+            let (rest, request) =
+                ExtensionRequest::from_der(values).map_err(with_cause(|cause| PkiError::CsrDamaged { part, cause }))?;
             if rest.is_empty() { Ok(request.extensions) } else { Err(damaged()) }
         }
         None => Ok(Vec::new()),
@@ -155,7 +159,7 @@ pub fn make_csr(request: &CsrRequest, names: &ServerNames, key: &PrivateKey) -> 
     ];
     params.extended_key_usages = vec![ExtendedKeyUsagePurpose::ServerAuth, ExtendedKeyUsagePurpose::ClientAuth];
     params.is_ca = IsCa::ExplicitNoCa;
-    let csr = params.serialize_request(key).map_err(|_| PkiError::Signing)?;
+    let csr = params.serialize_request(key).map_err(with_cause(PkiError::Signing))?;
     Csr::from_der(csr.der())
 }
 
@@ -216,7 +220,7 @@ mod tests {
         let other = PkiError::OtherContent { found: FileContent::Certificate, wanted: Wanted::Csr };
         assert_eq!(Csr::from_any(samples::certificate().to_pem().as_bytes()), Err(other.clone()));
         assert_eq!(Csr::from_any(samples::certificate().der()), Err(other));
-        assert_eq!(Csr::from_any(b"hello, robot"), Err(PkiError::NotACsr));
+        assert_eq!(Csr::from_any(b"hello, robot"), Err(PkiError::NotACsr(Cause::any())));
         assert_eq!(Csr::from_any(b""), Err(PkiError::Empty));
         assert_eq!(Csr::from_der(&[csr.der(), b"\0"].concat()), Err(PkiError::TrailingBytes(1)));
     }

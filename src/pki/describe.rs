@@ -19,7 +19,7 @@ use super::{
     AlternativeName, BasicConstraints, Bundle, Certificate, Crl, ExtendedKeyUsage, FileContent, KeyUsage,
     MAX_BUNDLE_BYTES, PkiError, RevocationReason, Wanted, key_file, name, pkcs12, tlv,
 };
-use crate::model::Language;
+use crate::model::{Cause, Language, with_cause};
 
 /// One item inside a file.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -179,8 +179,11 @@ impl FileReading {
         match part.content {
             FileContent::Csr => self.other(Description::Csr(Box::new(request(&part.der)?))),
             FileContent::PublicKey => {
-                let (_, info) = SubjectPublicKeyInfo::from_der(&part.der).map_err(|_| PkiError::BadPem)?;
-                self.other(Description::PublicKey(PublicKey::of(&info).map_err(|_| PkiError::BadPem)?.describe()));
+                let (_, info) =
+                    SubjectPublicKeyInfo::from_der(&part.der).map_err(with_cause(PkiError::NotAPublicKey))?;
+                self.other(Description::PublicKey(
+                    PublicKey::of(&info).map_err(with_cause(PkiError::NotAPublicKey))?.describe(),
+                ));
             }
             FileContent::PrivateKey => self.other(Description::PrivateKey(plain_key(&part.der)?)),
             FileContent::EncryptedKey => {
@@ -319,12 +322,12 @@ impl PublicKey {
 
 fn request(der: &[u8]) -> Result<CsrDescription, PkiError> {
     check_size(der, super::MAX_CERTIFICATE_BYTES)?;
-    let (rest, parsed) = X509CertificationRequest::from_der(der).map_err(|_| PkiError::NotACsr)?;
+    let (rest, parsed) = X509CertificationRequest::from_der(der).map_err(with_cause(PkiError::NotACsr))?;
     if !rest.is_empty() {
         return Err(PkiError::TrailingBytes(rest.len()));
     }
     let info = &parsed.certification_request_info;
-    let key = PublicKey::of(&info.subject_pki).map_err(|_| PkiError::NotACsr)?;
+    let key = PublicKey::of(&info.subject_pki).map_err(with_cause(PkiError::NotACsr))?;
     let algorithm = SignatureAlgorithm::of(&parsed.signature_algorithm);
     let mut extensions = Extensions::default();
     for extension in requested_extensions(&parsed)? {
@@ -356,7 +359,7 @@ fn plain_key(der: &[u8]) -> Result<KeyDescription, PkiError> {
 
 /// The public half of an unencrypted PKCS#8.
 fn pkcs8(der: &[u8]) -> Result<KeyDescription, PkiError> {
-    let info = PrivateKeyInfo::try_from(der).map_err(|_| PkiError::NotAPrivateKey)?;
+    let info = PrivateKeyInfo::try_from(der).map_err(with_cause(PkiError::NotAPrivateKey))?;
     if info.algorithm.oid == rsa::pkcs1::ALGORITHM_OID {
         return pkcs1(info.private_key);
     }
@@ -365,7 +368,7 @@ fn pkcs8(der: &[u8]) -> Result<KeyDescription, PkiError> {
         return Ok(PublicKey::Other { oid }.describe());
     }
     let curve = info.algorithm.parameters_oid().ok().and_then(|oid| Curve::from_oid(&oid.to_string()));
-    sec1(info.private_key, curve).ok_or(PkiError::NotAPrivateKey)
+    sec1(info.private_key, curve).ok_or_else(|| PkiError::NotAPrivateKey(Cause::finding("its elliptic key is damaged")))
 }
 
 /// The public half of an elliptic key in the form of RFC 5915: a version, the private number, and perhaps the curve
@@ -391,8 +394,8 @@ fn sec1(der: &[u8], curve: Option<Curve>) -> Option<KeyDescription> {
 
 /// The public half of an RSA key in PKCS#1.
 fn pkcs1(der: &[u8]) -> Result<KeyDescription, PkiError> {
-    let key = rsa::pkcs1::RsaPrivateKey::try_from(der).map_err(|_| PkiError::NotAPrivateKey)?;
-    Ok(rsa_key(&key.public_key().to_der().map_err(|_| PkiError::NotAPrivateKey)?))
+    let key = rsa::pkcs1::RsaPrivateKey::try_from(der).map_err(with_cause(PkiError::NotAPrivateKey))?;
+    Ok(rsa_key(&key.public_key().to_der().map_err(with_cause(PkiError::NotAPrivateKey))?))
 }
 
 fn rsa_key(pkcs1: &[u8]) -> KeyDescription {

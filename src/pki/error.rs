@@ -3,7 +3,7 @@ use thiserror::Error;
 
 use super::{FileContent, Wanted};
 use crate::model::text::TextError;
-use crate::model::{ErrorCode, Problem, SubjectError};
+use crate::model::{Cause, ErrorCode, Problem, SubjectError, with_sources};
 
 /// Everything that can be wrong with a key, a certificate, or the wish for one. Holds no secret.
 #[non_exhaustive]
@@ -15,7 +15,7 @@ pub enum PkiError {
     #[error("{bytes} bytes are too many; at most {max} are read")]
     TooLarge { bytes: usize, max: usize },
     #[error("not an X.509 certificate, or a damaged one")]
-    NotACertificate,
+    NotACertificate(#[source] Cause),
     #[error("{0} bytes follow the end")]
     TrailingBytes(usize),
     #[error("it names two different signature algorithms")]
@@ -31,6 +31,8 @@ pub enum PkiError {
     OtherContent { found: FileContent, wanted: Wanted },
     #[error("there is no certificate in it")]
     NoCertificate,
+    #[error("not a public key, or a damaged one")]
+    NotAPublicKey(#[source] Cause),
     #[error("there are {0} certificates in it; exactly one is expected")]
     SeveralCertificates(usize),
     /// A private key does not belong among certificates, which are handed around.
@@ -39,9 +41,9 @@ pub enum PkiError {
 
     // a revocation list, and files of several things
     #[error("not a certificate revocation list, or a damaged one: {0}")]
-    NotACrl(&'static str),
+    NotACrl(#[source] Cause),
     #[error("not a PKCS#7 with certificates, or a damaged one: {0}")]
-    NotPkcs7(&'static str),
+    NotPkcs7(#[source] Cause),
     #[error("neither a certificate nor a revocation list nor a PKCS#7, or a damaged one")]
     NotTrustMaterial,
     #[error("it holds more than {0} certificates and revocation lists, or encrypted keys")]
@@ -51,7 +53,7 @@ pub enum PkiError {
 
     // a certificate signing request
     #[error("not a certificate signing request (PKCS#10) for an RSA key, or a damaged one")]
-    NotACsr,
+    NotACsr(#[source] Cause),
     #[error("the signature of the certificate signing request is wrong")]
     CsrSignature,
     #[error("there are {0} certificate signing requests in it; exactly one is expected")]
@@ -61,6 +63,12 @@ pub enum PkiError {
     /// The rest of the sentence, the signing request being its subject.
     #[error("the certificate signing request {0}")]
     CsrRefused(&'static str),
+    #[error("the certificate signing request has a damaged {part}")]
+    CsrDamaged {
+        part: &'static str,
+        #[source]
+        cause: Cause,
+    },
     #[error("the key has {0} bits; at least 2048 are asked for")]
     ShortKey(u16),
     #[error("the key of a CA has 2048 or 4096 bits, not {0}")]
@@ -76,13 +84,13 @@ pub enum PkiError {
 
     // a key
     #[error("not an RSA private key, or a damaged one")]
-    NotAPrivateKey,
+    NotAPrivateKey(#[source] Cause),
     #[error("RSA keys of {0} bits are not used; only 1024, 2048 and 4096 are")]
     KeyLength(u16),
     #[error("the key could not be made")]
-    KeyGeneration,
+    KeyGeneration(#[source] Cause),
     #[error("the key could not be written")]
-    KeyEncoding,
+    KeyEncoding(#[source] Cause),
 
     // a PKCS#12 file
     #[error("not a PKCS#12 file")]
@@ -131,14 +139,19 @@ pub enum PkiError {
     #[error("a {asked}-bit key was asked for, but the key has {got} bits")]
     OtherKeyLength { asked: u16, got: u16 },
     #[error("the certificate's dates cannot be written")]
-    Dates,
+    Dates(#[source] Cause),
     #[error("no random numbers are to be had")]
-    Random,
+    Random(#[source] Cause),
     #[error("the certificate could not be signed")]
-    Signing,
+    Signing(#[source] Cause),
 }
 
 impl PkiError {
+    /// [`PkiError::Dates`], found before a library was asked.
+    pub(super) fn beyond_calendar() -> Self {
+        Self::Dates(Cause::finding("a date is out of range"))
+    }
+
     /// The code that stands for the error in a [`Problem`].
     pub const fn code(&self) -> ErrorCode {
         match self {
@@ -149,16 +162,16 @@ impl PkiError {
             | Self::AuthorityName
             | Self::AuthorityKey(_) => ErrorCode::BadCertificateRequest,
             Self::CannotSign(_) => ErrorCode::AuthorityDamaged,
-            Self::CsrRefused(_) => ErrorCode::CsrRefused,
+            Self::CsrRefused(_) | Self::CsrDamaged { .. } => ErrorCode::CsrRefused,
             Self::ShortKey(_) => ErrorCode::ShortKey,
             Self::AuthorityExpired(_) | Self::AuthorityNotYetValid(_) => ErrorCode::AuthorityExpired,
             Self::NotAPair => ErrorCode::KeyMismatch,
             Self::WrongPasswordOrDamaged | Self::PasswordNeeded => ErrorCode::WrongKeyPassword,
             Self::Expired(_) => ErrorCode::CertificateExpired,
             Self::KeyLengthNotAllowed(_) => ErrorCode::KeyLengthNotAllowed,
-            Self::NotAPrivateKey
+            Self::NotAPrivateKey(_)
             | Self::KeyLength(_)
-            | Self::NotACsr
+            | Self::NotACsr(_)
             | Self::CsrSignature
             | Self::SeveralCsrs(_)
             | Self::NotPkcs12
@@ -169,16 +182,17 @@ impl PkiError {
             | Self::Text(_)
             | Self::OtherContent { wanted: Wanted::Csr | Wanted::PrivateKey | Wanted::Pkcs12, .. }
             | Self::UnsupportedKeyEncryption(_) => ErrorCode::FileFormat,
-            Self::KeyGeneration
-            | Self::KeyEncoding
+            Self::KeyGeneration(_)
+            | Self::KeyEncoding(_)
             | Self::Pkcs12Encoding
             | Self::OtherKeyLength { .. }
-            | Self::Dates
-            | Self::Random
-            | Self::Signing => ErrorCode::Internal,
+            | Self::Dates(_)
+            | Self::Random(_)
+            | Self::Signing(_) => ErrorCode::Internal,
             Self::Empty
             | Self::TooLarge { .. }
-            | Self::NotACertificate
+            | Self::NotACertificate(_)
+            | Self::NotAPublicKey(_)
             | Self::TrailingBytes(_)
             | Self::SignatureAlgorithms
             | Self::RepeatedExtension
@@ -198,13 +212,16 @@ impl PkiError {
 
 impl From<PkiError> for Problem {
     fn from(error: PkiError) -> Self {
-        Self::with_detail(error.code(), error)
+        Self::with_detail(error.code(), with_sources(&error))
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::error::Error as _;
+
     use super::*;
+    use crate::pki::{Certificate, PrivateKey};
 
     #[test]
     fn a_problem_says_whose_fault_it_is_and_why() {
@@ -216,6 +233,19 @@ mod tests {
         assert_eq!(bad_wish.code, ErrorCode::BadCertificateRequest);
         assert_eq!(bad_wish.detail.as_deref(), Some("common name is empty"));
 
-        assert_eq!(Problem::from(PkiError::Signing).code, ErrorCode::Internal);
+        assert_eq!(Problem::from(PkiError::Signing(Cause::any())).code, ErrorCode::Internal);
+    }
+
+    #[test]
+    fn what_a_library_says_is_the_source_and_ends_the_detail() {
+        let key = PrivateKey::from_pkcs8_der(&[0x30, 3, 2, 1, 0]).unwrap_err();
+        assert_eq!(key, PkiError::NotAPrivateKey(Cause::any()));
+        let source = key.source().expect("the DER reader says where it stopped").to_string();
+        let detail = Problem::from(key).detail.unwrap();
+        assert_eq!(detail, format!("not an RSA private key, or a damaged one: {source}"));
+
+        let certificate = Certificate::from_der(&[0x30, 0]).unwrap_err();
+        assert!(certificate.source().is_some(), "{certificate:?}");
+        assert_eq!(PkiError::Empty.source().map(ToString::to_string), None);
     }
 }

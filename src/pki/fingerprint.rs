@@ -67,6 +67,7 @@ impl FromStr for Fingerprint {
             return Err(FingerprintError::Character(other));
         }
         let mut bytes = [0; 32];
+        // Only their number can be wrong: each of them is a hexadecimal digit.
         hex::decode_to_slice(&digits, &mut bytes).map_err(|_| FingerprintError::Length(digits.len()))?;
         Ok(Self(bytes))
     }

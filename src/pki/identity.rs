@@ -9,6 +9,7 @@ use zeroize::Zeroizing;
 
 use super::self_signed::{CLOCK_SKEW, date, random_serial_number};
 use super::{Fingerprint, PkiError};
+use crate::model::with_cause;
 
 /// What a controller's management interface shows of itself over TLS, and the key that proves it.
 ///
@@ -38,7 +39,7 @@ impl fmt::Debug for TlsIdentity {
 ///
 /// It is pinned, so neither its name nor its dates are looked at; it does not expire (RFC 5280 §4.1.2.5).
 pub fn tls_identity(common_name: &str, now: DateTime<Utc>) -> Result<TlsIdentity, PkiError> {
-    let key = KeyPair::generate_for(&PKCS_ECDSA_P256_SHA256).map_err(|_| PkiError::KeyGeneration)?;
+    let key = KeyPair::generate_for(&PKCS_ECDSA_P256_SHA256).map_err(with_cause(PkiError::KeyGeneration))?;
     let key = Zeroizing::new(key);
     let mut params = CertificateParams::default();
     params.distinguished_name = DistinguishedName::new();
@@ -49,7 +50,7 @@ pub fn tls_identity(common_name: &str, now: DateTime<Utc>) -> Result<TlsIdentity
     params.serial_number = Some(random_serial_number()?.into());
     params.not_before = date(now.checked_sub_signed(CLOCK_SKEW))?;
     params.not_after = date(DateTime::from_timestamp(NEVER, 0))?;
-    let certificate = params.self_signed(&*key).map_err(|_| PkiError::Signing)?;
+    let certificate = params.self_signed(&*key).map_err(with_cause(PkiError::Signing))?;
     Ok(TlsIdentity {
         certificate_der: certificate.der().to_vec(),
         private_key_pkcs8: Zeroizing::new(key.serialize_der()),

@@ -13,7 +13,7 @@ use sha2::{Digest as _, Sha256};
 use zeroize::Zeroizing;
 
 use super::{Certificate, PkiError};
-use crate::model::KeyLength;
+use crate::model::{Cause, KeyLength, with_cause};
 
 /// An RSA private key of 1024, 2048 or 4096 bits, the key of an OPC UA application.
 ///
@@ -40,7 +40,7 @@ impl PrivateKey {
     pub fn generate(length: KeyLength) -> Result<Self, PkiError> {
         let material = match length {
             KeyLength::Rsa1024 => {
-                let key = RsaPrivateKey::new(&mut OsRng, 1024).map_err(|_| PkiError::KeyGeneration)?;
+                let key = RsaPrivateKey::new(&mut OsRng, 1024).map_err(with_cause(PkiError::KeyGeneration))?;
                 KeyMaterial::Legacy(Box::new(key))
             }
             KeyLength::Rsa2048 => KeyMaterial::Current(generate(KeySize::Rsa2048)?),
@@ -52,15 +52,16 @@ impl PrivateKey {
     /// From an unencrypted PKCS#8 and nothing after it. The key is checked to be consistent in itself.
     pub fn from_pkcs8_der(der: &[u8]) -> Result<Self, PkiError> {
         let bits = modulus_bits(der)?;
+        // Its error repeats the number.
         let length = KeyLength::try_from(bits).map_err(|_| PkiError::KeyLength(bits))?;
         let material = match length {
             // Checks the primes against the modulus, and computes anew what follows from them.
             KeyLength::Rsa1024 => {
-                let key = RsaPrivateKey::from_pkcs8_der(der).map_err(|_| PkiError::NotAPrivateKey)?;
+                let key = RsaPrivateKey::from_pkcs8_der(der).map_err(with_cause(PkiError::NotAPrivateKey))?;
                 KeyMaterial::Legacy(Box::new(key))
             }
             KeyLength::Rsa2048 | KeyLength::Rsa4096 => {
-                KeyMaterial::Current(KeyPair::from_pkcs8(der).map_err(|_| PkiError::NotAPrivateKey)?)
+                KeyMaterial::Current(KeyPair::from_pkcs8(der).map_err(with_cause(PkiError::NotAPrivateKey))?)
             }
         };
         Self::new(material, length)
@@ -70,10 +71,10 @@ impl PrivateKey {
     pub fn to_pkcs8_der(&self) -> Result<Zeroizing<Vec<u8>>, PkiError> {
         match &self.material {
             KeyMaterial::Current(pair) => {
-                let der = pair.as_der().map_err(|_| PkiError::KeyEncoding)?;
+                let der = pair.as_der().map_err(with_cause(PkiError::KeyEncoding))?;
                 Ok(Zeroizing::new(der.as_ref().to_vec()))
             }
-            KeyMaterial::Legacy(key) => Ok(key.to_pkcs8_der().map_err(|_| PkiError::KeyEncoding)?.to_bytes()),
+            KeyMaterial::Legacy(key) => Ok(key.to_pkcs8_der().map_err(with_cause(PkiError::KeyEncoding))?.to_bytes()),
         }
     }
 
@@ -101,7 +102,7 @@ impl PrivateKey {
         let public_key = match &material {
             KeyMaterial::Current(pair) => pair.public_key().as_ref().to_vec(),
             KeyMaterial::Legacy(key) => {
-                key.to_public_key().to_pkcs1_der().map_err(|_| PkiError::KeyEncoding)?.into_vec()
+                key.to_public_key().to_pkcs1_der().map_err(with_cause(PkiError::KeyEncoding))?.into_vec()
             }
         };
         Ok(Self { material, length, public_key })
@@ -113,13 +114,13 @@ impl PrivateKey {
             KeyMaterial::Current(pair) => {
                 let mut signature = vec![0; pair.public_modulus_len()];
                 pair.sign(&RSA_PKCS1_SHA256, &SystemRandom::new(), message, &mut signature)
-                    .map_err(|_| PkiError::Signing)?;
+                    .map_err(with_cause(PkiError::Signing))?;
                 Ok(signature)
             }
             // With random numbers it blinds the operation, so that its duration tells nothing about the key.
             KeyMaterial::Legacy(key) => key
                 .sign_with_rng(&mut OsRng, Pkcs1v15Sign::new::<Sha256>(), &Sha256::digest(message))
-                .map_err(|_| PkiError::Signing),
+                .map_err(with_cause(PkiError::Signing)),
         }
     }
 }
@@ -136,6 +137,7 @@ impl rcgen::PublicKeyData for PrivateKey {
 
 impl rcgen::SigningKey for PrivateKey {
     fn sign(&self, message: &[u8]) -> Result<Vec<u8>, rcgen::Error> {
+        // An error of rcgen holds no other error.
         self.sign_sha256(message).map_err(|_| rcgen::Error::RemoteKeyError)
     }
 }
@@ -147,18 +149,18 @@ impl fmt::Debug for PrivateKey {
 }
 
 fn generate(size: KeySize) -> Result<KeyPair, PkiError> {
-    KeyPair::generate(size).map_err(|_| PkiError::KeyGeneration)
+    KeyPair::generate(size).map_err(with_cause(PkiError::KeyGeneration))
 }
 
 /// The length of the RSA key in a PKCS#8, which must be whole and end where it says.
 fn modulus_bits(der: &[u8]) -> Result<u16, PkiError> {
-    let info = PrivateKeyInfo::try_from(der).map_err(|_| PkiError::NotAPrivateKey)?;
+    let info = PrivateKeyInfo::try_from(der).map_err(with_cause(PkiError::NotAPrivateKey))?;
     if info.algorithm.oid != rsa::pkcs1::ALGORITHM_OID {
-        return Err(PkiError::NotAPrivateKey);
+        return Err(PkiError::NotAPrivateKey(Cause::finding("it is of another kind than RSA")));
     }
-    let key = rsa::pkcs1::RsaPrivateKey::try_from(info.private_key).map_err(|_| PkiError::NotAPrivateKey)?;
+    let key = rsa::pkcs1::RsaPrivateKey::try_from(info.private_key).map_err(with_cause(PkiError::NotAPrivateKey))?;
     let modulus = rsa::BigUint::from_bytes_be(key.modulus.as_bytes());
-    u16::try_from(modulus.bits()).map_err(|_| PkiError::NotAPrivateKey)
+    u16::try_from(modulus.bits()).map_err(with_cause(PkiError::NotAPrivateKey))
 }
 
 #[cfg(test)]
@@ -189,11 +191,11 @@ mod tests {
         for key in [samples::legacy_key(), samples::key()] {
             let der = key.to_pkcs8_der().unwrap();
             for bad in [&b""[..], b"hello", &der[..der.len() - 1], &[&der[..], b"\0"].concat()] {
-                assert_eq!(PrivateKey::from_pkcs8_der(bad).err(), Some(PkiError::NotAPrivateKey));
+                assert_eq!(PrivateKey::from_pkcs8_der(bad).err(), Some(PkiError::NotAPrivateKey(Cause::any())));
             }
         }
         let elliptic = crate::pki::tls_identity("robot", samples::now()).unwrap().private_key_pkcs8;
-        assert_eq!(PrivateKey::from_pkcs8_der(&elliptic).err(), Some(PkiError::NotAPrivateKey));
+        assert_eq!(PrivateKey::from_pkcs8_der(&elliptic).err(), Some(PkiError::NotAPrivateKey(Cause::any())));
     }
 
     #[test]
@@ -202,7 +204,7 @@ mod tests {
             let mut der = key.to_pkcs8_der().unwrap();
             let inside_d = der.len() / 3;
             der[inside_d] ^= 0x10;
-            assert_eq!(PrivateKey::from_pkcs8_der(&der).err(), Some(PkiError::NotAPrivateKey), "{key:?}");
+            assert_eq!(PrivateKey::from_pkcs8_der(&der).err(), Some(PkiError::NotAPrivateKey(Cause::any())), "{key:?}");
         }
     }
 

@@ -4,6 +4,7 @@ use secrecy::{ExposeSecret as _, SecretString};
 use zeroize::Zeroizing;
 
 use super::{PkiError, PrivateKey, pem, tlv};
+use crate::model::{with_cause, with_told_cause};
 
 /// How often the passphrase is hashed: what OWASP recommends for PBKDF2 with HMAC-SHA-256. A good half second for
 /// whoever knows it, and for whoever guesses.
@@ -16,15 +17,14 @@ const ITERATIONS: u32 = 600_000;
 pub fn encrypt_key(key: &PrivateKey, passphrase: &SecretString) -> Result<Zeroizing<String>, PkiError> {
     let (mut salt, mut iv) = ([0; 16], [0; 16]);
     for bytes in [&mut salt, &mut iv] {
-        getrandom::fill(bytes).map_err(|_| PkiError::Random)?;
+        getrandom::fill(bytes).map_err(with_told_cause(PkiError::Random))?;
     }
-    let encoding = |_| PkiError::KeyEncoding;
     let parameters = pbes2::Parameters::generate_pbkdf2_sha256_aes256cbc(ITERATIONS, &salt, iv)
-        .map_err(|_| PkiError::KeyEncoding)?;
+        .map_err(with_cause(PkiError::KeyEncoding))?;
     let pkcs8 = key.to_pkcs8_der()?;
     let encrypted =
-        parameters.encrypt(passphrase.expose_secret().as_bytes(), &pkcs8).map_err(|_| PkiError::KeyEncoding)?;
-    let algorithm = pkcs5::EncryptionScheme::from(parameters).to_der().map_err(encoding)?;
+        parameters.encrypt(passphrase.expose_secret().as_bytes(), &pkcs8).map_err(with_cause(PkiError::KeyEncoding))?;
+    let algorithm = pkcs5::EncryptionScheme::from(parameters).to_der().map_err(with_cause(PkiError::KeyEncoding))?;
     let octets = tlv::write(tlv::OCTET_STRING, &[&encrypted]);
     Ok(pem::encrypted_key(&tlv::write(tlv::SEQUENCE, &[&algorithm, &octets])).into())
 }

@@ -9,6 +9,7 @@ use super::parts::{FilePart, parts};
 use super::password_encryption::{self, DecryptError, EncodedPassword};
 use super::size::check_size;
 use super::{Certificate, FileContent, PkiError, PrivateKey, Wanted, read_bundle, tlv};
+use crate::model::{Cause, with_cause};
 
 /// The largest file a private key is looked for in. Certificates may stand around its PEM.
 pub const MAX_KEY_FILE_BYTES: usize = 256 * 1024;
@@ -26,7 +27,7 @@ pub fn read_key_file(bytes: &[u8], password: Option<&str>) -> Result<PrivateKey,
     match keys.as_slice() {
         [key] => read_key(key, password),
         [] => Err(match &parts[0].content {
-            FileContent::Unknown => PkiError::NotAPrivateKey,
+            FileContent::Unknown => unreadable(),
             FileContent::Certificate => PkiError::NoKey,
             found => PkiError::OtherContent { found: found.clone(), wanted: Wanted::PrivateKey },
         }),
@@ -60,17 +61,21 @@ pub fn read_pair(
 }
 
 fn from_pkcs1(der: &[u8]) -> Result<PrivateKey, PkiError> {
-    Pkcs1::try_from(der).map_err(|_| PkiError::NotAPrivateKey)?;
+    Pkcs1::try_from(der).map_err(with_cause(PkiError::NotAPrivateKey))?;
     let algorithm = AlgorithmIdentifierRef { oid: rsa::pkcs1::ALGORITHM_OID, parameters: Some(tlv::null()) };
-    let pkcs8 = PrivateKeyInfo::new(algorithm, der).to_der().map_err(|_| PkiError::NotAPrivateKey)?;
+    let pkcs8 = PrivateKeyInfo::new(algorithm, der).to_der().map_err(with_cause(PkiError::NotAPrivateKey))?;
     PrivateKey::from_pkcs8_der(&Zeroizing::new(pkcs8))
+}
+
+fn unreadable() -> PkiError {
+    PkiError::NotAPrivateKey(Cause::finding("it cannot be read"))
 }
 
 /// Decrypts an EncryptedPrivateKeyInfo (RFC 5958 §3).
 fn decrypt(der: &[u8], password: Option<&str>) -> Result<PrivateKey, PkiError> {
     let parts = tlv::sole(der).and_then(|whole| tlv::elements(whole.content));
-    let Some([algorithm, data]) = parts.as_deref() else { return Err(PkiError::NotAPrivateKey) };
-    let data = tlv::sole(data).ok_or(PkiError::NotAPrivateKey)?.content;
+    let Some([algorithm, data]) = parts.as_deref() else { return Err(unreadable()) };
+    let data = tlv::sole(data).ok_or_else(unreadable)?.content;
     let password = password.ok_or(PkiError::PasswordNeeded)?;
     for form in EncodedPassword::forms(password) {
         match password_encryption::decrypt(algorithm, data, &form) {
@@ -173,16 +178,16 @@ mod tests {
         let unclosed = armoured("PRIVATE KEY", "", &key);
         for (bytes, expected) in [
             (vec![], PkiError::Empty),
-            (b"hello, robot".to_vec(), PkiError::NotAPrivateKey),
+            (b"hello, robot".to_vec(), PkiError::NotAPrivateKey(Cause::any())),
             (samples::certificate().der().to_vec(), PkiError::NoKey),
             (samples::certificate().to_pem().into_bytes(), PkiError::NoKey),
-            (elliptic.to_vec(), PkiError::NotAPrivateKey),
-            (armoured("EC PRIVATE KEY", "", &elliptic), PkiError::NotAPrivateKey),
+            (elliptic.to_vec(), PkiError::NotAPrivateKey(Cause::any())),
+            (armoured("EC PRIVATE KEY", "", &elliptic), PkiError::NotAPrivateKey(Cause::any())),
             (
                 armoured("RSA PRIVATE KEY", headers, &key),
                 PkiError::OtherContent { found: FileContent::TraditionalKey, wanted: Wanted::PrivateKey },
             ),
-            (armoured("ENCRYPTED PRIVATE KEY", "", b"x"), PkiError::NotAPrivateKey),
+            (armoured("ENCRYPTED PRIVATE KEY", "", b"x"), PkiError::NotAPrivateKey(Cause::any())),
             (twice, PkiError::SeveralKeys(2)),
             (unclosed[..unclosed.len() - 5].to_vec(), PkiError::BadPem),
             (armoured("PRIVATE KEY", "!", &key), PkiError::BadPem),

@@ -104,7 +104,7 @@ pub use describe::{
 pub use error::PkiError;
 pub use file_content::{FileContent, Wanted};
 pub use fingerprint::{Fingerprint, FingerprintError};
-pub use flaw::{CertificateFlaw, CrlFlaw, CrlUnusable, OutOfScope, RefusalCause};
+pub use flaw::{CertificateFlaw, CrlFlaw, CrlUnusable, OutOfScope, RefusalCause, UnverifiableSignature};
 pub use identity::{TlsIdentity, tls_identity};
 pub use issuers::{Issuers, issuers_of};
 pub use key::PrivateKey;

@@ -172,6 +172,7 @@ fn cbc<C: KeyInit + BlockCipherDecrypt>(
     vector: &[u8],
     data: &[u8],
 ) -> Result<Zeroizing<Vec<u8>>, DecryptError> {
+    // Both errors are without content.
     let cipher = cbc::Decryptor::<C>::new_from_slices(key, vector).map_err(|_| DecryptError::Failed)?;
     cipher.decrypt_padded_vec::<Pkcs7>(data).map(Zeroizing::new).map_err(|_| DecryptError::Failed)
 }

@@ -119,6 +119,7 @@ fn block(label: String, body: &[u8]) -> Result<PemBlock, PkiError> {
             digits.extend(line.iter().filter(|byte| !byte.is_ascii_whitespace()));
         }
     }
+    // The error of the decoder quotes the text, which may be a key.
     let der = Zeroizing::new(BASE64.decode(&*digits).map_err(|_| PkiError::BadPem)?);
     Ok(PemBlock { label, encrypted, der })
 }

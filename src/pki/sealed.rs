@@ -4,6 +4,8 @@ use secrecy::{ExposeSecret as _, SecretString};
 use thiserror::Error;
 use zeroize::Zeroizing;
 
+use crate::model::{Cause, with_told_cause};
+
 /// Bytes that only the passphrase opens: AES-256-GCM under a key that Argon2id makes of passphrase and salt.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sealed {
@@ -18,12 +20,13 @@ pub const SEAL_NONCE_BYTES: usize = NONCE_LEN;
 
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum SealError {
+    // The library does not say why it opens or seals nothing, so that no error helps an attacker.
     #[error("the passphrase is wrong, or the data was changed")]
     NotOpened,
     #[error("the system gives no random numbers: {0}")]
-    Random(String),
+    Random(#[source] Cause),
     #[error("the passphrase cannot be made a key: {0}")]
-    Key(String),
+    Key(#[source] Cause),
     #[error("the data cannot be encrypted")]
     Encrypt,
 }
@@ -70,7 +73,7 @@ impl SealingKey {
     /// Under a fresh salt. Blocks for as long as `cost` takes.
     pub fn new(passphrase: &SecretString, cost: SealCost) -> Result<Self, SealError> {
         let mut salt = [0; SEAL_SALT_BYTES];
-        getrandom::fill(&mut salt).map_err(|e| SealError::Random(e.to_string()))?;
+        getrandom::fill(&mut salt).map_err(with_told_cause(SealError::Random))?;
         Self::with_salt(passphrase, salt, cost)
     }
 
@@ -81,19 +84,19 @@ impl SealingKey {
         cost: SealCost,
     ) -> Result<Self, SealError> {
         let SealCost { memory_kib, passes, lanes } = cost;
-        let failed = |e: argon2::Error| SealError::Key(e.to_string());
-        let params = Params::new(memory_kib, passes, lanes, Some(KEY_BYTES)).map_err(failed)?;
+        let params =
+            Params::new(memory_kib, passes, lanes, Some(KEY_BYTES)).map_err(with_told_cause(SealError::Key))?;
         let mut key = Zeroizing::new([0; KEY_BYTES]);
         Argon2::new(Algorithm::Argon2id, Version::V0x13, params)
             .hash_password_into(passphrase.expose_secret().as_bytes(), &salt, &mut *key)
-            .map_err(failed)?;
+            .map_err(with_told_cause(SealError::Key))?;
         Ok(Self { salt, key })
     }
 
     /// Seals under a fresh nonce of 96 random bits, which allows 2^32 of them (NIST SP 800-38D §8.3).
     pub fn seal(&self, plain: &[u8], context: &[u8]) -> Result<Sealed, SealError> {
         let mut nonce = [0; NONCE_LEN];
-        getrandom::fill(&mut nonce).map_err(|e| SealError::Random(e.to_string()))?;
+        getrandom::fill(&mut nonce).map_err(with_told_cause(SealError::Random))?;
         // Room for the tag: bytes that are not sealed yet must not be left behind where the vector grows.
         let mut bytes = Vec::with_capacity(plain.len() + AES_256_GCM.tag_len());
         bytes.extend_from_slice(plain);

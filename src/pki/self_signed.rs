@@ -8,7 +8,7 @@ use rcgen::{
 use time::OffsetDateTime;
 
 use super::{Certificate, PkiError, PrivateKey};
-use crate::model::{SelfSignedRequest, Subject, SubjectError};
+use crate::model::{SelfSignedRequest, Subject, SubjectError, with_cause, with_told_cause};
 
 /// Under which names a server is known. At least one address or DNS name is needed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub fn self_signed(
     params.serial_number = Some(random_serial_number()?.into());
     params.not_before = date(now.checked_sub_signed(CLOCK_SKEW))?;
     params.not_after = date(now.checked_add_signed(request.validity.duration()))?;
-    let certificate = params.self_signed(key).map_err(|_| PkiError::Signing)?;
+    let certificate = params.self_signed(key).map_err(with_cause(PkiError::Signing))?;
     Certificate::from_der(certificate.der())
 }
 
@@ -77,22 +77,23 @@ pub(super) const CLOCK_SKEW: Duration = Duration::days(1);
 /// 126 random bits: positive, and always 16 bytes long.
 pub(super) fn random_serial_number() -> Result<Vec<u8>, PkiError> {
     let mut bytes = [0; 16];
-    getrandom::fill(&mut bytes).map_err(|_| PkiError::Random)?;
+    getrandom::fill(&mut bytes).map_err(with_told_cause(PkiError::Random))?;
     bytes[0] = bytes[0] & 0x3f | 0x40;
     Ok(bytes.to_vec())
 }
 
 /// Refuses `None`, and what X.509 cannot write: years before 0 or after 9999.
 pub(super) fn date(when: Option<DateTime<Utc>>) -> Result<OffsetDateTime, PkiError> {
-    let seconds = when.ok_or(PkiError::Dates)?.timestamp();
-    let date = OffsetDateTime::from_unix_timestamp(seconds).ok().filter(|date| date.year() >= 0);
-    date.ok_or(PkiError::Dates)
+    let seconds = when.ok_or_else(PkiError::beyond_calendar)?.timestamp();
+    let date = OffsetDateTime::from_unix_timestamp(seconds).map_err(with_cause(PkiError::Dates))?;
+    if date.year() < 0 { Err(PkiError::beyond_calendar()) } else { Ok(date) }
 }
 
 pub(super) fn distinguished_name(subject: &Subject) -> Result<DistinguishedName, PkiError> {
     subject.check()?;
     let mut name = DistinguishedName::new();
     if !subject.country.is_empty() {
+        // rcgen says only that the characters are wrong.
         let country = subject.country.as_str().try_into();
         let country = country.map_err(|_| SubjectError::Country(subject.country.clone()))?;
         name.push(DnType::CountryName, DnValue::PrintableString(country));
@@ -116,6 +117,7 @@ pub(super) fn alternative_names(names: &ServerNames) -> Result<Vec<SanType>, Pki
         return Err(PkiError::NoHostName);
     }
     names.check()?;
+    // rcgen says of both only that the characters are wrong.
     let uri = names.application_uri.as_str().try_into();
     let mut all = vec![SanType::URI(uri.map_err(|_| PkiError::ApplicationUri(names.application_uri.clone()))?)];
     for dns in &names.dns {
@@ -227,7 +229,7 @@ mod tests {
     fn a_clock_beyond_all_dates_is_an_error_and_no_crash() {
         for now in [DateTime::<Utc>::MIN_UTC, DateTime::<Utc>::MAX_UTC, now() - Duration::days(365 * 2040)] {
             let made = self_signed(&request(KeyLength::Rsa2048), &names(), samples::key(), now);
-            assert_eq!(made, Err(PkiError::Dates));
+            assert_eq!(made, Err(PkiError::Dates(crate::model::Cause::any())));
         }
     }
 

@@ -8,7 +8,9 @@ use x509_parser::prelude::{AlgorithmIdentifier, FromDer as _, SubjectPublicKeyIn
 use x509_parser::public_key::{PublicKey as Parsed, RSAPublicKey};
 use x509_parser::signature_algorithm::RsaSsaPssParams;
 
-use super::PkiError;
+use super::name::quoted;
+use super::{PkiError, UnverifiableSignature};
+use crate::model::with_cause;
 
 /// How strong the hash within a signature is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -68,8 +70,8 @@ pub(super) enum Curve {
 pub(super) enum SignatureCheck {
     Valid,
     Invalid,
-    /// The algorithm or the key of the signer is not supported, or too weak to prove anything; why, in English.
-    CannotVerify(String),
+    /// The algorithm or the key of the signer is not supported, or too weak to prove anything.
+    CannotVerify(UnverifiableSignature),
 }
 
 impl SignatureAlgorithm {
@@ -104,19 +106,22 @@ impl SignatureAlgorithm {
 
     /// Whether `signature` over `message` was made with this algorithm and the private half of `key`.
     pub fn verify(&self, key: &PublicKey, message: &[u8], signature: &[u8]) -> SignatureCheck {
+        use UnverifiableSignature as Because;
+        let algorithm = || quoted(&self.name);
         let Some((scheme, hash)) = self.known else {
-            return SignatureCheck::CannotVerify(format!("the signature algorithm {} is not supported", self.name));
+            return SignatureCheck::CannotVerify(Because::AlgorithmNotSupported(algorithm()));
         };
         if hash == Hash::Md5 {
-            return SignatureCheck::CannotVerify(format!("anybody can forge a signature made with {}", self.name));
+            return SignatureCheck::CannotVerify(Because::AlgorithmForgeable(algorithm()));
         }
         match (scheme, key) {
             (Scheme::RsaPkcs1 | Scheme::RsaPss, PublicKey::Rsa { pkcs1, bits, exponent_fits }) => {
                 let fewest = if scheme == Scheme::RsaPss { 2048 } else { 1024 };
-                if !(fewest..=8192).contains(bits) || !exponent_fits {
-                    return SignatureCheck::CannotVerify(format!(
-                        "the signer's RSA key of {bits} bits cannot be believed"
-                    ));
+                if !(fewest..=8192).contains(bits) {
+                    return SignatureCheck::CannotVerify(Because::KeyLength(*bits));
+                }
+                if !exponent_fits {
+                    return SignatureCheck::CannotVerify(Because::KeyExponent);
                 }
                 // Only the combination of a short key and a middle-sized hash is missing in AWS-LC.
                 if scheme == Scheme::RsaPkcs1 && hash == Hash::Sha384 && *bits < 2048 {
@@ -126,10 +131,13 @@ impl SignatureAlgorithm {
             }
             (Scheme::Ecdsa, PublicKey::Ec { curve: Some(curve), point, .. }) => match ecdsa(*curve, hash) {
                 Some(algorithm) => checked(accepts(algorithm, point, message, signature)),
-                None => SignatureCheck::CannotVerify(format!("{} with this curve is not supported", self.name)),
+                None => {
+                    let curve = curve.name().to_owned();
+                    SignatureCheck::CannotVerify(Because::NotWithCurve { algorithm: algorithm(), curve })
+                }
             },
             (Scheme::Ecdsa, PublicKey::Ec { curve: None, .. }) => {
-                SignatureCheck::CannotVerify("the elliptic curve of the signer is not supported".to_owned())
+                SignatureCheck::CannotVerify(Because::CurveNotSupported)
             }
             // A signature of one kind cannot be that of a key of another kind.
             _ => SignatureCheck::Invalid,
@@ -140,7 +148,7 @@ impl SignatureAlgorithm {
 impl PublicKey {
     pub fn of(info: &SubjectPublicKeyInfo<'_>) -> Result<Self, PkiError> {
         let bytes = info.subject_public_key.data.to_vec();
-        match info.parsed().map_err(|_| PkiError::NotACertificate)? {
+        match info.parsed().map_err(with_cause(PkiError::NotACertificate))? {
             Parsed::RSA(_) => Self::rsa(&bytes),
             Parsed::EC(point) => {
                 let oid = info.algorithm.parameters.as_ref().and_then(|parameters| parameters.as_oid().ok());
@@ -154,7 +162,7 @@ impl PublicKey {
 
     /// From PKCS#1.
     pub fn rsa(pkcs1: &[u8]) -> Result<Self, PkiError> {
-        let (_, rsa) = RSAPublicKey::from_der(pkcs1).map_err(|_| PkiError::NotACertificate)?;
+        let (_, rsa) = RSAPublicKey::from_der(pkcs1).map_err(with_cause(PkiError::NotACertificate))?;
         Ok(Self::Rsa {
             pkcs1: pkcs1.to_vec(),
             bits: u16::try_from(bit_length(rsa.modulus)).unwrap_or(u16::MAX),

@@ -191,6 +191,7 @@ impl SettingsExport {
         };
         let plain = open(&sealed, self.context().as_bytes(), passphrase)?;
         // What a controller sealed is its own; an error here quotes nothing.
+        // The error of the reader quotes the content, which holds secrets.
         serde_json::from_slice(&plain).map_err(|_| ExportError::NotAnExport("its content is not understood".to_owned()))
     }
 

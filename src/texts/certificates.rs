@@ -7,6 +7,7 @@ use chrono::{DateTime, SecondsFormat, Utc};
 use crate::model::{CertificateStatus, Language, untrusted_text};
 use crate::pki::{
     CertificateFinding, CertificateFlaw, CrlFlaw, CrlUnusable, KeyUsage, OutOfScope, RefusalCause, RejectedClient,
+    UnverifiableSignature,
 };
 
 impl CertificateFlaw {
@@ -83,6 +84,13 @@ impl CertificateFinding {
 impl fmt::Display for CrlUnusable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.reason(Language::En))
+    }
+}
+
+/// English, for logs and programs.
+impl fmt::Display for UnverifiableSignature {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&super::en::signatures::unverifiable(self))
     }
 }
 

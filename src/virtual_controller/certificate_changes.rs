@@ -1,10 +1,11 @@
 //! The changes that are about server certificates beyond making or importing one with its key (manual 2.7.1.5, 2.7.2).
 //! The rules of `changes` hold here too.
 
+use super::change_error::CertificateChangeError;
 use super::changes::install;
 use super::secret_bytes::SecretBytes;
 use super::state::{ControllerState, KeyPair, OperatingContext, PendingCsr};
-use crate::model::{Base64Bytes, CertificateType, CsrRequest, ErrorCode, FirmwareGeneration, Problem};
+use crate::model::{Base64Bytes, CertificateType, CsrRequest, FirmwareGeneration};
 use crate::pki::{Certificate, Csr, PkiError, PrivateKey, check_usable, make_csr as csr_for, pkcs12_read_key};
 
 /// Manual 2.7.1.5 on current firmware: the key is made here and stays here, beside the one of the certificate in use.
@@ -13,13 +14,11 @@ pub fn make_csr(
     state: &mut ControllerState,
     context: &OperatingContext,
     request: &CsrRequest,
-) -> Result<Vec<u8>, Problem> {
+) -> Result<Vec<u8>, CertificateChangeError> {
     if state.generation() == FirmwareGeneration::Legacy {
-        return Err(ErrorCode::FirmwareTooOld.into());
+        return Err(CertificateChangeError::FirmwareTooOld);
     }
-    request
-        .check(&state.settings.security_policies)
-        .map_err(|error| Problem::with_detail(ErrorCode::BadCertificateRequest, error))?;
+    request.check(&state.settings.security_policies)?;
     let key = PrivateKey::generate(request.key_length)?;
     let csr = csr_for(request, &state.server_names(context), &key)?;
     keep(state, &csr, &key)
@@ -34,9 +33,9 @@ pub fn import_csr(
     pkcs12: &[u8],
     password: &str,
     certificate: Option<&[u8]>,
-) -> Result<Vec<u8>, Problem> {
+) -> Result<Vec<u8>, CertificateChangeError> {
     if state.generation() == FirmwareGeneration::Current {
-        return Err(ErrorCode::FirmwareTooNew.into());
+        return Err(CertificateChangeError::FirmwareTooNew);
     }
     let csr = Csr::from_der(csr)?;
     let key = pkcs12_read_key(pkcs12, password)?;
@@ -62,11 +61,11 @@ pub fn import_ca_signed(
     state: &mut ControllerState,
     context: &OperatingContext,
     certificate: &[u8],
-) -> Result<Vec<u8>, Problem> {
-    let pending = state.csr.as_ref().ok_or(ErrorCode::NoCsr)?;
+) -> Result<Vec<u8>, CertificateChangeError> {
+    let pending = state.csr.as_ref().ok_or(CertificateChangeError::NoCsr)?;
     let certificate = Certificate::from_der(certificate)?;
     if !Csr::from_der(&pending.csr.0)?.matches(&certificate) {
-        return Err(ErrorCode::CsrMismatch.into());
+        return Err(CertificateChangeError::CsrMismatch);
     }
     check_usable(&certificate, &state.settings.security_policies, context.now)?;
     let key = PrivateKey::from_pkcs8_der(&pending.private_key.0)?;
@@ -74,18 +73,18 @@ pub fn import_ca_signed(
 }
 
 /// Manual 2.7.2: only a type that is held can be selected.
-pub fn select_certificate(state: &mut ControllerState, kind: CertificateType) -> Result<(), Problem> {
+pub fn select_certificate(state: &mut ControllerState, kind: CertificateType) -> Result<(), CertificateChangeError> {
     if kind == CertificateType::UserSpecified && state.generation() == FirmwareGeneration::Current {
-        return Err(ErrorCode::FirmwareTooNew.into());
+        return Err(CertificateChangeError::FirmwareTooNew);
     }
     if !state.certificates.contains_key(&kind) {
-        return Err(Problem::with_detail(ErrorCode::CertificateNotStored, kind.as_str()));
+        return Err(CertificateChangeError::NotStored(kind));
     }
     state.selected = kind;
     Ok(())
 }
 
-fn keep(state: &mut ControllerState, csr: &Csr, key: &PrivateKey) -> Result<Vec<u8>, Problem> {
+fn keep(state: &mut ControllerState, csr: &Csr, key: &PrivateKey) -> Result<Vec<u8>, CertificateChangeError> {
     let der = csr.der().to_vec();
     state.csr = Some(PendingCsr { csr: Base64Bytes(der.clone()), private_key: SecretBytes(key.to_pkcs8_der()?) });
     Ok(der)

@@ -19,8 +19,8 @@ use super::ports::free_port;
 use super::state::ControllerIdentity;
 use super::switch_on::VirtualController;
 use crate::model::{
-    Address, ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, KeyLength, Problem, SecurityPolicy,
-    ServerPort, StartupMode, UserTokenPolicy, Validity, clock,
+    Address, ControllerName, ControllerSeries, FirmwareVersion, KeyLength, SecurityPolicy, ServerPort, StartupMode,
+    UserTokenPolicy, Validity, clock,
 };
 use crate::pki::Fingerprint;
 
@@ -71,7 +71,7 @@ impl DemoFleet {
 pub async fn demo_fleet(data: &Path, bind: IpAddr, count: usize, seed: u64) -> Result<DemoFleet, FleetError> {
     let lock = FolderLock::take(data)?;
     let hash = spawn_blocking(|| hash_connection_password(&DEMO_PASSWORD.into()));
-    let hash = hash.await.map_err(|_| FleetError::Worker)??;
+    let hash = hash.await??;
     let cast = (0..count).map(|index| role(seed, index)).collect::<Result<Vec<_>, _>>()?;
     let mut specs = Vec::new();
     for role in cast.iter().filter(|role| role.part != DemoPart::Unreachable) {
@@ -166,8 +166,7 @@ impl DemoRole {
         let folder = data.join(self.identity.serial.folder_name());
         let mut initial = NewController::new(self.identity.clone(), hash.to_owned());
         let port = free_port(bind).map_err(FleetError::NoFreePort)?;
-        initial.settings.port =
-            ServerPort::try_from(port).map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?;
+        initial.settings.port = ServerPort::try_from(port)?;
         initial.used_ports.retain(|used| *used != port);
         initial.settings.user_tokens.insert(UserTokenPolicy::Anonymous);
         initial.certificate = match self.part {
@@ -214,5 +213,5 @@ fn certificate(years: u8, ends_in: TimeDelta) -> Option<NewCertificate> {
 }
 
 fn address(at: SocketAddr) -> Result<Address, FleetError> {
-    at.to_string().parse().map_err(|error| Problem::with_detail(ErrorCode::BadAddress, error).into())
+    Ok(at.to_string().parse()?)
 }

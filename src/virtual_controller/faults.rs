@@ -3,8 +3,9 @@ use std::time::Duration;
 
 use chrono::{DateTime, TimeDelta, Utc};
 use parking_lot::Mutex;
+use thiserror::Error;
 
-use crate::model::{ErrorCode, Problem, clock};
+use crate::model::clock;
 
 /// The switches of one controller, to be thrown at run time by a test or a demonstration. Clones share them.
 #[derive(Debug, Clone, Default)]
@@ -42,6 +43,17 @@ pub enum DropPoint {
     AfterApply,
 }
 
+/// The switch that refuses a change, a start or a stop.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum FaultRefusal {
+    #[error("the controller runs a program")]
+    TaskRunning,
+    #[error("a teach pendant has control")]
+    TeachPendantConnected,
+    #[error("the controller refuses without a reason")]
+    Refused,
+}
+
 impl Faults {
     pub fn get(&self) -> FaultSwitches {
         self.0.lock().clone()
@@ -53,14 +65,14 @@ impl Faults {
 
     /// Whether what is wrong forbids changes, start and stop. Questions are answered all the same, so that an
     /// engineer sees the controller in the list while it works (manual 6.2 speaks of refused connections).
-    pub(super) fn admit_change(&self) -> Result<(), Problem> {
+    pub(super) fn admit_change(&self) -> Result<(), FaultRefusal> {
         let switches = self.0.lock();
         if switches.task_running {
-            Err(ErrorCode::TaskRunning.into())
+            Err(FaultRefusal::TaskRunning)
         } else if switches.teach_pendant_connected {
-            Err(ErrorCode::TeachPendantConnected.into())
+            Err(FaultRefusal::TeachPendantConnected)
         } else if switches.refuse {
-            Err(ErrorCode::Refused.into())
+            Err(FaultRefusal::Refused)
         } else {
             Ok(())
         }

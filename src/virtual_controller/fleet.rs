@@ -6,21 +6,21 @@ use std::path::{Path, PathBuf};
 use secrecy::SecretString;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
-use tokio::task::{JoinSet, spawn_blocking};
+use tokio::task::{JoinError, JoinSet, spawn_blocking};
 use tokio_util::sync::DropGuard;
 
 use super::cell::CellOptions;
 use super::controller::{ControllerSpec, SwitchOnError};
 use super::file_limit::raise_file_limit;
 use super::new_controller::NewController;
-use super::opcua::AdmissionOptions;
+use super::opcua::{AdmissionOptions, HashError};
 use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::ControllerIdentity;
 use super::switch_on::VirtualController;
 use super::switchboard;
 use crate::model::{
-    ControllerName, ControllerSeries, ErrorCode, FirmwareVersion, NameError, Problem, SerialNumber, ServerPort,
+    AddressError, ControllerName, ControllerSeries, FirmwareVersion, NameError, PortError, SerialNumber, ServerPort,
 };
 use crate::platform::private;
 
@@ -70,30 +70,19 @@ pub enum FleetError {
     #[error("{path}: {source}")]
     Data { path: PathBuf, source: io::Error },
     #[error("no free port: {0}")]
-    NoFreePort(io::Error),
+    NoFreePort(#[source] io::Error),
     #[error("controller {serial}: {source}")]
     Controller { serial: SerialNumber, source: SwitchOnError },
-    #[error("{0}")]
-    Problem(#[from] Problem),
+    #[error(transparent)]
+    Password(#[from] HashError),
+    #[error(transparent)]
+    Port(#[from] PortError),
+    #[error(transparent)]
+    Address(#[from] AddressError),
     #[error(transparent)]
     Name(#[from] NameError),
     #[error("a worker thread died")]
-    Worker,
-}
-
-impl From<FleetError> for Problem {
-    fn from(error: FleetError) -> Self {
-        let code = match &error {
-            FleetError::Problem(problem) => return problem.clone(),
-            FleetError::TooMany { .. } | FleetError::Ports { .. } => ErrorCode::BadSettings,
-            FleetError::Busy { .. } => ErrorCode::WorkspaceBusy,
-            FleetError::Data { .. } => ErrorCode::WorkspaceReadOnly,
-            FleetError::NoFreePort(_) => ErrorCode::CannotListen,
-            FleetError::Controller { source: SwitchOnError::Listen { .. }, .. } => ErrorCode::CannotListen,
-            FleetError::Controller { .. } | FleetError::Name(_) | FleetError::Worker => ErrorCode::Internal,
-        };
-        Self::with_detail(code, error)
-    }
+    Worker(#[from] JoinError),
 }
 
 /// Running controllers. Dropped without [`Fleet::shutdown`], they stop too, but nobody waits for them.
@@ -125,8 +114,7 @@ impl Fleet {
         raise_file_limit();
         let lock = FolderLock::take(&config.data)?;
         let password = config.password.clone();
-        let hash =
-            spawn_blocking(move || hash_connection_password(&password)).await.map_err(|_| FleetError::Worker)??;
+        let hash = spawn_blocking(move || hash_connection_password(&password)).await??;
         let specs = (0..config.count).map(|index| config.spec(index, &hash)).collect::<Result<Vec<_>, _>>()?;
         let controllers = start_all(specs).await?;
         let switches = switches(&config.data, &controllers);
@@ -166,8 +154,7 @@ impl FleetConfig {
             0 => free_port(self.bind).map_err(FleetError::NoFreePort)?,
             first => ports(first)?,
         };
-        initial.settings.port =
-            ServerPort::try_from(opcua).map_err(|_| FleetError::Ports { first: self.opcua_port, count: self.count })?;
+        initial.settings.port = ServerPort::try_from(opcua)?;
         initial.used_ports.retain(|port| *port != opcua);
         let management_port = match self.management_port {
             0 => 0,
@@ -216,7 +203,7 @@ pub(super) async fn start_all(specs: Vec<ControllerSpec>) -> Result<Vec<VirtualC
         match joined {
             Ok((index, Ok(controller))) => started.push((index, controller)),
             Ok((_, Err(error))) => failure = Some(error),
-            Err(_) => failure = Some(FleetError::Worker),
+            Err(error) => failure = Some(FleetError::Worker(error)),
         }
     }
     started.sort_by_key(|(index, _)| *index);

@@ -7,11 +7,23 @@ use base64::engine::general_purpose::URL_SAFE_NO_PAD;
 use secrecy::SecretString;
 use sha2::{Digest, Sha256};
 use subtle::ConstantTimeEq as _;
+use thiserror::Error;
 use zeroize::Zeroizing;
 
 use super::connection_limits::SourceNetwork;
-use crate::model::{ErrorCode, Problem};
+use crate::model::{Cause, with_told_cause};
 use crate::protocol::{LOCK_OUT_SECS, LOGIN_ATTEMPTS, SESSION_IDLE_SECS};
+
+/// Why a session does not begin.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum LoginError {
+    #[error("too many wrong passwords came from this address")]
+    LockedOut,
+    #[error("the password is wrong")]
+    WrongPassword,
+    #[error("the system gives no random numbers: {0}")]
+    Random(#[source] Cause),
+}
 
 /// Counts wrong passwords by source, and locks a source out after [`LOGIN_ATTEMPTS`] of them.
 ///
@@ -42,10 +54,10 @@ const LOCK_OUT: Duration = Duration::from_secs(LOCK_OUT_SECS);
 const IDLE: Duration = Duration::from_secs(SESSION_IDLE_SECS);
 
 impl LoginThrottle {
-    pub fn admit(&self, from: IpAddr, now: Instant) -> Result<(), Problem> {
+    pub fn admit(&self, from: IpAddr, now: Instant) -> Result<(), LoginError> {
         match self.0.get(&SourceNetwork::new(from)) {
             Some(failures) if failures.count >= LOGIN_ATTEMPTS && !failures.forgotten(now) => {
-                Err(ErrorCode::LockedOut.into())
+                Err(LoginError::LockedOut)
             }
             _ => Ok(()),
         }
@@ -76,9 +88,9 @@ impl FailedLogins {
 
 impl ManagementSessions {
     /// A new session's token: 32 random bytes, base64url.
-    pub fn open(&mut self, now: Instant) -> Result<SecretString, Problem> {
+    pub fn open(&mut self, now: Instant) -> Result<SecretString, LoginError> {
         let mut random = Zeroizing::new([0; 32]);
-        getrandom::fill(&mut *random).map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?;
+        getrandom::fill(&mut *random).map_err(with_told_cause(LoginError::Random))?;
         let token = URL_SAFE_NO_PAD.encode(*random);
         self.expire(now);
         if self.0.len() >= MAX_SESSIONS
@@ -139,8 +151,8 @@ mod tests {
             assert_eq!(throttle.admit(HERE, start), Ok(()));
             throttle.wrong(HERE, start);
         }
-        assert_eq!(throttle.admit(HERE, start), Err(ErrorCode::LockedOut.into()));
-        assert_eq!(throttle.admit("::ffff:10.0.0.1".parse().unwrap(), start), Err(ErrorCode::LockedOut.into()));
+        assert_eq!(throttle.admit(HERE, start), Err(LoginError::LockedOut));
+        assert_eq!(throttle.admit("::ffff:10.0.0.1".parse().unwrap(), start), Err(LoginError::LockedOut));
         assert_eq!(throttle.admit("10.0.0.2".parse().unwrap(), start), Ok(()));
         assert!(throttle.admit(HERE, start + LOCK_OUT - Duration::from_secs(1)).is_err());
         assert_eq!(throttle.admit(HERE, start + LOCK_OUT), Ok(()));

@@ -10,6 +10,7 @@
 //! | `changes` | every change a controller accepts, as a function on a copy of its state |
 //! | `certificate_changes` | those about server certificates |
 //! | `trust_changes` | those of client certificate lists and CRLs |
+//! | `change_error` | why a change is refused |
 //! | `rejected` | the clients that were refused, bounded, beside the state |
 //! | `settings_transfer` | settings sealed for the PC, and put back |
 //! | `store` | [`Store`]: the state on disk, replaced whole |
@@ -70,6 +71,7 @@ mod activation_keys;
 mod api;
 pub mod cell;
 mod certificate_changes;
+mod change_error;
 mod changes;
 mod connection_limits;
 mod controller;

@@ -1,14 +1,15 @@
 use chrono::{DateTime, Utc};
+use thiserror::Error;
 
 use super::activation_keys::demo_keys;
+use super::change_error::CertificateChangeError;
 use super::changes::install_self_signed;
 use super::secret_bytes::SecretBytes;
-use super::state::{ControllerIdentity, ControllerState, KeyPair, OperatingContext};
+use super::state::{ControllerIdentity, ControllerState, KeyPair, OperatingContext, StateError};
 use crate::model::{
-    Base64Bytes, CertificateType, FirmwareGeneration, KeyLength, Problem, SelfSignedRequest, ServerSettings, Subject,
-    Validity,
+    Base64Bytes, CertificateType, FirmwareGeneration, KeyLength, SelfSignedRequest, ServerSettings, Subject, Validity,
 };
-use crate::pki::tls_identity;
+use crate::pki::{PkiError, tls_identity};
 
 /// What a controller is when it is first switched on.
 #[derive(Debug, Clone)]
@@ -33,6 +34,18 @@ pub struct NewCertificate {
     pub validity: Validity,
 }
 
+/// Why a controller cannot be made.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum NewControllerError {
+    /// The identity of its management protocol.
+    #[error(transparent)]
+    ManagementIdentity(#[from] PkiError),
+    #[error(transparent)]
+    Certificate(#[from] CertificateChangeError),
+    #[error(transparent)]
+    ControllerState(#[from] StateError),
+}
+
 /// Ports that other functions of a controller usually take: FTP data, remote control, user programs, FINS.
 pub const USUAL_PORTS: [u16; 4] = [2001, 5000, 5001, 9600];
 
@@ -50,7 +63,7 @@ impl NewController {
     }
 
     /// Makes its keys. Slow when a server certificate is wanted.
-    pub(super) fn make(self, context: &OperatingContext) -> Result<ControllerState, Problem> {
+    pub(super) fn make(self, context: &OperatingContext) -> Result<ControllerState, NewControllerError> {
         let tls = tls_identity(self.identity.serial.as_str(), context.now)?;
         let management =
             KeyPair { certificate: Base64Bytes(tls.certificate_der), private_key: SecretBytes(tls.private_key_pkcs8) };

@@ -1,25 +1,19 @@
 use std::collections::HashMap;
-use std::fmt;
 use std::sync::LazyLock;
 
 use argon2::Argon2;
-use argon2::password_hash::{PasswordHash, PasswordHasher as _, PasswordVerifier as _, SaltString};
+use argon2::password_hash::{PasswordHash, PasswordVerifier as _};
 use aws_lc_rs::hmac;
 use parking_lot::Mutex;
 use secrecy::{ExposeSecret, SecretString};
 use tokio::sync::Semaphore;
 use tokio::task::spawn_blocking;
 
-use crate::model::{ErrorCode, Problem};
+use super::opcua::{HashError, hash_password};
 
-/// Argon2id with a fresh salt, as a PHC string. Takes tens of milliseconds and 19 MiB.
-pub fn hash_connection_password(password: &SecretString) -> Result<String, Problem> {
-    let internal = |error: &dyn fmt::Display| Problem::with_detail(ErrorCode::Internal, format!("password: {error}"));
-    let mut salt = [0; 16];
-    getrandom::fill(&mut salt).map_err(|error| internal(&error))?;
-    let salt = SaltString::encode_b64(&salt).map_err(|error| internal(&error))?;
-    let hash = Argon2::default().hash_password(password.expose_secret().as_bytes(), &salt);
-    hash.map(|hash| hash.to_string()).map_err(|error| internal(&error))
+/// As the password of an OPC UA user: Argon2id with a fresh salt, as a PHC string. Takes tens of milliseconds and 19 MiB.
+pub fn hash_connection_password(password: &SecretString) -> Result<String, HashError> {
+    hash_password(password.expose_secret())
 }
 
 /// Whether `password` is the one behind `hash`.

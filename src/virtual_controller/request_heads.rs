@@ -12,10 +12,11 @@ use std::task::{Context, Poll, ready};
 use axum::http::uri::{Authority, Uri};
 use axum::http::{Method, StatusCode};
 use parking_lot::Mutex;
+use thiserror::Error;
 use tokio::io::{AsyncRead, AsyncWrite, ReadBuf};
 use zeroize::Zeroizing;
 
-use crate::model::{ErrorCode, Problem};
+use crate::model::{Cause, with_cause};
 
 /// The longest head of a request that is taken, in bytes. Those of the configurator have 300.
 pub const MAX_HEAD_BYTES: usize = 16 * 1024;
@@ -23,11 +24,29 @@ pub const MAX_HEAD_BYTES: usize = 16 * 1024;
 const MAX_TARGET_BYTES: usize = 2048;
 const MAX_HEADERS: usize = 64;
 
-/// A head that is refused: the HTTP status, and the failure to be told.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RejectedHead {
-    pub status: StatusCode,
-    pub problem: Problem,
+/// Why a head is refused.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum RejectedHead {
+    #[error("the head of the request has more than {MAX_HEAD_BYTES} bytes or {MAX_HEADERS} headers")]
+    TooLong,
+    #[error("the target of the request has more than {MAX_TARGET_BYTES} bytes")]
+    TargetTooLong,
+    #[error("the protocol is spoken over HTTP/1.1")]
+    OtherVersion,
+    #[error("{0}")]
+    Malformed(#[source] Cause),
+}
+
+impl RejectedHead {
+    /// The HTTP status of the answer.
+    pub const fn status(&self) -> StatusCode {
+        match self {
+            Self::TooLong => StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE,
+            Self::TargetTooLong => StatusCode::URI_TOO_LONG,
+            Self::OtherVersion => StatusCode::HTTP_VERSION_NOT_SUPPORTED,
+            Self::Malformed(_) => StatusCode::BAD_REQUEST,
+        }
+    }
 }
 
 /// Where the service finds the refusal of its connection.
@@ -88,7 +107,7 @@ impl<S> CheckedHeads<S> {
         let Some(length) = end_of_head(&self.held, self.searched) else {
             self.searched = self.held.len().saturating_sub(3);
             if self.held.len() > MAX_HEAD_BYTES {
-                self.refuse(too_large(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE));
+                self.refuse(RejectedHead::TooLong);
                 return true;
             }
             return false;
@@ -190,7 +209,7 @@ fn end_of_head(bytes: &[u8], from: usize) -> Option<usize> {
 /// RFC 9112 §3, §3.2 and §6.3, more strictly where a lenient reader and a strict one would read different requests.
 fn check(head: &[u8]) -> Result<Next, RejectedHead> {
     if head.len() > MAX_HEAD_BYTES {
-        return Err(too_large(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE));
+        return Err(RejectedHead::TooLong);
     }
     let mut headers = [httparse::EMPTY_HEADER; MAX_HEADERS];
     let mut request = httparse::Request::new(&mut headers);
@@ -198,20 +217,20 @@ fn check(head: &[u8]) -> Result<Next, RejectedHead> {
         Ok(httparse::Status::Complete(length)) if length == head.len() => {}
         Ok(_) => return Err(bad("the head of the request is not whole")),
         Err(httparse::Error::TooManyHeaders) => {
-            return Err(too_large(StatusCode::REQUEST_HEADER_FIELDS_TOO_LARGE));
+            return Err(RejectedHead::TooLong);
         }
-        Err(httparse::Error::Version) => return Err(other_version()),
-        Err(error) => return Err(bad(&error.to_string())),
+        Err(httparse::Error::Version) => return Err(RejectedHead::OtherVersion),
+        Err(error) => return Err(with_cause(RejectedHead::Malformed)(error)),
     }
     if request.version != Some(1) {
-        return Err(other_version());
+        return Err(RejectedHead::OtherVersion);
     }
     if request.method.is_none_or(|method| method.parse::<Method>().is_err()) {
         return Err(bad("the method cannot be read"));
     }
     let target = request.path.unwrap_or_default();
     if target.len() > MAX_TARGET_BYTES {
-        return Err(too_large(StatusCode::URI_TOO_LONG));
+        return Err(RejectedHead::TargetTooLong);
     }
     if target.parse::<Uri>().is_err() {
         return Err(bad("the path cannot be read"));
@@ -244,17 +263,8 @@ fn check(head: &[u8]) -> Result<Next, RejectedHead> {
     }
 }
 
-fn bad(why: &str) -> RejectedHead {
-    RejectedHead { status: StatusCode::BAD_REQUEST, problem: Problem::with_detail(ErrorCode::Refused, why) }
-}
-
-fn other_version() -> RejectedHead {
-    let problem = Problem::with_detail(ErrorCode::Refused, "the protocol is spoken over HTTP/1.1");
-    RejectedHead { status: StatusCode::HTTP_VERSION_NOT_SUPPORTED, problem }
-}
-
-fn too_large(status: StatusCode) -> RejectedHead {
-    RejectedHead { status, problem: ErrorCode::RequestTooLarge.into() }
+fn bad(why: &'static str) -> RejectedHead {
+    RejectedHead::Malformed(Cause::finding(why))
 }
 
 const PIECE: usize = 4096;
@@ -268,7 +278,7 @@ mod tests {
     use super::*;
 
     fn status(head: &str) -> Result<Next, u16> {
-        check(head.as_bytes()).map_err(|refusal| refusal.status.as_u16())
+        check(head.as_bytes()).map_err(|refusal| refusal.status().as_u16())
     }
 
     #[test]
@@ -335,10 +345,10 @@ mod tests {
         for size in [1, 5, 4096] {
             let (read, refusal) = passed(&all, size).await;
             assert_eq!(read.as_bytes(), [good.as_bytes(), REFUSED_HEAD].concat());
-            assert_eq!(refusal, Some(bad("the Host header is missing")));
+            assert_eq!(refusal.map(|refusal| refusal.to_string()).as_deref(), Some("the Host header is missing"));
         }
         let endless = "a".repeat(MAX_HEAD_BYTES + 1);
-        assert_eq!(passed(&endless, 4096).await.1.map(|refusal| refusal.status.as_u16()), Some(431));
+        assert_eq!(passed(&endless, 4096).await.1.map(|refusal| refusal.status().as_u16()), Some(431));
     }
 
     #[test]

@@ -27,6 +27,7 @@ impl<'de> Deserialize<'de> for SecretBytes {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let text = Zeroizing::new(String::deserialize(deserializer)?);
         // The error is made here, so that it cannot quote a byte of the input.
+        // The error of the decoder quotes the text.
         let bytes = STANDARD.decode(text.as_bytes()).map_err(|_| D::Error::custom("a secret is not base64"))?;
         Ok(Self(Zeroizing::new(bytes)))
     }

@@ -4,9 +4,10 @@ use argon2::Params;
 use argon2::password_hash::PasswordHash;
 use secrecy::{ExposeSecret as _, SecretString};
 
+use super::change_error::{SettingsChangeError, TransferError, UserChangeError};
 use super::changes;
 use super::state::{ControllerState, OperatingContext, User};
-use crate::model::{ErrorCode, FirmwareGeneration, MAX_USERS, Problem};
+use crate::model::{FirmwareGeneration, MAX_USERS};
 use crate::protocol::{ExportContent, ExportedUser, SettingsExport};
 
 /// Seals what manual 2.6.1 to 2.6.3 sets.
@@ -14,10 +15,10 @@ pub fn export(
     state: &ControllerState,
     context: &OperatingContext,
     passphrase: &SecretString,
-) -> Result<SettingsExport, Problem> {
+) -> Result<SettingsExport, TransferError> {
     legacy(state)?;
     if passphrase.expose_secret().is_empty() {
-        return Err(ErrorCode::BadPassphrase.into());
+        return Err(TransferError::NoPassphrase);
     }
     let user = |user: &User| ExportedUser { name: user.name.clone(), password_hash: user.password_hash.clone() };
     let content = ExportContent {
@@ -36,46 +37,46 @@ pub fn import(
     context: &OperatingContext,
     export: &SettingsExport,
     passphrase: &SecretString,
-) -> Result<(), Problem> {
+) -> Result<(), TransferError> {
     legacy(state)?;
     export.check_for(&state.identity.serial, state.identity.series, state.identity.firmware)?;
     let ExportContent { settings, users, activation } = export.open(passphrase)?;
-    settings.check().map_err(|error| Problem::with_detail(ErrorCode::BadSettings, error))?;
-    state.check_port(settings.port.get(), context)?;
+    settings.check().map_err(SettingsChangeError::from)?;
+    state.check_port(settings.port.get(), context).map_err(SettingsChangeError::from)?;
     if users.len() > MAX_USERS {
-        return Err(ErrorCode::TooManyUsers.into());
+        return Err(UserChangeError::TooMany.into());
     }
     state.settings = settings;
     state.users.clear();
     for ExportedUser { name, password_hash } in users {
         if state.users.iter().any(|user| user.name == name) {
-            return Err(Problem::with_detail(ErrorCode::UserExists, name));
+            return Err(UserChangeError::Exists(name).into());
         }
         check_hash(&password_hash)?;
         state.users.push(User { name, password_hash });
     }
     match activation {
-        Some(keys) => changes::activate(state, keys),
+        Some(keys) => Ok(changes::activate(state, keys)?),
         None => Ok(()),
     }
 }
 
-fn legacy(state: &ControllerState) -> Result<(), Problem> {
+fn legacy(state: &ControllerState) -> Result<(), TransferError> {
     match state.generation() {
         FirmwareGeneration::Legacy => Ok(()),
-        FirmwareGeneration::Current => Err(ErrorCode::FirmwareTooNew.into()),
+        FirmwareGeneration::Current => Err(TransferError::FirmwareTooNew),
     }
 }
 
 /// A hash from outside must not be one that takes all memory at each login.
-fn check_hash(hash: &str) -> Result<(), Problem> {
+fn check_hash(hash: &str) -> Result<(), TransferError> {
     let affordable = |params: &Params| {
         params.m_cost() <= MAX_MEMORY_KIB && params.t_cost() <= MAX_PASSES && params.p_cost() <= MAX_LANES
     };
     let parsed = PasswordHash::new(hash).ok().filter(|hash| hash.algorithm == argon2::ARGON2ID_IDENT);
     match parsed.and_then(|hash| Params::try_from(&hash).ok()) {
         Some(params) if affordable(&params) => Ok(()),
-        _ => Err(Problem::with_detail(ErrorCode::BadCredential, "a password is not an argon2id hash of usual cost")),
+        _ => Err(TransferError::CostlyHash),
     }
 }
 
@@ -94,7 +95,7 @@ mod tests {
         };
         assert_eq!(check_hash(&hash("m=19456,t=2,p=1")), Ok(()));
         for bad in [hash("m=4194304,t=2,p=1"), hash("m=19456,t=4000,p=1"), "Passw0rd".to_owned(), String::new()] {
-            assert_eq!(check_hash(&bad).unwrap_err().code, ErrorCode::BadCredential, "{bad}");
+            assert_eq!(check_hash(&bad), Err(TransferError::CostlyHash), "{bad}");
         }
     }
 }

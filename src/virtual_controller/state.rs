@@ -3,13 +3,15 @@ use std::net::{IpAddr, Ipv4Addr};
 
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
+use thiserror::Error;
 
 use super::secret_bytes::SecretBytes;
 use crate::model::activation::ActivationKeys;
 use crate::model::{
     Base64Bytes, CertificateType, ClientList, ControllerName, ControllerSeries, CrlSummary, ErrorCode,
-    FirmwareGeneration, FirmwareVersion, ListLimits, ListedCertificate, ListedCrl, MAX_USERS, Problem, SerialNumber,
-    ServerCertificate, ServerSettings, UserName, default_common_name, offered_key_lengths,
+    FirmwareGeneration, FirmwareVersion, ListLimits, ListedCertificate, ListedCrl, MAX_USERS, SerialNumber,
+    ServerCertificate, ServerSettings, SettingsError, UnsupportedFirmware, UserName, default_common_name,
+    offered_key_lengths,
 };
 use crate::pki::{Certificate, PkiError, ServerNames};
 
@@ -107,6 +109,49 @@ pub struct ControllerState {
     pub revision: u64,
 }
 
+/// The port that the OPC UA server is to have belongs to another function of the controller.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+#[error("port {0} belongs to another function of the controller")]
+pub struct PortTaken(pub u16);
+
+/// Why the OPC UA server cannot start in a state (manual 6.1).
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum StartRefusal {
+    #[error("the controller is not activated")]
+    NotActivated,
+    #[error("no certificate of the selected type is held")]
+    NoCertificate,
+    #[error(transparent)]
+    Settings(#[from] SettingsError),
+    #[error(transparent)]
+    Certificate(#[from] PkiError),
+    #[error("the security policies do not allow the certificate's {0}-bit key")]
+    KeyLength(u16),
+    #[error(transparent)]
+    Port(#[from] PortTaken),
+}
+
+impl StartRefusal {
+    /// The error number that the controller shows.
+    pub const fn code(&self) -> ErrorCode {
+        match self {
+            Self::NotActivated => ErrorCode::NotActivated,
+            Self::NoCertificate => ErrorCode::NoCertificate,
+            Self::Settings(_) | Self::Certificate(_) | Self::KeyLength(_) => ErrorCode::InvalidParameter,
+            Self::Port(_) => ErrorCode::PortConflict,
+        }
+    }
+}
+
+/// What a state breaks that holds in every state.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum StateError {
+    #[error(transparent)]
+    Firmware(#[from] UnsupportedFirmware),
+    #[error("{0}")]
+    Broken(&'static str),
+}
+
 /// What of it is sent along with a list: the answer stays below the protocol's limit, however long the names.
 const MAX_LISTED_CRL_BYTES: usize = 1024 * 1024;
 
@@ -185,12 +230,9 @@ impl ControllerState {
         ports
     }
 
-    /// 7933 when `port` belongs to another function of the controller.
-    pub fn check_port(&self, port: u16, context: &OperatingContext) -> Result<(), Problem> {
-        if self.taken_ports(context).contains(&port) {
-            return Err(Problem::with_detail(ErrorCode::PortConflict, port));
-        }
-        Ok(())
+    /// Whether `port` belongs to no other function of the controller.
+    pub fn check_port(&self, port: u16, context: &OperatingContext) -> Result<(), PortTaken> {
+        if self.taken_ports(context).contains(&port) { Err(PortTaken(port)) } else { Ok(()) }
     }
 
     /// What the manual asks of a key: a length every ticked policy allows (2.7.1.2).
@@ -199,16 +241,15 @@ impl ControllerState {
     }
 
     /// Why the OPC UA server cannot start: 7930, 7931, 7932 or 7933, in this order (manual 6.1).
-    pub fn check_start(&self, context: &OperatingContext) -> Result<&KeyPair, Problem> {
+    pub fn check_start(&self, context: &OperatingContext) -> Result<&KeyPair, StartRefusal> {
         if !self.activated {
-            return Err(ErrorCode::NotActivated.into());
+            return Err(StartRefusal::NotActivated);
         }
-        let pair = self.selected_certificate().ok_or(ErrorCode::NoCertificate)?;
-        let invalid = |detail: String| Problem::with_detail(ErrorCode::InvalidParameter, detail);
-        self.settings.check().map_err(|error| invalid(error.to_string()))?;
-        let bits = pair.parse().map_err(|error| invalid(error.to_string()))?.key_bits();
+        let pair = self.selected_certificate().ok_or(StartRefusal::NoCertificate)?;
+        self.settings.check()?;
+        let bits = pair.parse()?.key_bits();
         if !self.key_length_fits(bits) {
-            return Err(invalid(format!("the security policies do not allow the certificate's {bits}-bit key")));
+            return Err(StartRefusal::KeyLength(bits));
         }
         self.check_port(self.settings.port.get(), context)?;
         Ok(pair)
@@ -232,9 +273,9 @@ impl ControllerState {
 
     /// What holds in every state a controller may be in. A change that breaks it is a mistake of this program, and is
     /// refused; so is a file that does.
-    pub fn check(&self) -> Result<(), Problem> {
+    pub fn check(&self) -> Result<(), StateError> {
         let limits = self.limits();
-        let broken = |what: &str| Err(Problem::with_detail(ErrorCode::Internal, what));
+        let broken = |what| Err(StateError::Broken(what));
         self.identity.series.check_firmware(self.identity.firmware)?;
         if self.settings.check().is_err() {
             return broken("incomplete settings");

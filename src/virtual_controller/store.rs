@@ -1,14 +1,15 @@
 use std::fs::File;
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::str::Utf8Error;
 
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 use zeroize::Zeroizing;
 
 use super::faults::Faults;
-use super::state::ControllerState;
-use crate::model::{ErrorCode, Problem, clock};
+use super::state::{ControllerState, StateError};
+use crate::model::clock;
 use crate::platform::{private, replace};
 
 /// Where a controller keeps its [`ControllerState`]: one file in a folder of its own.
@@ -36,10 +37,30 @@ pub struct StagedState {
 pub enum StoreError {
     #[error("{path}: {source}")]
     Io { path: PathBuf, source: io::Error },
-    #[error("the controller's file is damaged ({reason}); it was kept as {kept}")]
-    Damaged { reason: String, kept: PathBuf },
+    #[error("the controller's file is damaged ({source}); it was kept as {kept}")]
+    Damaged { source: Damage, kept: PathBuf },
     #[error("{path} was written by a newer version of this program")]
     TooNew { path: PathBuf },
+}
+
+/// What is wrong with the controller's file.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum Damage {
+    #[error("it has no first line")]
+    NoHeader,
+    #[error("its first line is not text")]
+    HeaderNotText(#[source] Utf8Error),
+    #[error("it is no controller's file")]
+    OtherFile,
+    #[error("its first line is not understood")]
+    Header,
+    #[error("its checksum differs")]
+    Checksum,
+    /// The reader's own error quotes the text, which may be a key.
+    #[error("line {line}, column {column}")]
+    Json { line: usize, column: usize },
+    #[error(transparent)]
+    ControllerState(#[from] StateError),
 }
 
 const FILE: &str = "controller.state";
@@ -74,11 +95,11 @@ impl Store {
         match decode(&bytes) {
             Ok(state) => Ok(Some(state)),
             Err(Unreadable::TooNew) => Err(StoreError::TooNew { path }),
-            Err(Unreadable::Damaged(reason)) => {
+            Err(Unreadable::Damaged(source)) => {
                 let stamp = clock::now().format("%Y%m%dT%H%M%S%.6f");
                 let kept = self.folder.join(format!("{FILE}.damaged-{stamp}"));
                 replace::rename(&path, &kept).map_err(io_error)?;
-                Err(StoreError::Damaged { reason, kept })
+                Err(StoreError::Damaged { source, kept })
             }
         }
     }
@@ -148,22 +169,15 @@ impl Drop for StagedState {
     }
 }
 
-impl From<StoreError> for Problem {
-    fn from(error: StoreError) -> Self {
-        match &error {
-            StoreError::Io { source, .. }
-                if matches!(source.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded) =>
-            {
-                ErrorCode::DiskFull.into()
-            }
-            _ => Self::with_detail(ErrorCode::Internal, error),
-        }
-    }
+enum Unreadable {
+    Damaged(Damage),
+    TooNew,
 }
 
-enum Unreadable {
-    Damaged(String),
-    TooNew,
+impl From<Damage> for Unreadable {
+    fn from(damage: Damage) -> Self {
+        Self::Damaged(damage)
+    }
 }
 
 fn encode(state: &ControllerState) -> io::Result<Zeroizing<Vec<u8>>> {
@@ -176,25 +190,24 @@ fn encode(state: &ControllerState) -> io::Result<Zeroizing<Vec<u8>>> {
 }
 
 fn decode(bytes: &[u8]) -> Result<ControllerState, Unreadable> {
-    let damaged = |reason: &str| Unreadable::Damaged(reason.to_owned());
-    let end = bytes.iter().position(|b| *b == b'\n').ok_or_else(|| damaged("it has no first line"))?;
+    let end = bytes.iter().position(|b| *b == b'\n').ok_or(Damage::NoHeader)?;
     let (header, json) = (&bytes[..end], &bytes[end + 1..]);
-    let header = std::str::from_utf8(header).map_err(|_| damaged("its first line is not text"))?;
+    let header = std::str::from_utf8(header).map_err(Damage::HeaderNotText)?;
     let mut words = header.split(' ');
     if words.next() != Some(MAGIC) {
-        return Err(damaged("it is no controller's file"));
+        return Err(Damage::OtherFile.into());
     }
     match words.next().and_then(|word| word.parse::<u32>().ok()) {
         Some(FORMAT) => {}
         Some(format) if format > FORMAT => return Err(Unreadable::TooNew),
-        _ => return Err(damaged("its first line is not understood")),
+        _ => return Err(Damage::Header.into()),
     }
     if words.next() != Some(hex::encode(Sha256::digest(json)).as_str()) {
-        return Err(damaged("its checksum differs"));
+        return Err(Damage::Checksum.into());
     }
-    let state: ControllerState = serde_json::from_slice(json)
-        .map_err(|error| Unreadable::Damaged(format!("line {}, column {}", error.line(), error.column())))?;
-    state.check().map_err(|problem| Unreadable::Damaged(problem.to_string()))?;
+    let state: ControllerState =
+        serde_json::from_slice(json).map_err(|error| Damage::Json { line: error.line(), column: error.column() })?;
+    state.check().map_err(Damage::ControllerState)?;
     Ok(state)
 }
 
@@ -270,7 +283,8 @@ mod tests {
         store.save(&old).unwrap();
         faults.update(|switches| switches.disk_full = true);
         let error = store.save(&ControllerState { revision: 2, ..old.clone() }).unwrap_err();
-        assert_eq!(Problem::from(error), ErrorCode::DiskFull.into());
+        let StoreError::Io { source, .. } = error else { panic!("{error}") };
+        assert_eq!(source.kind(), io::ErrorKind::StorageFull);
         assert_eq!(names(folder.path()), [FILE]);
         assert_eq!(store.load().unwrap(), Some(old));
     }

@@ -40,9 +40,9 @@ impl VirtualController {
         let config = tls::server_config(&state.management)?;
         let fingerprint = Fingerprint::of(&state.management.certificate.0);
         if state.settings.startup == StartupMode::Auto
-            && let Err(problem) = controller.start_server_now().await
+            && let Err(error) = controller.start_server_now().await
         {
-            tracing::warn!(serial = %state.identity.serial, %problem, "the OPC UA server did not start");
+            tracing::warn!(serial = %state.identity.serial, %error, "the OPC UA server did not start");
         }
         let off = CancellationToken::new();
         tokio::spawn(stop_when_log_is_full(Arc::clone(&controller), off.clone()));

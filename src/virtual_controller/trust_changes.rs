@@ -5,9 +5,10 @@ use std::collections::HashMap;
 use chrono::{DateTime, Utc};
 use sha1::{Digest as _, Sha1};
 
+use super::change_error::TrustError;
 use super::rejected::RejectedEntry;
 use super::state::{ControllerState, MAX_CRLS_BYTES, OperatingContext, TrustListCertificate, TrustListCrl};
-use crate::model::{Base64Bytes, ClientList, ErrorCode, FirmwareGeneration, Problem, TrustStep};
+use crate::model::{Base64Bytes, ClientList, FirmwareGeneration, TrustStep};
 use crate::pki::{Certificate, Crl};
 use crate::protocol::{MAX_SENT_CRL_BYTES, MAX_TRUST_STEPS};
 
@@ -29,9 +30,9 @@ pub fn edit_trust(
     context: &OperatingContext,
     steps: Vec<TrustStep>,
     rejected: HashMap<String, Base64Bytes>,
-) -> Result<RejectedListChanges, Problem> {
+) -> Result<RejectedListChanges, TrustError> {
     if !(1..=MAX_TRUST_STEPS).contains(&steps.len()) {
-        return Err(Problem::with_detail(ErrorCode::Refused, format!("1 to {MAX_TRUST_STEPS} steps make a change")));
+        return Err(TrustError::StepCount);
     }
     let mut editor = TrustListEditor { state, now: context.now, rejected, outcome: RejectedListChanges::default() };
     for step in steps {
@@ -54,27 +55,27 @@ struct TrustListEditor<'a> {
 }
 
 impl TrustListEditor<'_> {
-    fn add(&mut self, list: ClientList, certificates: Vec<(String, Base64Bytes)>) -> Result<(), Problem> {
+    fn add(&mut self, list: ClientList, certificates: Vec<(String, Base64Bytes)>) -> Result<(), TrustError> {
         if certificates.is_empty() {
-            return Err(Problem::with_detail(ErrorCode::BadCertificate, "no certificate was sent"));
+            return Err(TrustError::NoCertificate);
         }
         let added = self.now;
         let listed = certificates
             .into_iter()
             .map(|(file_name, certificate)| {
                 check_file_name(&file_name)?;
-                Certificate::from_der(&certificate.0).map_err(|error| {
-                    Problem::with_detail(ErrorCode::BadCertificate, format!("{file_name}: {error}"))
-                })?;
+                if let Err(source) = Certificate::from_der(&certificate.0) {
+                    return Err(TrustError::Certificate { file_name, source });
+                }
                 Ok(TrustListCertificate { file_name, certificate, added })
             })
-            .collect::<Result<_, Problem>>()?;
+            .collect::<Result<_, TrustError>>()?;
         self.put(list, listed)
     }
 
-    fn relist(&mut self, from: ClientList, to: ClientList, thumbprints: &[String]) -> Result<(), Problem> {
+    fn relist(&mut self, from: ClientList, to: ClientList, thumbprints: &[String]) -> Result<(), TrustError> {
         if from == to {
-            return Err(Problem::with_detail(ErrorCode::Refused, "a certificate is moved into another list"));
+            return Err(TrustError::SameList);
         }
         let taken = self.take(from, thumbprints)?;
         if to != ClientList::Rejected {
@@ -90,23 +91,21 @@ impl TrustListEditor<'_> {
     }
 
     /// Puts certificates into the trusted or the issuers list; they leave the rejected one.
-    fn put(&mut self, list: ClientList, new: Vec<TrustListCertificate>) -> Result<(), Problem> {
+    fn put(&mut self, list: ClientList, new: Vec<TrustListCertificate>) -> Result<(), TrustError> {
         let limit = match list {
             ClientList::Trusted => self.state.limits().trusted,
             ClientList::Issuers => self.state.limits().issuers,
-            ClientList::Rejected => {
-                return Err(Problem::with_detail(ErrorCode::Refused, "the controller fills this list"));
-            }
+            ClientList::Rejected => return Err(TrustError::FilledByController),
         };
         let target = self.list(list)?;
         let total = target.len() + new.len();
         if total > limit {
-            return Err(Problem::with_detail(ErrorCode::ListFull, format!("{total} > {limit}")));
+            return Err(TrustError::ListFull { total, limit });
         }
         for listed in new {
             let target = self.list(list)?;
             if target.iter().any(|held| held.certificate == listed.certificate) {
-                return Err(Problem::with_detail(ErrorCode::DuplicateCertificate, listed.file_name));
+                return Err(TrustError::Duplicate { file_name: listed.file_name });
             }
             let thumbprint = thumbprint(&listed.certificate);
             target.push(listed);
@@ -116,11 +115,11 @@ impl TrustListEditor<'_> {
     }
 
     /// Takes certificates out of a list: all of them, or none.
-    fn take(&mut self, list: ClientList, thumbprints: &[String]) -> Result<Vec<TrustListCertificate>, Problem> {
+    fn take(&mut self, list: ClientList, thumbprints: &[String]) -> Result<Vec<TrustListCertificate>, TrustError> {
         if thumbprints.is_empty() {
-            return Err(Problem::with_detail(ErrorCode::NotInList, "no certificate was named"));
+            return Err(TrustError::NoCertificateNamed);
         }
-        let missing = |thumbprint: &String| Problem::with_detail(ErrorCode::NotInList, thumbprint);
+        let missing = |thumbprint: &String| TrustError::NotInList(thumbprint.clone());
         let mut taken = Vec::new();
         if list == ClientList::Rejected {
             for thumbprint in thumbprints {
@@ -151,20 +150,20 @@ impl TrustListEditor<'_> {
         }
     }
 
-    fn list(&mut self, list: ClientList) -> Result<&mut Vec<TrustListCertificate>, Problem> {
+    fn list(&mut self, list: ClientList) -> Result<&mut Vec<TrustListCertificate>, TrustError> {
         match list {
             ClientList::Issuers if self.state.generation() == FirmwareGeneration::Legacy => {
-                Err(ErrorCode::FirmwareTooOld.into())
+                Err(TrustError::FirmwareTooOld)
             }
             ClientList::Issuers => Ok(&mut self.state.issuers),
             ClientList::Trusted => Ok(&mut self.state.trusted),
-            ClientList::Rejected => Err(Problem::with_detail(ErrorCode::Internal, "the rejected list is elsewhere")),
+            ClientList::Rejected => Err(TrustError::FilledByController),
         }
     }
 
-    fn add_crls(&mut self, crls: Vec<(String, Base64Bytes)>) -> Result<(), Problem> {
+    fn add_crls(&mut self, crls: Vec<(String, Base64Bytes)>) -> Result<(), TrustError> {
         if crls.is_empty() {
-            return Err(Problem::with_detail(ErrorCode::BadCrl, "no CRL was sent"));
+            return Err(TrustError::NoCrl);
         }
         for (file_name, der) in crls {
             check_file_name(&file_name)?;
@@ -172,30 +171,31 @@ impl TrustListEditor<'_> {
         }
         let bytes: usize = self.state.crls.iter().map(|held| held.crl.0.len()).sum();
         if bytes > MAX_CRLS_BYTES {
-            return Err(Problem::with_detail(ErrorCode::TooManyCrls, format!("{bytes} > {MAX_CRLS_BYTES} bytes")));
+            return Err(TrustError::TooManyCrlBytes { bytes, most: MAX_CRLS_BYTES });
         }
         Ok(())
     }
 
-    fn add_crl(&mut self, file_name: String, der: Base64Bytes) -> Result<(), Problem> {
-        let bad =
-            |reason: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCrl, format!("{file_name}: {reason}"));
+    fn add_crl(&mut self, file_name: String, der: Base64Bytes) -> Result<(), TrustError> {
         if der.0.len() > MAX_SENT_CRL_BYTES {
-            return Err(bad(&format_args!("larger than {MAX_SENT_CRL_BYTES} bytes")));
+            return Err(TrustError::CrlTooLarge { file_name });
         }
-        let crl = Crl::from_der(&der.0).map_err(|error| bad(&error))?;
-        if let Some(why) = crl.unusable() {
-            return Err(bad(&why));
+        let crl = match Crl::from_der(&der.0) {
+            Ok(crl) => crl,
+            Err(source) => return Err(TrustError::Crl { file_name, source }),
+        };
+        if let Some(because) = crl.unusable() {
+            return Err(TrustError::CrlUnusable { file_name, because });
         }
         let mut kept = Vec::with_capacity(self.state.crls.len() + 1);
         for held in std::mem::take(&mut self.state.crls) {
             if held.crl == der {
-                return Err(Problem::with_detail(ErrorCode::DuplicateCrl, file_name));
+                return Err(TrustError::DuplicateCrl { file_name });
             }
             let replaced = match Crl::from_der(&held.crl.0) {
                 Ok(old) if crl.has_same_scope_as(&old) && !crl.is_newer_than(&old) => {
-                    let (new, old) = (crl.number_and_date(), old.number_and_date());
-                    return Err(Problem::with_detail(ErrorCode::CrlOutdated, format!("{file_name}: {new} < {old}")));
+                    let (new, held) = (crl.number_and_date(), old.number_and_date());
+                    return Err(TrustError::CrlOutdated { file_name, new, held });
                 }
                 Ok(old) => crl.has_same_scope_as(&old),
                 Err(_) => false,
@@ -204,37 +204,35 @@ impl TrustListEditor<'_> {
                 kept.push(held);
             }
         }
-        if kept.len() >= self.state.limits().crls {
-            let detail = format!("more than {}", self.state.limits().crls);
-            return Err(Problem::with_detail(ErrorCode::TooManyCrls, detail));
+        let most = self.state.limits().crls;
+        if kept.len() >= most {
+            return Err(TrustError::TooManyCrls { most });
         }
-        self.check_signature(&crl).map_err(|reason| bad(&reason))?;
+        if !self.signature_fits(&crl) {
+            return Err(TrustError::CrlSignature { file_name });
+        }
         kept.push(TrustListCrl { file_name, summary: crl.summary(), crl: der, added: self.now });
         self.state.crls = kept;
         Ok(())
     }
 
     /// An authority that is held must have signed its CRL: a forged one would only take the right one's place.
-    fn check_signature(&self, crl: &Crl) -> Result<(), &'static str> {
+    fn signature_fits(&self, crl: &Crl) -> bool {
         let held = self.state.trusted.iter().chain(&self.state.issuers);
         let mut authorities = held
             .filter_map(|listed| Certificate::from_der(&listed.certificate.0).ok())
             .filter(|certificate| crl.is_of(certificate))
             .peekable();
-        if authorities.peek().is_none() || authorities.any(|authority| crl.verify_signed_by(&authority)) {
-            Ok(())
-        } else {
-            Err("it is not signed by the authority whose name it carries")
-        }
+        authorities.peek().is_none() || authorities.any(|authority| crl.verify_signed_by(&authority))
     }
 
-    fn remove_crls(&mut self, ids: &[String]) -> Result<(), Problem> {
+    fn remove_crls(&mut self, ids: &[String]) -> Result<(), TrustError> {
         if ids.is_empty() {
-            return Err(Problem::with_detail(ErrorCode::NotInList, "no CRL was named"));
+            return Err(TrustError::NoCrlNamed);
         }
         for id in ids {
             let index = self.state.crls.iter().position(|held| held.summary.id == *id);
-            self.state.crls.remove(index.ok_or_else(|| Problem::with_detail(ErrorCode::NotInList, id))?);
+            self.state.crls.remove(index.ok_or_else(|| TrustError::NotInList(id.clone()))?);
         }
         Ok(())
     }
@@ -253,8 +251,8 @@ fn file_name_of(certificate: &Base64Bytes) -> String {
 }
 
 /// The name is only for people to recognise a file by, so any script goes.
-fn check_file_name(name: &str) -> Result<(), Problem> {
+fn check_file_name(name: &str) -> Result<(), TrustError> {
     let fits = (1..=MAX_FILE_NAME_BYTES).contains(&name.len())
         && !name.chars().any(|c| c.is_control() || c == '/' || c == '\\');
-    if fits { Ok(()) } else { Err(Problem::with_detail(ErrorCode::BadName, "file name")) }
+    if fits { Ok(()) } else { Err(TrustError::FileName) }
 }

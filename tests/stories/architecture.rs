@@ -58,6 +58,34 @@ fn a_module_uses_only_the_modules_below_it() {
     assert_eq!(wrong, BTreeSet::new());
 }
 
+/// The files below `jobs` that make a [`Problem`] of an error: one for each module, at its edge. A [`Problem`] is what a
+/// person or a peer is told; everything before that is a typed error with its source.
+///
+/// [`Problem`]: opcua_configurator::model::Problem
+const MAKES_PROBLEMS: &[&str] = &[
+    "model",
+    "model::capabilities",
+    "pki::error",
+    "pki::fingerprint",
+    "protocol::messages",
+    "protocol::settings_export",
+    "virtual_controller::api::failed",
+    "workspace::problem",
+];
+
+/// The modules that run operations for a person or speak to a controller, and tell what comes of it as a `Problem`.
+const TELLS_PROBLEMS: &[&str] = &["session", "jobs", "texts", "ui", "cli"];
+
+#[test]
+fn an_error_becomes_a_problem_once_at_the_edge_of_its_module() {
+    let source = Source::read();
+    let uses_it = |uses: &[Use]| uses.iter().any(|one| one.path.iter().any(|part| part == "Problem"));
+    let files = source.files.iter().filter(|(_, uses)| uses_it(uses)).map(|(file, _)| file);
+    let below = files.filter(|file| file.first().is_some_and(|module| !TELLS_PROBLEMS.contains(&module.as_str())));
+    let making: Vec<String> = below.map(|file| file.join("::")).collect();
+    assert_eq!(making, MAKES_PROBLEMS);
+}
+
 #[test]
 fn no_files_use_each_other_in_a_circle() {
     let mut uses: BTreeMap<Module, BTreeSet<Module>> = BTreeMap::new();

@@ -12,7 +12,7 @@ use x509_cert::time::Validity;
 use x509_cert::{TbsCertificate, Version};
 
 use super::encode;
-use crate::model::{AuthorityRequest, KeyLength};
+use crate::model::{AuthorityRequest, KeyLength, with_cause};
 use crate::pki::self_signed::{CLOCK_SKEW, random_serial_number};
 use crate::pki::{Certificate, CertificateFlaw, PkiError, PrivateKey, validity_flaw};
 
@@ -43,8 +43,8 @@ impl CertificateAuthority {
         let public_key = encode::public_key(&key)?;
         let key_id = encode::key_id(&public_key)?;
         let dates = ValidityPeriod {
-            not_before: now.checked_sub_signed(CLOCK_SKEW).ok_or(PkiError::Dates)?,
-            not_after: now.checked_add_signed(request.validity.duration()).ok_or(PkiError::Dates)?,
+            not_before: now.checked_sub_signed(CLOCK_SKEW).ok_or_else(PkiError::beyond_calendar)?,
+            not_after: now.checked_add_signed(request.validity.duration()).ok_or_else(PkiError::beyond_calendar)?,
         };
         let draft =
             UnsignedCertificate { subject: name.clone(), public_key, dates, extensions: ca_extensions(path_length)? };
@@ -78,18 +78,20 @@ impl CertificateAuthority {
         if !key.matches(&certificate) {
             return Err(PkiError::NotAPair);
         }
-        let parsed = x509_cert::Certificate::from_der(certificate.der()).map_err(|_| PkiError::NotACertificate)?;
+        let parsed =
+            x509_cert::Certificate::from_der(certificate.der()).map_err(with_cause(PkiError::NotACertificate))?;
         let tbs = parsed.tbs_certificate;
-        let unreadable = |_| PkiError::NotACertificate;
-        let constraints = tbs.get::<BasicConstraints>().map_err(unreadable)?;
+        let constraints = tbs.get::<BasicConstraints>().map_err(with_cause(PkiError::NotACertificate))?;
         if !constraints.is_some_and(|(_, constraints)| constraints.ca) {
             return Err(PkiError::CannotSign("the certificate is not that of a CA"));
         }
-        let usage = tbs.get::<KeyUsage>().map_err(unreadable)?;
+        let usage = tbs.get::<KeyUsage>().map_err(with_cause(PkiError::NotACertificate))?;
         if !usage.is_some_and(|(_, usage)| usage.key_cert_sign() && usage.crl_sign()) {
             return Err(PkiError::CannotSign("its key may not sign certificates and CRLs"));
         }
-        let Some((_, SubjectKeyIdentifier(key_id))) = tbs.get::<SubjectKeyIdentifier>().map_err(unreadable)? else {
+        let Some((_, SubjectKeyIdentifier(key_id))) =
+            tbs.get::<SubjectKeyIdentifier>().map_err(with_cause(PkiError::NotACertificate))?
+        else {
             return Err(PkiError::CannotSign("it has no subject key identifier"));
         };
         Ok(Self { certificate, key, name: tbs.subject, key_id })
@@ -115,8 +117,8 @@ impl CertificateAuthority {
     /// From a day ago until `now` plus `validity`, but never beyond this CA's own dates.
     pub(super) fn dates(&self, validity: chrono::Duration, now: DateTime<Utc>) -> Result<ValidityPeriod, PkiError> {
         self.check_valid(now)?;
-        let not_before = now.checked_sub_signed(CLOCK_SKEW).ok_or(PkiError::Dates)?;
-        let not_after = now.checked_add_signed(validity).ok_or(PkiError::Dates)?;
+        let not_before = now.checked_sub_signed(CLOCK_SKEW).ok_or_else(PkiError::beyond_calendar)?;
+        let not_after = now.checked_add_signed(validity).ok_or_else(PkiError::beyond_calendar)?;
         Ok(ValidityPeriod {
             not_before: not_before.max(self.certificate.not_before()),
             not_after: not_after.min(self.certificate.not_after()),

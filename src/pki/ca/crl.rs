@@ -8,6 +8,7 @@ use x509_cert::serial_number::SerialNumber;
 
 use super::authority::authority_key_id;
 use super::{CertificateAuthority, encode};
+use crate::model::with_cause;
 use crate::pki::{Crl, PkiError, RevocationReason};
 
 /// One entry of a CRL.
@@ -47,8 +48,9 @@ impl CertificateAuthority {
         days: u16,
     ) -> Result<Crl, PkiError> {
         self.check_valid(now)?;
-        let this_update = now.checked_sub_signed(Duration::hours(1)).ok_or(PkiError::Dates)?;
-        let next_update = now.checked_add_signed(Duration::days(i64::from(days))).ok_or(PkiError::Dates)?;
+        let this_update = now.checked_sub_signed(Duration::hours(1)).ok_or_else(PkiError::beyond_calendar)?;
+        let next_update =
+            now.checked_add_signed(Duration::days(i64::from(days))).ok_or_else(PkiError::beyond_calendar)?;
         let entries = revoked.iter().map(entry).collect::<Result<Vec<_>, _>>()?;
         let number = Uint::new(&number.to_be_bytes()).map_err(encode::signing)?;
         let tbs_cert_list = TbsCertList {
@@ -71,7 +73,7 @@ impl CertificateAuthority {
 }
 
 fn entry(revoked: &RevokedCertificate) -> Result<RevokedCert, PkiError> {
-    let serial = hex::decode(&revoked.serial_number).map_err(|_| PkiError::Signing)?;
+    let serial = hex::decode(&revoked.serial_number).map_err(with_cause(PkiError::Signing))?;
     let reason = match revoked.reason {
         // Is to be left out (RFC 5280 §5.3.1).
         RevocationReason::Unspecified => None,

@@ -11,7 +11,7 @@ use x509_cert::name::{Name, RdnSequence, RelativeDistinguishedName};
 use x509_cert::spki::{AlgorithmIdentifierOwned, SubjectPublicKeyInfoOwned};
 use x509_cert::time::Time;
 
-use crate::model::Subject;
+use crate::model::{Cause, Subject, with_cause};
 use crate::pki::{PkiError, PrivateKey};
 
 /// A subject as X.501 writes it; empty fields are left out. The country is a PrintableString, as RFC 5280 wants it.
@@ -36,13 +36,13 @@ pub(super) fn name(subject: &Subject) -> Result<Name, PkiError> {
 
 /// UTCTime up to 2049, GeneralizedTime after that (RFC 5280 §4.1.2.5). Whole seconds from 1970 to 9999 only.
 pub(super) fn time(at: DateTime<Utc>) -> Result<Time, PkiError> {
-    let since_1970 = Duration::from_secs(u64::try_from(at.timestamp()).map_err(|_| PkiError::Dates)?);
+    let since_1970 = Duration::from_secs(u64::try_from(at.timestamp()).map_err(with_cause(PkiError::Dates))?);
     let time = if at.year() < 2050 {
         UtcTime::from_unix_duration(since_1970).map(Time::UtcTime)
     } else {
         GeneralizedTime::from_unix_duration(since_1970).map(Time::GeneralTime)
     };
-    time.map_err(|_| PkiError::Dates)
+    time.map_err(with_cause(PkiError::Dates))
 }
 
 /// SHA-1 of the public key, the first method of RFC 5280 §4.2.1.2: what OpenSSL computes as well.
@@ -72,8 +72,8 @@ pub(super) fn sign(key: &PrivateKey, to_be_signed: &impl Encode) -> Result<BitSt
 }
 
 /// What cannot be written in DER cannot be signed.
-pub(super) fn signing(_: x509_cert::der::Error) -> PkiError {
-    PkiError::Signing
+pub(super) fn signing(error: x509_cert::der::Error) -> PkiError {
+    PkiError::Signing(Cause::new(error))
 }
 
 pub(super) const COMMON_NAME: ObjectIdentifier = ObjectIdentifier::new_unwrap("2.5.4.3");

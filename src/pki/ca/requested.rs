@@ -10,6 +10,7 @@ use x509_parser::certification_request::X509CertificationRequest;
 use x509_parser::prelude::{FromDer as _, ParsedExtension};
 
 use super::encode;
+use crate::model::with_cause;
 use crate::pki::csr::requested_extensions;
 use crate::pki::{Csr, PkiError, ServerNames};
 
@@ -24,16 +25,17 @@ pub(super) struct RequestedContents {
 impl RequestedContents {
     /// `instead` replaces the names of the request.
     pub fn read(csr: &Csr, instead: Option<&ServerNames>) -> Result<Self, PkiError> {
-        let (_, parsed) = X509CertificationRequest::from_der(csr.der()).map_err(|_| PkiError::NotACsr)?;
+        let (_, parsed) = X509CertificationRequest::from_der(csr.der()).map_err(with_cause(PkiError::NotACsr))?;
         let info = &parsed.certification_request_info;
-        let subject = Name::from_der(info.subject.as_raw()).map_err(|_| PkiError::CsrRefused("has a damaged name"))?;
+        let subject = Name::from_der(info.subject.as_raw()).map_err(damaged("name"))?;
         let named = |part: &x509_cert::attr::AttributeTypeAndValue| {
             part.oid == encode::COMMON_NAME && !part.value.value().is_empty()
         };
         if !subject.0.iter().flat_map(|part| part.0.iter()).any(named) {
             return Err(PkiError::CsrRefused("has no common name"));
         }
-        let public_key = SubjectPublicKeyInfoOwned::from_der(info.subject_pki.raw).map_err(|_| PkiError::NotACsr)?;
+        let public_key =
+            SubjectPublicKeyInfoOwned::from_der(info.subject_pki.raw).map_err(with_cause(PkiError::NotACsr))?;
         let names = match instead {
             Some(names) => names.clone(),
             None => names_of(&parsed)?,
@@ -47,13 +49,18 @@ impl RequestedContents {
     }
 }
 
+/// A part of the request cannot be read.
+fn damaged<E: std::error::Error + Send + Sync + 'static>(part: &'static str) -> impl FnOnce(E) -> PkiError {
+    with_cause(move |cause| PkiError::CsrDamaged { part, cause })
+}
+
 fn names_of(parsed: &X509CertificationRequest<'_>) -> Result<ServerNames, PkiError> {
     use x509_parser::prelude::GeneralName;
     let (mut uris, mut ips, mut dns) = (Vec::new(), Vec::new(), Vec::new());
     for extension in &requested_extensions(parsed)? {
         let san = match extension.parsed_extension() {
             ParsedExtension::SubjectAlternativeName(san) => san,
-            ParsedExtension::ParseError { .. } => return Err(PkiError::CsrRefused("has a damaged extension")),
+            ParsedExtension::ParseError { error } => return Err(damaged("extension")(error.clone())),
             _ => continue,
         };
         for name in &san.general_names {

@@ -1,7 +1,7 @@
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
-use super::CertificateFlaw;
+use super::{CertificateFlaw, UnverifiableSignature};
 
 /// Why a revocation list does not say whether a certificate was revoked.
 ///
@@ -16,7 +16,7 @@ pub enum CrlFlaw {
     NotSigned,
     /// The algorithm is not supported, or proves nothing.
     SignatureUnverifiable {
-        why: String,
+        because: UnverifiableSignature,
     },
     /// It names another key of the authority than the one that signed the certificate, and no certificate of that key
     /// is at hand.

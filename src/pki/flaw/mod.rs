@@ -1,8 +1,10 @@
 //! What can be wrong with a certificate, as values. They decide the OPC UA status; `texts` has the words and the remedy.
 
 mod crl;
+mod unverifiable;
 
 pub use crl::{CrlFlaw, CrlUnusable, OutOfScope};
+pub use unverifiable::UnverifiableSignature;
 
 use chrono::{DateTime, Utc};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -67,7 +69,7 @@ pub enum CertificateFlaw {
     SelfSignatureWrong,
     /// The algorithm is not supported, or proves nothing.
     SignatureUnverifiable {
-        why: String,
+        because: UnverifiableSignature,
     },
 
     // RFC 5280 §6.1.3 and §6.1.4: what authorities above it say about names and policies

@@ -1,4 +1,3 @@
-use crate::pki::name::quoted;
 use crate::pki::signature::SignatureCheck;
 use crate::pki::{Certificate, CertificateFlaw};
 
@@ -15,6 +14,6 @@ pub(in crate::pki) fn self_signature_flaw(certificate: &Certificate, is_authorit
         SignatureCheck::Valid => None,
         SignatureCheck::Invalid if is_authority && !names_own_key => None,
         SignatureCheck::Invalid => Some(CertificateFlaw::SelfSignatureWrong),
-        SignatureCheck::CannotVerify(why) => Some(CertificateFlaw::SignatureUnverifiable { why: quoted(&why) }),
+        SignatureCheck::CannotVerify(because) => Some(CertificateFlaw::SignatureUnverifiable { because }),
     }
 }

@@ -3,7 +3,7 @@ use std::collections::BTreeSet;
 use crate::model::{SecurityPolicy, offered_key_lengths};
 use crate::pki::name::quoted;
 use crate::pki::signature::{Hash, PublicKey, SignatureAlgorithm};
-use crate::pki::{Certificate, CertificateFlaw};
+use crate::pki::{Certificate, CertificateFlaw, UnverifiableSignature};
 
 /// What a security policy (OPC 10000-7) requires of keys and signatures.
 struct StrengthRequirements {
@@ -88,8 +88,8 @@ pub(in crate::pki) fn signature_hash_flaw(
 ) -> Option<CertificateFlaw> {
     let is_strong = match algorithm.hash() {
         None => {
-            let why = quoted(&format!("the signature algorithm {} is not supported", algorithm.name()));
-            return Some(CertificateFlaw::SignatureUnverifiable { why });
+            let because = UnverifiableSignature::AlgorithmNotSupported(quoted(algorithm.name()));
+            return Some(CertificateFlaw::SignatureUnverifiable { because });
         }
         Some(Hash::Md5) => false,
         Some(Hash::Sha1) => allow_sha1 || StrengthRequirements::by(security_policy).sha1_allowed,

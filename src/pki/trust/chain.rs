@@ -5,7 +5,7 @@ use super::revocation::{OtherKeys, RevocationCheck};
 use super::{CertificateRejection, PresentedCertificate, TrustLists, TrustPolicy};
 use crate::pki::name::quoted;
 use crate::pki::signature::SignatureCheck;
-use crate::pki::{Certificate, CertificateFlaw};
+use crate::pki::{Certificate, CertificateFlaw, UnverifiableSignature};
 
 /// How many certificates a chain may have, from the application's to the root.
 const MAX_CHAIN: usize = 10;
@@ -126,25 +126,15 @@ impl<'a, 'b> ChainSearch<'a, 'b> {
                     let issuer = quoted(issuer.subject());
                     self.fail(ValidationStep::Signature, last, depth, CertificateFlaw::SignatureWrong { issuer });
                 }
-                SignatureCheck::CannotVerify(why) => {
-                    self.fail(
-                        ValidationStep::Policy,
-                        last,
-                        depth,
-                        CertificateFlaw::SignatureUnverifiable { why: quoted(&why) },
-                    );
+                SignatureCheck::CannotVerify(because) => {
+                    self.fail(ValidationStep::Policy, last, depth, CertificateFlaw::SignatureUnverifiable { because });
                 }
             }
         }
         match itself {
             _ if has_issuer => {}
-            Some(SignatureCheck::CannotVerify(why)) => {
-                self.fail(
-                    ValidationStep::Policy,
-                    last,
-                    depth,
-                    CertificateFlaw::SignatureUnverifiable { why: quoted(&why) },
-                );
+            Some(SignatureCheck::CannotVerify(because)) => {
+                self.fail(ValidationStep::Policy, last, depth, CertificateFlaw::SignatureUnverifiable { because });
             }
             Some(_) => self.fail(ValidationStep::Signature, last, depth, CertificateFlaw::SelfSignatureWrong),
             None if self.policy.allow_incomplete_chain && self.lists.is_trusted(last) => return self.check(chain),
@@ -237,7 +227,7 @@ impl<'a, 'b> ChainSearch<'a, 'b> {
         }
         if self.budget.signatures.len() >= MAX_SIGNATURES {
             self.budget.exhausted = true;
-            return SignatureCheck::CannotVerify("there are too many possible issuers to check them all".to_owned());
+            return SignatureCheck::CannotVerify(UnverifiableSignature::TooManyIssuers);
         }
         let check = certificate.signature_by(issuer);
         self.budget.signatures.insert(key, check.clone());

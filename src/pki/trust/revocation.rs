@@ -173,7 +173,7 @@ impl RevocationCheck<'_, '_> {
             SignatureCheck::Valid if !rules::may_sign_lists(signer) => Err(CrlFlaw::MayNotSign),
             SignatureCheck::Valid => self.hash_is_strong(crl),
             SignatureCheck::Invalid => Err(CrlFlaw::NotSigned),
-            SignatureCheck::CannotVerify(why) => Err(CrlFlaw::SignatureUnverifiable { why: quoted(&why) }),
+            SignatureCheck::CannotVerify(because) => Err(CrlFlaw::SignatureUnverifiable { because }),
         }
     }
 
@@ -181,7 +181,7 @@ impl RevocationCheck<'_, '_> {
         let security_policy = self.presented.security_policy;
         match rules::signature_hash_flaw(crl.algorithm(), security_policy, self.policy.allow_sha1) {
             None => Ok(()),
-            Some(CertificateFlaw::SignatureUnverifiable { why }) => Err(CrlFlaw::SignatureUnverifiable { why }),
+            Some(CertificateFlaw::SignatureUnverifiable { because }) => Err(CrlFlaw::SignatureUnverifiable { because }),
             Some(_) => Err(CrlFlaw::WeakHash { algorithm: quoted(crl.signature_algorithm()) }),
         }
     }

@@ -4,7 +4,7 @@ use x509_parser::prelude::{FromDer as _, X509Certificate};
 
 use super::ServerLocation;
 use super::failure::printable;
-use crate::model::{SecurityPolicy, UserTokenPolicy};
+use crate::model::{SecurityPolicy, UserTokenPolicy, with_cause};
 use crate::pki::{Certificate, PkiError};
 
 /// How messages are protected (OPC 10000-4 §7.20).
@@ -139,7 +139,7 @@ impl Endpoint {
         let mut chain = Vec::new();
         let mut rest = &self.certificate[..];
         while !rest.is_empty() && chain.len() < MAX_CHAIN {
-            let (after, _) = X509Certificate::from_der(rest).map_err(|_| PkiError::NotACertificate)?;
+            let (after, _) = X509Certificate::from_der(rest).map_err(with_cause(PkiError::NotACertificate))?;
             chain.push(Certificate::from_der(&rest[..rest.len() - after.len()])?);
             rest = after;
         }

@@ -22,7 +22,6 @@ fn all() -> Vec<CertificateFlaw> {
         F::IssuerKey { issuer: text() },
         F::SignatureWrong { issuer: text() },
         F::SelfSignatureWrong,
-        F::SignatureUnverifiable { why: text() },
         F::NameNotPermitted { name: text(), authority: text() },
         F::NameConstraintUnsupported { name: text(), authority: text() },
         F::TooManyNames { authority: text() },
@@ -61,6 +60,7 @@ fn all() -> Vec<CertificateFlaw> {
         F::NotThatOfTheChannel,
     ]
     .into_iter()
+    .chain(unverifiable(&text()).map(|because| F::SignatureUnverifiable { because }))
     .chain(of_lists(&text()).map(|crl| F::RevocationUnknown { authority: text(), crl }))
     .collect()
 }
@@ -89,7 +89,6 @@ fn of_lists(text: &str) -> impl Iterator<Item = CrlFlaw> {
     let others = [
         CrlFlaw::Missing,
         CrlFlaw::NotSigned,
-        CrlFlaw::SignatureUnverifiable { why: text() },
         CrlFlaw::KeyNotHeld,
         CrlFlaw::KeyNotAccepted { subject: text(), because: Box::new(CertificateFlaw::NotAnAuthority) },
         CrlFlaw::KeyNotAccepted { subject: text(), because: Box::new(nested) },
@@ -102,7 +101,23 @@ fn of_lists(text: &str) -> impl Iterator<Item = CrlFlaw> {
     ];
     let unusable = unusable.map(|because| CrlFlaw::Unusable { because });
     let out_of_scope = out_of_scope.map(|because| CrlFlaw::OutOfScope { because });
-    unusable.into_iter().chain(out_of_scope).chain(others)
+    let unverifiable = unverifiable(&text()).map(|because| CrlFlaw::SignatureUnverifiable { because });
+    unusable.into_iter().chain(out_of_scope).chain(others).chain(unverifiable)
+}
+
+fn unverifiable(text: &str) -> impl Iterator<Item = UnverifiableSignature> + use<> {
+    use UnverifiableSignature as U;
+    let text = text.to_owned();
+    [
+        U::AlgorithmNotSupported(text.clone()),
+        U::AlgorithmForgeable(text.clone()),
+        U::KeyLength(512),
+        U::KeyExponent,
+        U::CurveNotSupported,
+        U::NotWithCurve { algorithm: text.clone(), curve: text },
+        U::TooManyIssuers,
+    ]
+    .into_iter()
 }
 
 #[test]
@@ -114,8 +129,10 @@ fn each_flaw_of_a_list_has_a_remedy_of_its_own() {
             assert!(flaw.reason(language).contains("CN=Plant CA"), "{flaw:?}");
             remedies.insert(flaw.remedy(language));
         }
-        // A list about attribute certificates is of no use and out of scope; the two extensions have one remedy.
-        assert_eq!(remedies.len() + 2, of_lists("x").count(), "{remedies:#?}");
+        // A list about attribute certificates is of no use and out of scope; the two extensions have one remedy, and so
+        // have all signatures that prove nothing.
+        let shared = 2 + unverifiable("x").count() - 1;
+        assert_eq!(remedies.len() + shared, of_lists("x").count(), "{remedies:#?}");
     }
 }
 

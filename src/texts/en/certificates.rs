@@ -1,6 +1,6 @@
 //! What is wrong with certificates, in English.
 
-use super::revocation_lists;
+use super::{revocation_lists, signatures};
 use crate::model::CertificateStatus as S;
 use crate::pki::{CertificateFlaw as F, PeerRole};
 use crate::texts::{
@@ -34,7 +34,9 @@ pub fn flaw_reason(flaw: &F) -> String {
         }
         F::SignatureWrong { issuer } => format!("its signature is not that of its issuer, {issuer}"),
         F::SelfSignatureWrong => "it is not signed with its own key, although it names itself as its issuer".to_owned(),
-        F::SignatureUnverifiable { why } => format!("its signature cannot be checked: {why}"),
+        F::SignatureUnverifiable { because } => {
+            format!("its signature cannot be checked: {}", signatures::unverifiable(because))
+        }
         F::NameNotPermitted { name, authority } => format!(
             "the name constraints of its authority {authority} do not allow the name {name} (RFC 5280 §4.2.1.10)"
         ),

@@ -1,6 +1,6 @@
 //! What is wrong with certificate revocation lists, in English.
 
-use super::LANGUAGE;
+use super::{LANGUAGE, signatures};
 use crate::pki::{CrlFlaw as F, CrlUnusable, OutOfScope};
 use crate::texts::certificates::date;
 
@@ -9,7 +9,9 @@ pub fn reason(flaw: &F, authority: &str) -> String {
     match flaw {
         F::Missing => format!("there is no revocation list of {authority}"),
         F::NotSigned => format!("the signature of {list} is wrong"),
-        F::SignatureUnverifiable { why } => format!("the signature of {list} cannot be checked: {why}"),
+        F::SignatureUnverifiable { because } => {
+            format!("the signature of {list} cannot be checked: {}", signatures::unverifiable(because))
+        }
         F::KeyNotHeld => format!(
             "{list} is signed with another key of this authority than the one that signed the certificate, and no \
          certificate with that key is there"

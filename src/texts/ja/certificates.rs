@@ -1,6 +1,6 @@
 //! What is wrong with certificates, in Japanese.
 
-use super::revocation_lists;
+use super::{revocation_lists, signatures};
 use crate::model::CertificateStatus as S;
 use crate::pki::{CertificateFlaw as F, PeerRole};
 use crate::texts::certificates::{date, usages};
@@ -36,7 +36,7 @@ pub fn flaw_reason(flaw: &F) -> String {
         F::SelfSignatureWrong => {
             "発行者として証明書自身の名前が記載されていますが、証明書自身の鍵で署名されていません".to_owned()
         }
-        F::SignatureUnverifiable { why } => format!("署名を検証できません：{why}"),
+        F::SignatureUnverifiable { because } => format!("署名を検証できません：{}", signatures::unverifiable(because)),
         F::NameNotPermitted { name, authority } => {
             format!("CA「{authority}」の名前制約により、名前「{name}」は許可されていません (RFC 5280 §4.2.1.10)")
         }

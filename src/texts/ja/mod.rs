@@ -32,6 +32,7 @@ pub mod revocation_lists;
 pub mod sentences;
 pub mod server;
 pub mod server_certificates;
+pub mod signatures;
 pub mod trust;
 pub mod vault;
 pub mod verify;

@@ -1,6 +1,6 @@
 //! What is wrong with certificate revocation lists, in Japanese.
 
-use super::LANGUAGE;
+use super::{LANGUAGE, signatures};
 use crate::pki::{CrlFlaw as F, CrlUnusable, OutOfScope};
 use crate::texts::certificates::date;
 
@@ -9,7 +9,9 @@ pub fn reason(flaw: &F, authority: &str) -> String {
     match flaw {
         F::Missing => format!("{list}がありません"),
         F::NotSigned => format!("{list}の署名が正しくありません"),
-        F::SignatureUnverifiable { why } => format!("{list}の署名を検証できません：{why}"),
+        F::SignatureUnverifiable { because } => {
+            format!("{list}の署名を検証できません：{}", signatures::unverifiable(because))
+        }
         F::KeyNotHeld => {
             format!("{list}が、証明書に署名した鍵とは別の、同じCAの鍵で署名されており、その鍵の証明書がありません")
         }

@@ -1,6 +1,6 @@
 //! What is wrong with certificates, in Chinese.
 
-use super::revocation_lists;
+use super::{revocation_lists, signatures};
 use crate::model::CertificateStatus as S;
 use crate::pki::{CertificateFlaw as F, PeerRole};
 use crate::texts::certificates::{date, usages};
@@ -24,7 +24,7 @@ pub fn flaw_reason(flaw: &F) -> String {
         F::IssuerKey { issuer } => format!("存在名为 {issuer} 的 CA，但其密钥不是签发该证书的密钥"),
         F::SignatureWrong { issuer } => format!("签名不是其签发者 {issuer} 的签名"),
         F::SelfSignatureWrong => "证书以自身为签发者，但不是用自己的密钥签名".to_owned(),
-        F::SignatureUnverifiable { why } => format!("无法验证签名：{why}"),
+        F::SignatureUnverifiable { because } => format!("无法验证签名：{}", signatures::unverifiable(because)),
         F::NameNotPermitted { name, authority } => {
             format!("其 CA {authority} 的名称约束不允许名称 {name} (RFC 5280 §4.2.1.10)")
         }

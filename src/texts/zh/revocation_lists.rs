@@ -1,6 +1,6 @@
 //! What is wrong with certificate revocation lists, in Chinese.
 
-use super::LANGUAGE;
+use super::{LANGUAGE, signatures};
 use crate::pki::{CrlFlaw as F, CrlUnusable, OutOfScope};
 use crate::texts::certificates::date;
 
@@ -9,7 +9,9 @@ pub fn reason(flaw: &F, authority: &str) -> String {
     match flaw {
         F::Missing => format!("没有 {list}"),
         F::NotSigned => format!("{list}签名错误"),
-        F::SignatureUnverifiable { why } => format!("无法验证 {list}的签名：{why}"),
+        F::SignatureUnverifiable { because } => {
+            format!("无法验证 {list}的签名：{}", signatures::unverifiable(because))
+        }
         F::KeyNotHeld => format!("{list}由该 CA 的另一个密钥签名，而不是签发证书的密钥，且没有该密钥的证书"),
         F::KeyNotAccepted { subject, because } => {
             format!("{list}由该 CA 的另一个密钥签名，且该密钥的证书未被接受：{subject}：{}", because.reason(LANGUAGE))

@@ -8,7 +8,8 @@ use axum::body::{Body, Bytes, HttpBody as _};
 use serde::de::DeserializeOwned;
 use zeroize::Zeroizing;
 
-use crate::model::{ErrorCode, Problem};
+use super::request_error::RequestError;
+use crate::model::{Cause, ErrorCode};
 use crate::protocol::MAX_REQUEST_BYTES;
 
 /// For the whole body of a request.
@@ -35,28 +36,28 @@ impl MalformedBody {
         Self { code, quoted: false }
     }
 
-    fn problem(self, error: &serde_json::Error) -> Problem {
-        if self.quoted {
-            Problem::with_detail(self.code, error)
+    fn error(self, error: serde_json::Error) -> RequestError {
+        let cause = if self.quoted {
+            Cause::new(error)
         } else {
-            let detail = format!("not the message expected, at line {}, column {}", error.line(), error.column());
-            Problem::with_detail(self.code, detail)
-        }
+            let (line, column) = (error.line(), error.column());
+            Cause::told(format_args!("not the message expected, at line {line}, column {column}"))
+        };
+        RequestError::Malformed { code: self.code, cause }
     }
 }
 
 /// Reads a body of at most [`MAX_REQUEST_BYTES`] within 10 s, whatever its media type.
-pub(super) async fn read<T: DeserializeOwned>(body: Body, malformed: MalformedBody) -> Result<T, Problem> {
-    let bytes = tokio::time::timeout(BODY_TIMEOUT, collect(body))
-        .await
-        .map_err(|_| Problem::with_detail(ErrorCode::Refused, "the request did not arrive in time"))??;
-    serde_json::from_slice(&bytes).map_err(|error| malformed.problem(&error))
+pub(super) async fn read<T: DeserializeOwned>(body: Body, malformed: MalformedBody) -> Result<T, RequestError> {
+    let collected = tokio::time::timeout(BODY_TIMEOUT, collect(body)).await;
+    let bytes = collected.unwrap_or(Err(RequestError::Late))?;
+    serde_json::from_slice(&bytes).map_err(|error| malformed.error(error))
 }
 
-async fn collect(body: Body) -> Result<Zeroizing<Vec<u8>>, Problem> {
+async fn collect(body: Body) -> Result<Zeroizing<Vec<u8>>, RequestError> {
     let announced = usize::try_from(body.size_hint().lower()).unwrap_or(usize::MAX);
     if announced > MAX_DRAINED_BYTES {
-        return Err(ErrorCode::RequestTooLarge.into());
+        return Err(RequestError::TooLarge);
     }
     let mut body = pin!(body);
     // Never grown beyond what is announced, so that no copy of a secret is left behind.
@@ -64,7 +65,7 @@ async fn collect(body: Body) -> Result<Zeroizing<Vec<u8>>, Problem> {
     let mut bytes = Zeroizing::new(Vec::with_capacity(capacity));
     let mut total = 0_usize;
     while let Some(frame) = poll_fn(|cx| body.as_mut().poll_frame(cx)).await {
-        let frame = frame.map_err(|_| Problem::with_detail(ErrorCode::Refused, "the request broke off"))?;
+        let frame = frame.map_err(RequestError::BrokenOff)?;
         let data: Bytes = frame.into_data().unwrap_or_default();
         total = total.saturating_add(data.len());
         if total <= MAX_REQUEST_BYTES {
@@ -73,5 +74,5 @@ async fn collect(body: Body) -> Result<Zeroizing<Vec<u8>>, Problem> {
             break;
         }
     }
-    if total > MAX_REQUEST_BYTES { Err(ErrorCode::RequestTooLarge.into()) } else { Ok(bytes) }
+    if total > MAX_REQUEST_BYTES { Err(RequestError::TooLarge) } else { Ok(bytes) }
 }

@@ -1,25 +1,23 @@
-//! The sender of a request, and the answer to a request that fails.
+//! The sender of a request.
 
 use std::future::pending;
 use std::net::IpAddr;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use axum::Json;
 use axum::extract::FromRequestParts;
+use axum::http::header;
 use axum::http::request::Parts;
-use axum::http::{StatusCode, header};
-use axum::response::{IntoResponse, Response};
 use parking_lot::Mutex;
 use tokio::sync::Mutex as AsyncMutex;
 use tokio_util::sync::CancellationToken;
 
-use crate::model::{ErrorCode, Problem};
-use crate::protocol::{self, FailureBody, WireSecret};
+use super::failed::FailedRequest;
+use super::request_error::RequestError;
+use crate::protocol::WireSecret;
 use crate::virtual_controller::controller::{ChangeFailure, Controller};
 use crate::virtual_controller::login::{LoginThrottle, ManagementSessions};
 use crate::virtual_controller::peer::PeerConnection;
-use crate::virtual_controller::request_heads::RejectedHead;
 
 /// The management protocol of one controller.
 #[derive(Debug)]
@@ -57,12 +55,6 @@ pub(super) struct Caller {
     pub(super) token: WireSecret,
 }
 
-/// A failed request. The status is [`protocol::status_of`] the code unless it is about the path or the head.
-pub(super) struct FailedRequest {
-    status: StatusCode,
-    problem: Problem,
-}
-
 impl Caller {
     pub(super) fn controller(&self) -> &Arc<Controller> {
         &self.connection.api.controller
@@ -77,7 +69,7 @@ impl Caller {
     pub(super) async fn settle<T>(&self, outcome: Result<T, ChangeFailure>) -> Result<T, FailedRequest> {
         match outcome {
             Ok(value) => Ok(value),
-            Err(ChangeFailure::Problem(problem)) => Err(problem.into()),
+            Err(ChangeFailure::Error(error)) => Err(error.into()),
             Err(ChangeFailure::Dropped) => {
                 self.connection.cut.cancel();
                 pending().await
@@ -90,19 +82,15 @@ impl<S: Send + Sync> FromRequestParts<S> for Caller {
     type Rejection = FailedRequest;
 
     async fn from_request_parts(parts: &mut Parts, _state: &S) -> Result<Self, FailedRequest> {
-        let connection = parts
-            .extensions
-            .get::<ClientConnection>()
-            .cloned()
-            .ok_or_else(|| Problem::with_detail(ErrorCode::Internal, "a request without a connection"))?;
+        let connection = parts.extensions.get::<ClientConnection>().cloned().ok_or(RequestError::NoConnection)?;
         let token = parts
             .headers
             .get(header::AUTHORIZATION)
             .and_then(|value| value.to_str().ok())
             .and_then(|value| value.strip_prefix("Bearer "))
-            .ok_or(Problem::new(ErrorCode::SessionExpired))?;
+            .ok_or(RequestError::NoSession)?;
         if !connection.api.sessions.lock().touch(token, Instant::now()) {
-            return Err(Problem::new(ErrorCode::SessionExpired).into());
+            return Err(RequestError::NoSession.into());
         }
         connection.peer.has_session();
         let token = WireSecret(token.into());
@@ -110,35 +98,10 @@ impl<S: Send + Sync> FromRequestParts<S> for Caller {
     }
 }
 
-impl From<Problem> for FailedRequest {
-    fn from(problem: Problem) -> Self {
-        let status = StatusCode::from_u16(protocol::status_of(problem.code));
-        Self { status: status.unwrap_or(StatusCode::INTERNAL_SERVER_ERROR), problem }
-    }
-}
-
-/// The answer to a request whose head was refused.
-pub fn rejected(head: RejectedHead) -> Response {
-    FailedRequest { status: head.status, problem: head.problem }.into_response()
-}
-
-impl IntoResponse for FailedRequest {
-    fn into_response(self) -> Response {
-        (self.status, Json(FailureBody::from(self.problem))).into_response()
-    }
-}
-
 pub(super) async fn unknown_path() -> FailedRequest {
-    not_found()
+    RequestError::UnknownPath.into()
 }
 
 pub(super) async fn unknown_method() -> FailedRequest {
-    FailedRequest {
-        status: StatusCode::METHOD_NOT_ALLOWED,
-        problem: Problem::with_detail(ErrorCode::Refused, "this path does not take this method"),
-    }
-}
-
-pub(super) fn not_found() -> FailedRequest {
-    FailedRequest { status: StatusCode::NOT_FOUND, problem: Problem::with_detail(ErrorCode::Refused, "no such path") }
+    RequestError::UnknownMethod.into()
 }

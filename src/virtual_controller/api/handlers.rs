@@ -3,10 +3,12 @@
 use std::sync::Arc;
 
 use super::body::MalformedBody;
-use super::caller::{Caller, FailedRequest};
+use super::caller::Caller;
+use super::failed::FailedRequest;
+use super::request_error::RequestError;
 use super::routes::Routes;
 use crate::model::activation::ActivationKeys;
-use crate::model::{Base64Bytes, Changed, ClientList, ErrorCode, ListedCertificate, LogChunk, Problem, Revisioned};
+use crate::model::{Base64Bytes, Changed, ClientList, ErrorCode, ListedCertificate, LogChunk, Revisioned};
 use crate::protocol::{
     Activate, AddUser, CertificateInstalled, CsrMade, EditTrust, ExportSettings, GetCertificates, GetCrl, GetCrls,
     GetInfo, GetIssuers, GetLog, GetRejected, GetSettings, GetTrustStamp, GetTrusted, GetUsers, ImportCaSigned,
@@ -68,12 +70,7 @@ pub(super) fn register(routes: Routes) -> Routes {
 async fn get_log(caller: Arc<Caller>, query: Option<String>) -> Result<LogChunk, FailedRequest> {
     let from = match query.as_deref() {
         None | Some("") => None,
-        Some(query) => Some(
-            query
-                .strip_prefix("from=")
-                .and_then(|from| from.parse().ok())
-                .ok_or_else(|| Problem::with_detail(ErrorCode::Refused, "from=BYTE is all that can be asked for"))?,
-        ),
+        Some(query) => Some(query.strip_prefix("from=").and_then(|from| from.parse().ok()).ok_or(RequestError::Query)?),
     };
     Ok(caller.controller().read_log(from).await?)
 }
@@ -194,5 +191,5 @@ async fn clients(caller: &Caller, list: ClientList) -> Result<Revisioned<Vec<Lis
 async fn off_thread<T: Send + 'static>(
     work: impl FnOnce() -> Result<T, FailedRequest> + Send + 'static,
 ) -> Result<T, FailedRequest> {
-    tokio::task::spawn_blocking(work).await.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?
+    tokio::task::spawn_blocking(work).await.map_err(RequestError::Worker)?
 }

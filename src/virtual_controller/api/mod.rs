@@ -3,14 +3,18 @@
 //! | file | its one idea |
 //! |---|---|
 //! | `mod` | the router; logging in and out |
-//! | `caller` | [`ManagementApi`], the sender of a request, and how a request that fails is answered |
+//! | `caller` | [`ManagementApi`], and the sender of a request |
+//! | `failed` | the answer to a request that fails: the error code and detail of every error |
+//! | `request_error` | why a request is not understood |
 //! | `routes` | a handler is registered under the type of the request that it answers |
 //! | `handlers` | what the controller does for each request |
 //! | `body` | request bodies, bounded in size and time |
 
 mod body;
 mod caller;
+mod failed;
 mod handlers;
+mod request_error;
 mod routes;
 
 use std::sync::{Arc, LazyLock};
@@ -19,12 +23,15 @@ use std::time::{Duration, Instant};
 use axum::Router;
 use secrecy::ExposeSecret as _;
 
+use super::login::LoginError;
 use super::password::is_password;
-use crate::model::{ErrorCode, Problem};
+use crate::model::ErrorCode;
 use crate::protocol::{self, GetHello, Hello, Login, Logout, SESSION_IDLE_SECS, SessionStarted, WireSecret};
 use body::MalformedBody;
-use caller::{Caller, FailedRequest};
-pub use caller::{ClientConnection, ManagementApi, rejected};
+use caller::Caller;
+pub use caller::{ClientConnection, ManagementApi};
+use failed::FailedRequest;
+pub use failed::rejected;
 use routes::Routes;
 
 /// How long a wrong password waits for its answer.
@@ -62,7 +69,7 @@ async fn login(connection: ClientConnection, Login { password }: Login) -> Resul
     };
     if !right {
         tokio::time::sleep(WRONG_PASSWORD_DELAY).await;
-        return Err(Problem::new(ErrorCode::WrongPassword).into());
+        return Err(LoginError::WrongPassword.into());
     }
     let token = api.sessions.lock().open(Instant::now())?;
     connection.peer.has_session();

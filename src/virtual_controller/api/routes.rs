@@ -12,7 +12,9 @@ use axum::routing::{MethodFilter, MethodRouter, on};
 use axum::{Json, Router};
 
 use super::body::{MalformedBody, read};
-use super::caller::{Caller, ClientConnection, FailedRequest, not_found, unknown_method, unknown_path};
+use super::caller::{Caller, ClientConnection, unknown_method, unknown_path};
+use super::failed::FailedRequest;
+use super::request_error::RequestError;
 use crate::protocol::{Method, Request};
 
 /// A router in the making, and what was registered.
@@ -81,7 +83,7 @@ impl Routes {
         A: Future<Output = Result<R::Response, FailedRequest>> + Send,
     {
         let handler = async move |caller: Caller, value: Result<Path<String>, PathRejection>| -> Answer {
-            let Path(value) = value.map_err(|_| not_found())?;
+            let Path(value) = value.map_err(|_| RequestError::UnknownPath)?;
             Ok(respond(handler(Arc::new(caller), value).await?))
         };
         self.add::<R>(on(filter::<R>(), handler))

@@ -1,17 +1,16 @@
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use tokio::task::spawn_blocking;
 
+use super::error::{ControllerError, ServerStartError};
 use super::server_slot::{ServerSlot, opcua_config, trust_lists};
 use super::{Controller, ServerState};
-use crate::model::{Changed, DisconnectedClient, ErrorCode, Problem, RevisionToken};
+use crate::model::{Changed, DisconnectedClient, RevisionToken};
 use crate::virtual_controller::faults::DropPoint;
 use crate::virtual_controller::memory;
-use crate::virtual_controller::opcua::{CertificateClock, OpcUaConfig, OpcUaServer, ServerEvents, StartError};
+use crate::virtual_controller::opcua::{CertificateClock, OpcUaConfig, OpcUaServer, ServerEvents};
 use crate::virtual_controller::server_log::ServerLog;
 use crate::virtual_controller::state::{ControllerState, OperatingContext};
-use crate::virtual_controller::store::StoreError;
 
 /// What a change means for a running OPC UA server.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,22 +34,19 @@ pub(super) struct AppliedChange<T> {
 }
 
 /// How a change, a start or a stop did not succeed.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug)]
 pub(in super::super) enum ChangeFailure {
-    Problem(Problem),
+    Error(ControllerError),
     /// A fault switch asks for the connection to be lost here.
     Dropped,
 }
 
-impl From<Problem> for ChangeFailure {
-    fn from(problem: Problem) -> Self {
-        Self::Problem(problem)
-    }
-}
-
-impl From<StoreError> for ChangeFailure {
-    fn from(error: StoreError) -> Self {
-        Self::Problem(error.into())
+impl<E> From<E> for ChangeFailure
+where
+    ControllerError: From<E>,
+{
+    fn from(error: E) -> Self {
+        Self::Error(error.into())
     }
 }
 
@@ -61,12 +57,15 @@ impl Controller {
     /// Makes a change, whole or not at all, even if the one who asked has gone: copy the state, edit the copy, write
     /// it beside the one in force, give the server the new configuration, and only then let the copy take its place.
     /// If a step fails, the ones before it are undone.
-    pub(in super::super) async fn change<T: Send + 'static>(
+    pub(in super::super) async fn change<T: Send + 'static, E: Send + 'static>(
         self: &Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<(Changed, T), ChangeFailure> {
+        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, E> + Send + 'static,
+    ) -> Result<(Changed, T), ChangeFailure>
+    where
+        ControllerError: From<E>,
+    {
         let this = Arc::clone(self);
         finished(tokio::spawn(async move { this.change_now(revision, effect, edit).await }).await)
     }
@@ -100,12 +99,15 @@ impl Controller {
     }
 
     /// As [`Controller::change`], with a new server log: the old one is deleted, or kept if the change fails.
-    pub(in super::super) async fn change_with_new_log<T: Send + 'static>(
+    pub(in super::super) async fn change_with_new_log<T: Send + 'static, E: Send + 'static>(
         self: &Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<(Changed, T), ChangeFailure> {
+        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, E> + Send + 'static,
+    ) -> Result<(Changed, T), ChangeFailure>
+    where
+        ControllerError: From<E>,
+    {
         let this = Arc::clone(self);
         let change = async move {
             let mut slot = this.server.lock().await;
@@ -114,16 +116,16 @@ impl Controller {
             match this.apply(&mut slot, revision, effect, edit).await {
                 Ok(AppliedChange { changed, value, .. }) => {
                     drop(slot);
-                    if let Err(problem) = this.with_log(ServerLog::delete_aside).await {
-                        tracing::warn!(%problem, "the old server log was not deleted");
+                    if let Err(error) = this.with_log(ServerLog::delete_aside).await {
+                        tracing::warn!(%error, "the old server log was not deleted");
                     }
                     this.answer()?;
                     // The status may be better without the full log.
                     Ok((Changed { status: this.changed().status, ..changed }, value))
                 }
                 Err(outcome) => {
-                    if let Err(problem) = this.with_log(ServerLog::put_back).await {
-                        tracing::warn!(%problem, "the server log was not put back");
+                    if let Err(error) = this.with_log(ServerLog::put_back).await {
+                        tracing::warn!(%error, "the server log was not put back");
                     }
                     Err(outcome)
                 }
@@ -132,18 +134,21 @@ impl Controller {
         finished(tokio::spawn(change).await)
     }
 
-    async fn with_log(&self, work: fn(&ServerLog) -> std::io::Result<()>) -> Result<(), Problem> {
+    async fn with_log(&self, work: fn(&ServerLog) -> std::io::Result<()>) -> Result<(), ControllerError> {
         let log = Arc::clone(&self.log);
         let done = spawn_blocking(move || work(&log)).await.map_err(std::io::Error::other).flatten();
-        done.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))
+        done.map_err(ControllerError::Log)
     }
 
-    async fn change_now<T: Send + 'static>(
+    async fn change_now<T: Send + 'static, E: Send + 'static>(
         self: Arc<Self>,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<(Changed, T), ChangeFailure> {
+        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, E> + Send + 'static,
+    ) -> Result<(Changed, T), ChangeFailure>
+    where
+        ControllerError: From<E>,
+    {
         let mut slot = self.server.lock().await;
         let AppliedChange { changed, value, .. } = self.apply(&mut slot, revision, effect, edit).await?;
         drop(slot);
@@ -156,22 +161,22 @@ impl Controller {
         if self.faults.take_drop(DropPoint::AfterApply) { Err(ChangeFailure::Dropped) } else { Ok(()) }
     }
 
-    pub(super) fn check_revision(&self, revision: RevisionToken) -> Result<(), Problem> {
+    pub(super) fn check_revision(&self, base: RevisionToken) -> Result<(), ControllerError> {
         let now = RevisionToken::new(self.state().revision);
-        if revision == now {
-            return Ok(());
-        }
-        Err(Problem::with_detail(ErrorCode::ChangedMeanwhile, format!("revision {revision}, now {now}")))
+        if base == now { Ok(()) } else { Err(ControllerError::ChangedMeanwhile { base, now }) }
     }
 
     /// Applies a change. The caller holds the lock of the server.
-    pub(super) async fn apply<T: Send + 'static>(
+    pub(super) async fn apply<T: Send + 'static, E: Send + 'static>(
         &self,
         slot: &mut ServerSlot,
         revision: RevisionToken,
         effect: Effect,
-        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, Problem> + Send + 'static,
-    ) -> Result<AppliedChange<T>, ChangeFailure> {
+        edit: impl FnOnce(&mut ControllerState, &OperatingContext) -> Result<T, E> + Send + 'static,
+    ) -> Result<AppliedChange<T>, ChangeFailure>
+    where
+        ControllerError: From<E>,
+    {
         slot.admit()?;
         self.faults.admit_change()?;
         self.check_revision(revision)?;
@@ -183,9 +188,13 @@ impl Controller {
             let value = edit(&mut state, &context)?;
             state.revision += 1;
             state.check()?;
-            let lists = if effect == Effect::Trust { Some(trust_lists(&state)?) } else { None };
+            let lists = if effect == Effect::Trust {
+                Some(trust_lists(&state).map_err(ControllerError::TrustLists)?)
+            } else {
+                None
+            };
             let staged = store.stage(&state)?;
-            Ok::<_, ChangeFailure>((state, value, lists, staged))
+            Ok::<_, ControllerError>((state, value, lists, staged))
         })
         .await?;
         if self.faults.take_drop(DropPoint::BeforeApply) {
@@ -193,7 +202,7 @@ impl Controller {
         }
 
         self.take_effect(slot, effect, &old, &new).await?;
-        if let Err(error) = blocking(move || staged.commit()).await {
+        if let Err(error) = blocking(move || Ok(staged.commit()?)).await {
             match effect {
                 Effect::Restart => {
                     slot.stop().await;
@@ -216,7 +225,7 @@ impl Controller {
         Ok(AppliedChange { changed: self.changed(), value, cut })
     }
 
-    pub(in super::super) async fn start_server_now(&self) -> Result<(), Problem> {
+    pub(in super::super) async fn start_server_now(&self) -> Result<(), ControllerError> {
         let mut slot = self.server.lock().await;
         slot.admit()?;
         if slot.is_running() {
@@ -224,16 +233,15 @@ impl Controller {
         }
         // One that died by itself.
         slot.stop().await;
-        let started = if self.faults.get().server_error { Err(fault()) } else { self.run(&self.state()).await };
-        match started {
+        match self.start_with(&self.state()).await {
             Ok(server) => {
                 slot.server = Some(server);
                 *self.server_state.lock() = ServerState::Running;
                 Ok(())
             }
-            Err(problem) => {
-                self.failed(problem.code);
-                Err(problem)
+            Err(error) => {
+                self.failed(error.code());
+                Err(error.into())
             }
         }
     }
@@ -245,7 +253,7 @@ impl Controller {
         effect: Effect,
         old: &ControllerState,
         new: &ControllerState,
-    ) -> Result<(), Problem> {
+    ) -> Result<(), ServerStartError> {
         match effect {
             Effect::Restart => self.restart(slot, old, new).await,
             Effect::CertificateLost => {
@@ -264,19 +272,18 @@ impl Controller {
         slot: &mut ServerSlot,
         old: &ControllerState,
         new: &ControllerState,
-    ) -> Result<(), Problem> {
+    ) -> Result<(), ServerStartError> {
         // A configuration that cannot run is refused before anything is stopped.
         new.check_start(&self.operating_context())?;
         slot.stop().await;
-        let started = if self.faults.get().server_error { Err(fault()) } else { self.run(new).await };
-        match started {
+        match self.start_with(new).await {
             Ok(server) => {
                 slot.server = Some(server);
                 Ok(())
             }
-            Err(problem) => {
+            Err(error) => {
                 self.restore(slot, old).await;
-                Err(problem)
+                Err(error)
             }
         }
     }
@@ -289,16 +296,21 @@ impl Controller {
                     slot.server = Some(server);
                     return;
                 }
-                Err(problem) if attempt == RESTORE_ATTEMPTS => {
-                    tracing::error!(serial = %old.identity.serial, %problem, "the OPC UA server could not be put back");
-                    self.failed(problem.code);
+                Err(error) if attempt == RESTORE_ATTEMPTS => {
+                    tracing::error!(serial = %old.identity.serial, %error, "the OPC UA server could not be put back");
+                    self.failed(error.code());
                 }
                 Err(_) => tokio::time::sleep(RESTORE_PAUSE).await,
             }
         }
     }
 
-    async fn run(&self, state: &ControllerState) -> Result<OpcUaServer, Problem> {
+    /// As [`Controller::run`], unless the fault switch fails the start.
+    async fn start_with(&self, state: &ControllerState) -> Result<OpcUaServer, ServerStartError> {
+        if self.faults.get().server_error { Err(ServerStartError::FaultSwitch) } else { self.run(state).await }
+    }
+
+    async fn run(&self, state: &ControllerState) -> Result<OpcUaServer, ServerStartError> {
         let mut config = self.config(state).await?;
         config.refusals = Some(Arc::clone(&self.rejected) as _);
         let faults = self.faults.clone();
@@ -307,25 +319,19 @@ impl Controller {
         config.detailed_status = self.admission.detailed_status;
         if state.settings.server_log {
             if self.log.is_full() {
-                return Err(ErrorCode::ServerLogFull.into());
+                return Err(ServerStartError::LogFull);
             }
             let log = Arc::clone(&self.log);
             config.events = ServerEvents::new(move |event| log.write(event));
         }
-        OpcUaServer::start(config).await.map_err(|error| match &error {
-            StartError::PortInUse(port) => Problem::with_detail(ErrorCode::PortConflict, port),
-            StartError::InvalidParameter(reason) => Problem::with_detail(ErrorCode::InvalidParameter, reason),
-            StartError::Failed(reason) => Problem::with_detail(ErrorCode::ServerError, reason),
-        })
+        Ok(OpcUaServer::start(config).await?)
     }
 
     /// Parses what may be megabytes of CRLs: off the async threads.
-    async fn config(&self, state: &ControllerState) -> Result<OpcUaConfig, Problem> {
+    async fn config(&self, state: &ControllerState) -> Result<OpcUaConfig, ServerStartError> {
         let (state, context, folder) = (state.clone(), self.operating_context(), self.folder.clone());
         let cell = self.cell.clone();
-        spawn_blocking(move || opcua_config(&state, &context, cell, &folder))
-            .await
-            .map_err(|error| Problem::with_detail(ErrorCode::Internal, error))?
+        spawn_blocking(move || opcua_config(&state, &context, cell, &folder)).await?
     }
 
     pub(in super::super) async fn switch_off(&self) {
@@ -339,23 +345,15 @@ impl Controller {
     }
 }
 
-/// What the fault switch says when the server is told to fail.
-fn fault() -> Problem {
-    Problem::with_detail(ErrorCode::ServerError, "a fault switch is on")
-}
-
 pub(super) fn finished<T>(
     joined: Result<Result<T, ChangeFailure>, tokio::task::JoinError>,
 ) -> Result<T, ChangeFailure> {
-    joined.unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error).into()))
+    joined.unwrap_or_else(|error| Err(error.into()))
 }
 
 /// Runs on a thread that may wait. A panic there is the controller's mistake, not the end of it.
-pub(super) async fn blocking<T: Send + 'static, E: From<StoreError> + Send + 'static>(
-    work: impl FnOnce() -> Result<T, E> + Send + 'static,
-) -> Result<T, E> {
-    spawn_blocking(work).await.unwrap_or_else(|error| {
-        let source = std::io::Error::other(error.to_string());
-        Err(StoreError::Io { path: PathBuf::new(), source }.into())
-    })
+async fn blocking<T: Send + 'static>(
+    work: impl FnOnce() -> Result<T, ControllerError> + Send + 'static,
+) -> Result<T, ControllerError> {
+    spawn_blocking(work).await?
 }

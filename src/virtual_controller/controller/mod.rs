@@ -6,10 +6,12 @@
 //! | `mod` | [`Controller`]: opened from its folder |
 //! | `queries` | reads of the state, which never wait |
 //! | `change` | changes, whole or not at all |
+//! | `error` | why a controller does not do what it is asked for |
 //! | `trust` | client lists and CRLs: a change, and the rejected list beside it |
 //! | `server_slot` | the OPC UA server, made of a state |
 
 mod change;
+mod error;
 mod queries;
 mod server_slot;
 mod trust;
@@ -22,20 +24,21 @@ use chrono::{DateTime, Utc};
 use parking_lot::{Mutex, RwLock};
 use thiserror::Error;
 use tokio::sync::Mutex as AsyncMutex;
-use tokio::task::spawn_blocking;
+use tokio::task::{JoinError, spawn_blocking};
 
 pub(super) use change::{ChangeFailure, Effect};
+pub(super) use error::{ControllerError, ServerStartError};
 use server_slot::ServerSlot;
 
 use super::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
 use super::faults::Faults;
-use super::new_controller::NewController;
+use super::new_controller::{NewController, NewControllerError};
 use super::opcua::AdmissionOptions;
 use super::rejected::RejectedClients;
 use super::server_log::ServerLog;
 use super::state::{ControllerIdentity, ControllerState, OperatingContext};
 use super::store::{Store, StoreError};
-use crate::model::{ErrorCode, Problem};
+use crate::model::ErrorCode;
 
 /// Where a virtual controller lives and answers, and what it is if its folder holds none yet.
 #[derive(Debug, Clone)]
@@ -58,14 +61,14 @@ pub struct ControllerSpec {
 pub enum SwitchOnError {
     #[error(transparent)]
     Store(#[from] StoreError),
-    #[error("{0}")]
-    Initial(Problem),
+    #[error(transparent)]
+    Initial(#[from] NewControllerError),
     #[error("the management identity cannot be used: {0}")]
     Tls(#[from] rustls::Error),
     #[error("the management protocol cannot listen on {address}: {source}")]
     Listen { address: SocketAddr, source: std::io::Error },
     #[error("a worker thread died")]
-    Worker,
+    Worker(#[from] JoinError),
 }
 
 /// The controller behind the management protocol.
@@ -110,15 +113,14 @@ impl Controller {
             let state = match store.load()? {
                 Some(state) => state,
                 None => {
-                    let state = initial.make(&context).map_err(SwitchOnError::Initial)?;
+                    let state = initial.make(&context)?;
                     store.save(&state)?;
                     state
                 }
             };
             Ok::<_, SwitchOnError>((store, state))
         })
-        .await
-        .map_err(|_| SwitchOnError::Worker)??;
+        .await??;
         let cell = switch_on_cell(&state, context.now, cell);
         Ok(Self {
             cell,

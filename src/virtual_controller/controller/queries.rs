@@ -3,14 +3,15 @@ use std::sync::Arc;
 
 use tokio::task::spawn_blocking;
 
-use super::{Controller, ServerState};
+use super::{Controller, ControllerError, ServerState};
 use crate::model::{
     Base64Bytes, Changed, ClientList, ControllerInfo, ErrorCode, FirmwareGeneration, ListedCertificate, ListedCrl,
-    LogChunk, Problem, RevisionToken, Revisioned, ServerSettings, ServerStatus, StoredServerCertificate,
+    LogChunk, RevisionToken, Revisioned, ServerSettings, ServerStatus, StoredServerCertificate,
     StoredServerCertificates, TrustStamp, UserName,
 };
 use crate::pki::RejectedClient;
 use crate::protocol::{SettingsExport, WireSecret};
+use crate::virtual_controller::change_error::TrustError;
 use crate::virtual_controller::ports::is_free;
 use crate::virtual_controller::settings_transfer;
 use crate::virtual_controller::state::TrustListCertificate;
@@ -66,10 +67,10 @@ impl Controller {
     }
 
     /// The trusted or the issuers list.
-    pub(in super::super) fn clients(&self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, Problem> {
+    pub(in super::super) fn clients(&self, list: ClientList) -> Result<Revisioned<Vec<ListedCertificate>>, TrustError> {
         let state = self.state();
         if list == ClientList::Issuers && state.generation() == FirmwareGeneration::Legacy {
-            return Err(ErrorCode::FirmwareTooOld.into());
+            return Err(TrustError::FirmwareTooOld);
         }
         let value = state.list(list).iter().filter_map(TrustListCertificate::to_message).collect();
         Ok(Revisioned { revision: RevisionToken::new(state.revision), value })
@@ -85,10 +86,10 @@ impl Controller {
     }
 
     /// The DER of one CRL.
-    pub(in super::super) fn crl(&self, id: &str) -> Result<Base64Bytes, Problem> {
+    pub(in super::super) fn crl(&self, id: &str) -> Result<Base64Bytes, TrustError> {
         let state = self.state();
         let held = state.crls.iter().find(|held| held.summary.id == id);
-        held.map(|held| held.crl.clone()).ok_or_else(|| Problem::with_detail(ErrorCode::NotInList, id))
+        held.map(|held| held.crl.clone()).ok_or_else(|| TrustError::NotInList(id.to_owned()))
     }
 
     pub(in super::super) fn trust_stamp(&self) -> TrustStamp {
@@ -96,18 +97,16 @@ impl Controller {
     }
 
     /// The server log from byte `from` on, or its end.
-    pub(in super::super) async fn read_log(&self, from: Option<u64>) -> Result<LogChunk, Problem> {
+    pub(in super::super) async fn read_log(&self, from: Option<u64>) -> Result<LogChunk, ControllerError> {
         let log = Arc::clone(&self.log);
         let read = spawn_blocking(move || log.read(from)).await.map_err(std::io::Error::other).flatten();
-        read.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))
+        read.map_err(ControllerError::Log)
     }
 
     /// Settings, users and keys, sealed.
-    pub(in super::super) async fn export(&self, passphrase: WireSecret) -> Result<SettingsExport, Problem> {
+    pub(in super::super) async fn export(&self, passphrase: WireSecret) -> Result<SettingsExport, ControllerError> {
         let (state, around) = (self.state(), self.operating_context());
-        spawn_blocking(move || settings_transfer::export(&state, &around, &passphrase.0))
-            .await
-            .unwrap_or_else(|error| Err(Problem::with_detail(ErrorCode::Internal, error)))
+        Ok(spawn_blocking(move || settings_transfer::export(&state, &around, &passphrase.0)).await??)
     }
 
     pub(super) fn changed(&self) -> Changed {
@@ -138,8 +137,8 @@ impl Controller {
         let state = self.state();
         match failed {
             NotActivated | NoCertificate | InvalidParameter | PortConflict => {
-                if let Err(problem) = state.check_start(&self.operating_context()) {
-                    return Some(problem.code);
+                if let Err(refusal) = state.check_start(&self.operating_context()) {
+                    return Some(refusal.code());
                 }
                 let lasts = match failed {
                     // Another program on this computer has the port.

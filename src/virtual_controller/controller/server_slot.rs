@@ -2,8 +2,9 @@ use std::path::Path;
 
 use tokio::task::spawn_blocking;
 
-use crate::model::{CertificateSummary, DisconnectedClient, ErrorCode, Problem};
-use crate::pki::{Certificate, Crl, TrustLists, TrustPolicy};
+use super::error::{ControllerError, ServerStartError};
+use crate::model::{CertificateSummary, DisconnectedClient};
+use crate::pki::{Certificate, Crl, PkiError, TrustLists, TrustPolicy};
 use crate::virtual_controller::cell::CellHandle;
 use crate::virtual_controller::opcua::{
     CertificateClock, DeviceIdentity, DisconnectedConnection, OpcUaConfig, OpcUaServer, OpcUaUser, ServerEvents,
@@ -19,8 +20,8 @@ pub(super) struct ServerSlot {
 }
 
 impl ServerSlot {
-    pub fn admit(&self) -> Result<(), Problem> {
-        if self.off { Err(Problem::with_detail(ErrorCode::Refused, "the controller is switched off")) } else { Ok(()) }
+    pub fn admit(&self) -> Result<(), ControllerError> {
+        if self.off { Err(ControllerError::SwitchedOff) } else { Ok(()) }
     }
 
     pub fn is_running(&self) -> bool {
@@ -61,7 +62,7 @@ pub(super) fn opcua_config(
     context: &OperatingContext,
     cell: CellHandle,
     folder: &Path,
-) -> Result<OpcUaConfig, Problem> {
+) -> Result<OpcUaConfig, ServerStartError> {
     let pair = state.check_start(context)?;
     let names = state.server_names(context);
     // Clients insist that the server's URI is the one in its certificate, and a certificate from elsewhere has its own.
@@ -81,7 +82,7 @@ pub(super) fn opcua_config(
             .collect(),
         certificate_der: pair.certificate.0.clone(),
         private_key_pkcs8: pair.private_key.0.clone(),
-        trust: trust_lists(state)?,
+        trust: trust_lists(state).map_err(ServerStartError::TrustLists)?,
         trust_policy: TrustPolicy::default(),
         detailed_status: false,
         refusals: None,
@@ -99,9 +100,9 @@ pub(super) fn opcua_config(
 }
 
 /// What the state lists, parsed. Slow with large CRLs.
-pub(super) fn trust_lists(state: &ControllerState) -> Result<TrustLists, Problem> {
-    let certificates = |list: &[TrustListCertificate]| -> Result<Vec<Certificate>, Problem> {
-        Ok(list.iter().map(|listed| Certificate::from_der(&listed.certificate.0)).collect::<Result<_, _>>()?)
+pub(super) fn trust_lists(state: &ControllerState) -> Result<TrustLists, PkiError> {
+    let certificates = |list: &[TrustListCertificate]| -> Result<Vec<Certificate>, PkiError> {
+        list.iter().map(|listed| Certificate::from_der(&listed.certificate.0)).collect()
     };
     let crls = state.crls.iter().map(|held| Crl::from_der(&held.crl.0)).collect::<Result<_, _>>()?;
     Ok(TrustLists::new(certificates(&state.trusted)?, certificates(&state.issuers)?, crls))

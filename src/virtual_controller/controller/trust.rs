@@ -3,11 +3,13 @@ use std::sync::Arc;
 use tokio::task::spawn_blocking;
 
 use super::change::{AppliedChange, finished};
-use super::{ChangeFailure, Controller, Effect};
-use crate::model::{ClientList, ErrorCode, Problem, RevisionToken, TrustStep};
+use super::{ChangeFailure, Controller, ControllerError, Effect};
+use crate::model::{ClientList, RevisionToken, TrustStep};
 use crate::protocol::{EditTrust, TrustChanged};
+use crate::virtual_controller::change_error::TrustError;
 use crate::virtual_controller::rejected::{RejectedClients, RejectedEntry};
 use crate::virtual_controller::state::{ControllerState, OperatingContext};
+use crate::virtual_controller::store::StoreError;
 use crate::virtual_controller::trust_changes::{self, RejectedListChanges};
 
 impl Controller {
@@ -36,7 +38,7 @@ impl Controller {
             let edit = move |state: &mut ControllerState, context: &OperatingContext| {
                 let RejectedListChanges { arrived, left } =
                     trust_changes::edit_trust(state, context, steps, rejected.certificates())?;
-                RejectedListTransaction::new(rejected, arrived, left)
+                Ok::<_, ControllerError>(RejectedListTransaction::new(rejected, arrived, left)?)
             };
             let AppliedChange { changed, value, cut } = self.apply(&mut slot, revision, Effect::Trust, edit).await?;
             value.settle().await;
@@ -48,18 +50,18 @@ impl Controller {
     }
 
     /// Takes certificates out of the rejected list, which is no part of the configuration.
-    async fn forget(&self, revision: RevisionToken, thumbprints: Vec<String>) -> Result<TrustChanged, Problem> {
+    async fn forget(&self, revision: RevisionToken, thumbprints: Vec<String>) -> Result<TrustChanged, ControllerError> {
         self.faults.admit_change()?;
         self.check_revision(revision)?;
         let rejected = Arc::clone(&self.rejected);
         let removed = spawn_blocking(move || {
             let held = rejected.certificates();
             if let Some(missing) = thumbprints.iter().find(|thumbprint| !held.contains_key(*thumbprint)) {
-                return Err(Problem::with_detail(ErrorCode::NotInList, missing));
+                return Err(TrustError::NotInList(missing.clone()).into());
             }
-            Ok(rejected.remove(&thumbprints)?)
+            Ok::<_, ControllerError>(rejected.remove(&thumbprints)?)
         });
-        removed.await.map_err(|error| Problem::with_detail(ErrorCode::Internal, error))??;
+        removed.await.map_err(ControllerError::Worker)??;
         Ok(TrustChanged { changed: self.changed(), cut: Vec::new() })
     }
 }
@@ -75,7 +77,7 @@ struct RejectedListTransaction {
 
 impl RejectedListTransaction {
     /// Blocks for the disk.
-    fn new(rejected: Arc<RejectedClients>, arrived: Vec<RejectedEntry>, left: Vec<String>) -> Result<Self, Problem> {
+    fn new(rejected: Arc<RejectedClients>, arrived: Vec<RejectedEntry>, left: Vec<String>) -> Result<Self, StoreError> {
         let thumbprints = arrived.iter().map(|entry| entry.thumbprint.clone()).collect();
         let mut transaction = Self { rejected, arrived: thumbprints, displaced: Vec::new(), left };
         if !arrived.is_empty() {

@@ -10,7 +10,8 @@ use rsa::pkcs8::{DecodePrivateKey, EncodePublicKey};
 use x509_parser::prelude::{FromDer, X509Certificate};
 use zeroize::Zeroizing;
 
-use super::{CertificateClock, RejectionRecorder, ServerEvents, StartError};
+use super::{CertificateClock, InvalidParameter, RejectionRecorder, ServerEvents, StartError};
+use crate::model::with_cause;
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, SerialNumber, UserTokenPolicy};
 use crate::pki::{TrustLists, TrustPolicy};
 use crate::virtual_controller::cell::CellHandle;
@@ -89,34 +90,29 @@ pub struct DeviceIdentity {
 impl OpcUaConfig {
     /// The server's key, after every parameter was found usable.
     pub(super) fn check(&self) -> Result<RsaPrivateKey, StartError> {
-        let invalid = |reason: &str| StartError::InvalidParameter(reason.to_owned());
         if self.application_name.is_empty() || self.application_uri.is_empty() {
-            return Err(invalid("the application name or URI is empty"));
+            return Err(InvalidParameter::ApplicationName.into());
         }
         if self.policies.is_empty() {
-            return Err(invalid("no security policy"));
+            return Err(InvalidParameter::NoPolicy.into());
         }
         if self.user_tokens.is_empty() {
-            return Err(invalid("no user token policy"));
+            return Err(InvalidParameter::NoUserToken.into());
         }
         for user in &self.users {
             if !PasswordHash::new(&user.password_hash).is_ok_and(|hash| hash.algorithm == argon2::ARGON2ID_IDENT) {
-                return Err(StartError::InvalidParameter(format!(
-                    "the password of {} is not an argon2id hash",
-                    user.name
-                )));
+                return Err(InvalidParameter::PasswordHash(user.name.clone()).into());
             }
         }
-        let (rest, certificate) = X509Certificate::from_der(&self.certificate_der)
-            .map_err(|_| invalid("the server certificate is not an X.509 certificate"))?;
+        let (rest, certificate) =
+            X509Certificate::from_der(&self.certificate_der).map_err(with_cause(InvalidParameter::Certificate))?;
         if !rest.is_empty() {
-            return Err(invalid("the server certificate is followed by other data"));
+            return Err(InvalidParameter::DataAfterCertificate.into());
         }
-        let key = RsaPrivateKey::from_pkcs8_der(&self.private_key_pkcs8)
-            .map_err(|_| invalid("the server's key is not an RSA key in PKCS#8"))?;
-        let public_key = key.to_public_key().to_public_key_der().map_err(|e| StartError::Failed(e.to_string()))?;
+        let key = RsaPrivateKey::from_pkcs8_der(&self.private_key_pkcs8).map_err(with_cause(InvalidParameter::Key))?;
+        let public_key = key.to_public_key().to_public_key_der().map_err(with_cause(StartError::Failed))?;
         if certificate.public_key().raw != public_key.as_bytes() {
-            return Err(invalid("the server certificate belongs to another key"));
+            return Err(InvalidParameter::OtherKey.into());
         }
         Ok(key)
     }

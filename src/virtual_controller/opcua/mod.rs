@@ -35,5 +35,5 @@ pub use admission::{CertificateClock, DisconnectedConnection, RejectionRecorder}
 pub use config::{AdmissionOptions, DeviceIdentity, OpcUaConfig, OpcUaUser};
 pub use events::{ServerEvent, ServerEvents};
 pub use server::OpcUaServer;
-pub use start_error::StartError;
+pub use start_error::{InvalidParameter, StartError};
 pub use users::{HashError, hash_password};

@@ -1,3 +1,4 @@
+use std::error::Error;
 use std::fmt;
 use std::io;
 use std::net::{IpAddr, SocketAddr};
@@ -25,8 +26,9 @@ use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
 use super::events::{ServerEvent, ServerEvents};
 use super::nodesets::NodeSet;
-use super::start_error::StartError;
+use super::start_error::{InvalidParameter, StartError};
 use super::users::Users;
+use crate::model::Cause;
 use crate::pki::TrustLists;
 
 /// A running OPC UA server. Dropping it stops it too, without waiting.
@@ -60,7 +62,7 @@ impl OpcUaServer {
         });
         tokio::time::timeout(START_TIMEOUT, ready(&mut server, &handle, inner_port))
             .await
-            .map_err(|_| StartError::Failed("it is not ready in time".to_owned()))??;
+            .map_err(|_| StartError::Failed(Cause::finding("it is not ready in time")))??;
         stop_unless_ready.disarm();
         // Endpoint URLs are made with this port: it must be the one clients know before the first of them asks.
         handle.info().port.store(address.port(), Ordering::Relaxed);
@@ -132,8 +134,8 @@ async fn ready(
     while handle.info().port.load(Ordering::Relaxed) != port {
         if server.is_finished() {
             return Err(match server.await {
-                Ok(Err(reason)) => StartError::Failed(reason),
-                Ok(Ok(())) => StartError::Failed("it ended at once".to_owned()),
+                Ok(Err(reason)) => StartError::Failed(Cause::told(reason)),
+                Ok(Ok(())) => StartError::Failed(Cause::finding("it ended at once")),
                 Err(e) => failed(e),
             });
         }
@@ -154,7 +156,7 @@ async fn listen(address: IpAddr, port: u16) -> Result<TcpListener, StartError> {
     TcpListener::bind((address, port)).await.map_err(|e| match e.kind() {
         io::ErrorKind::AddrInUse => StartError::PortInUse(port),
         io::ErrorKind::AddrNotAvailable | io::ErrorKind::PermissionDenied => {
-            StartError::InvalidParameter(format!("cannot listen on {}: {e}", SocketAddr::new(address, port)))
+            InvalidParameter::Address { address: SocketAddr::new(address, port), cause: Cause::new(e) }.into()
         }
         _ => failed(e),
     })
@@ -162,11 +164,11 @@ async fn listen(address: IpAddr, port: u16) -> Result<TcpListener, StartError> {
 
 fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHandle, Attached), StartError> {
     let key = config.check()?;
-    let devices = NodeSet::devices().map_err(StartError::Failed)?;
+    let devices = NodeSet::devices().map_err(told)?;
     let pki = PkiFolder::create(config.pki_folder.clone()).map_err(failed)?;
     let pem = key.to_pkcs8_pem(LineEnding::LF).map_err(failed)?;
     pki.write_own(&config.certificate_der, &pem).map_err(failed)?;
-    let own = ServerKeyPair::new(&config.certificate_der, &pem).map_err(StartError::InvalidParameter)?;
+    let own = ServerKeyPair::new(&config.certificate_der, &pem).map_err(StartError::from)?;
     let gate = Arc::new(Gate::new(
         GateSettings::new(config.policies.clone(), config.detailed_status),
         InnerServer::default(),
@@ -175,12 +177,11 @@ fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHan
         pki,
         AdmissionReporter::new(config.events.clone(), config.refusals.clone()),
     ));
-    let (server, handle) =
-        builder(config, address, key.size() * 8, devices, &gate).build().map_err(StartError::Failed)?;
+    let (server, handle) = builder(config, address, key.size() * 8, devices, &gate).build().map_err(told)?;
     let attached = gate.attach(handle.clone());
     gate.pki().close_rejected().map_err(failed)?;
     if handle.info().server_pkey.is_none() || handle.info().server_certificate.is_none() {
-        return Err(StartError::InvalidParameter("the server certificate or its key cannot be used".to_owned()));
+        return Err(InvalidParameter::CertificateOrKey.into());
     }
     Ok((server, handle, attached))
 }
@@ -251,8 +252,13 @@ fn host(address: IpAddr) -> String {
     }
 }
 
-fn failed(error: impl fmt::Display) -> StartError {
-    StartError::Failed(error.to_string())
+fn failed(error: impl Error + Send + Sync + 'static) -> StartError {
+    StartError::Failed(Cause::new(error))
+}
+
+/// The OPC UA library tells its errors as texts.
+fn told(error: String) -> StartError {
+    StartError::Failed(Cause::told(error))
 }
 
 const PRODUCT_URI: &str = "urn:opcua-configurator:virtual-controller";

@@ -17,14 +17,15 @@ use super::config::OpcUaUser;
 use super::endpoints::UserTokens;
 use super::events::{ServerEvent, ServerEvents};
 use super::login_delays::LoginDelays;
+use crate::model::{Cause, with_told_cause};
 
 /// Why a password could not be hashed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum HashError {
     #[error("the system gives no random numbers: {0}")]
-    Random(String),
+    Random(#[source] Cause),
     #[error("the password cannot be hashed: {0}")]
-    Hash(argon2::password_hash::Error),
+    Hash(#[source] Cause),
 }
 
 /// The argon2id hash of a password under a fresh salt, in the PHC string format.
@@ -33,13 +34,13 @@ pub enum HashError {
 /// task or the UI thread.
 pub fn hash_password(password: &str) -> Result<String, HashError> {
     let mut salt = [0; 16];
-    getrandom::fill(&mut salt).map_err(|e| HashError::Random(e.to_string()))?;
-    let salt = SaltString::encode_b64(&salt).map_err(HashError::Hash)?;
-    let params = Params::new(MEMORY_KIB, PASSES, LANES, None).map_err(|e| HashError::Hash(e.into()))?;
+    getrandom::fill(&mut salt).map_err(with_told_cause(HashError::Random))?;
+    let salt = SaltString::encode_b64(&salt).map_err(with_told_cause(HashError::Hash))?;
+    let params = Params::new(MEMORY_KIB, PASSES, LANES, None).map_err(with_told_cause(HashError::Hash))?;
     Argon2::new(Algorithm::Argon2id, Version::V0x13, params)
         .hash_password(password.as_bytes(), &salt)
         .map(|hash| hash.to_string())
-        .map_err(HashError::Hash)
+        .map_err(with_told_cause(HashError::Hash))
 }
 
 /// Decides who may log in (OPC 10000-4 §5.7.3 ActivateSession).

@@ -273,7 +273,7 @@ pub(super) fn unlock_pem(
     let encrypted = pem.starts_with(b"-----BEGIN ENCRYPTED PRIVATE KEY-----");
     let key = read_key_file(pem, Some(password)).map_err(|error| match error {
         // A wrong passphrase can also decrypt to something that only looks like a key.
-        PkiError::WrongPasswordOrDamaged | PkiError::NotAPrivateKey if encrypted => UnlockError::Passphrase,
+        PkiError::WrongPasswordOrDamaged | PkiError::NotAPrivateKey(_) if encrypted => UnlockError::Passphrase,
         error => UnlockError::Damaged(error),
     })?;
     CertificateAuthority::from_parts(certificate, key).map_err(UnlockError::Damaged)

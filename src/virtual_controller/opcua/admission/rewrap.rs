@@ -8,6 +8,8 @@ use super::channel_keys::ChannelKeys;
 use super::client_to_server::sequence_at;
 use super::fault::Fault;
 use super::frame::OpenChannelHeader;
+use crate::model::{Cause, with_told_cause};
+use crate::virtual_controller::opcua::start_error::InvalidParameter;
 
 /// The server's own certificate and key, as the OPC UA crate takes them.
 pub(in super::super) struct ServerKeyPair {
@@ -31,9 +33,10 @@ pub(super) struct SecuredClient {
 }
 
 impl ServerKeyPair {
-    pub(in super::super) fn new(certificate: &[u8], key_pem: &str) -> Result<Self, String> {
-        let key = PrivateKey::from_pem(key_pem.as_bytes()).map_err(|_| "the server's key cannot be read".to_owned())?;
-        let thumbprint = thumbprint(certificate).ok_or("the server's certificate cannot be read")?;
+    pub(in super::super) fn new(certificate: &[u8], key_pem: &str) -> Result<Self, InvalidParameter> {
+        let key = PrivateKey::from_pem(key_pem.as_bytes()).map_err(with_told_cause(InvalidParameter::Key))?;
+        let unreadable = || InvalidParameter::Certificate(Cause::finding("it has no thumbprint"));
+        let thumbprint = thumbprint(certificate).ok_or_else(unreadable)?;
         Ok(Self { public: key.to_public_key(), key, certificate: certificate.to_vec(), thumbprint })
     }
 
