@@ -10,7 +10,7 @@ use super::{CommandContext, CommandOutcome};
 use crate::jobs::{Activate, KeySource, NoOutput};
 use crate::model::activation::{self, ActivationFile, ActivationKeys, KeyError, MAX_ACTIVATION_FILE_BYTES};
 use crate::model::{ErrorCode, Problem};
-use crate::texts::TextKey;
+use crate::texts::{TextKey, cli as texts};
 
 #[derive(Debug, Args)]
 pub struct ActivateArgs {
@@ -42,12 +42,15 @@ const ACTIVATED: Presentation<NoOutput> = Presentation {
 
 pub fn run(cli: &CommandContext, args: &ActivateArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
-    let chosen = args.select.resolve(&configuration)?;
+    let chosen = args.select.resolve(&configuration, cli.output.language())?;
     let keys = match (&args.file, &args.license, &args.activation) {
         (Some(file), ..) => KeySource::File(Arc::new(read(file)?)),
         (None, Some(licence), Some(activation)) => {
             if chosen.len() > 1 {
-                return Err(Problem::with_detail(ErrorCode::OneControllerOnly, "use --file for several controllers"));
+                return Err(Problem::with_detail(
+                    ErrorCode::OneControllerOnly,
+                    texts::keys_of_one(cli.output.language()),
+                ));
             }
             let bad = |which: &str, error: KeyError| {
                 Problem::with_detail(ErrorCode::BadActivationKey, format!("{which} key: {error}"))

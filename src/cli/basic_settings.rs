@@ -9,6 +9,7 @@ use super::batch::{Presentation, PrintedResult, STATE};
 use super::controller_selection::ControllerSelection;
 use super::passwords::ask_secret;
 use super::secret_file::read_secret;
+use super::value_error::ValueError;
 use super::{CommandContext, CommandOutcome};
 use crate::jobs::{BasicSettingsChange, ReadBasicSettings, SetBasicSettings};
 use crate::model::{
@@ -53,11 +54,11 @@ pub enum SettingsCommand {
 }
 
 /// The value of a switch.
-pub fn on_off(text: &str) -> Result<bool, String> {
+pub fn on_off(text: &str) -> Result<bool, ValueError> {
     match text {
         "on" => Ok(true),
         "off" => Ok(false),
-        other => Err(format!("\"{other}\" is neither on nor off")),
+        _ => Err(ValueError::NeitherOnNorOff),
     }
 }
 
@@ -102,9 +103,12 @@ const SETTINGS: Presentation<Revisioned<ServerSettings>> = Presentation {
 pub fn run(cli: &CommandContext, command: SettingsCommand) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     match command {
-        SettingsCommand::Show(select) => {
-            cli.batch(&configuration, &select.resolve(&configuration)?, ReadBasicSettings, &SETTINGS)
-        }
+        SettingsCommand::Show(select) => cli.batch(
+            &configuration,
+            &select.resolve(&configuration, cli.output.language())?,
+            ReadBasicSettings,
+            &SETTINGS,
+        ),
         SettingsCommand::Set { port, startup, policies, tokens, server_log, log_password_file, delete_log, select } => {
             let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadSettings, e);
             let change = BasicSettingsChange {
@@ -132,7 +136,7 @@ pub fn run(cli: &CommandContext, command: SettingsCommand) -> Result<CommandOutc
                 _ => None,
             };
             let operation = SetBasicSettings { change, based_on: None, log_password };
-            cli.batch(&configuration, &select.resolve(&configuration)?, operation, &STATE)
+            cli.batch(&configuration, &select.resolve(&configuration, cli.output.language())?, operation, &STATE)
         }
     }
 }

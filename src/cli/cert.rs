@@ -18,7 +18,7 @@ use crate::model::{
     CertificateSummary, CertificateType, ErrorCode, FileFormat, KeyLength, Language, Problem, Validity,
 };
 use crate::pki::{CertificateFinding, Severity};
-use crate::texts::TextKey;
+use crate::texts::{TextKey, cli as texts};
 use crate::workspace::{BackupKind, Configuration, ControllerEntry, KeyBackupSource};
 
 #[derive(Debug, Subcommand)]
@@ -307,7 +307,7 @@ pub fn run(cli: &CommandContext, command: CertCommand) -> Result<CommandOutcome,
         CertCommand::SelfSigned(args) => self_signed(cli, &configuration, args),
         CertCommand::Csr(args) => csr(cli, &configuration, args),
         CertCommand::ImportCa { file, warnings, select } => {
-            let chosen = select.resolve(&configuration)?;
+            let chosen = select.resolve(&configuration, cli.output.language())?;
             let source = match file {
                 None => CaSignedSource::Folder(cli.workspace.certificate_files()),
                 Some(file) => {
@@ -323,7 +323,7 @@ pub fn run(cli: &CommandContext, command: CertCommand) -> Result<CommandOutcome,
             cli.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
         }
         CertCommand::ImportUser { password_file, warnings, arguments } => {
-            let (files, chosen) = arguments.resolve(&configuration)?;
+            let (files, chosen) = arguments.resolve(&configuration, cli.output.language())?;
             one_only(&chosen)?;
             let files = match files.as_slice() {
                 [pfx] => UserSpecifiedFiles::Pfx(pfx.into()),
@@ -337,11 +337,11 @@ pub fn run(cli: &CommandContext, command: CertCommand) -> Result<CommandOutcome,
             cli.import(&configuration, &chosen, check, import, warnings.accept_warnings, &IMPORTED)
         }
         CertCommand::SelectType { kind, select } => {
-            let chosen = select.resolve(&configuration)?;
+            let chosen = select.resolve(&configuration, cli.output.language())?;
             cli.batch(&configuration, &chosen, SelectCertificateType(kind.into()), &STATE)
         }
         CertCommand::Restore { kind, file, password_file, warnings, select } => {
-            let chosen = select.resolve(&configuration)?;
+            let chosen = select.resolve(&configuration, cli.output.language())?;
             if file.is_some() {
                 one_only(&chosen)?;
             }
@@ -352,7 +352,7 @@ pub fn run(cli: &CommandContext, command: CertCommand) -> Result<CommandOutcome,
             cli.import(&configuration, &chosen, check, restore, warnings.accept_warnings, &RESTORED)
         }
         CertCommand::Export { format, select } => {
-            let chosen = select.resolve(&configuration)?;
+            let chosen = select.resolve(&configuration, cli.output.language())?;
             let files = cli.workspace.certificate_files();
             cli.batch(&configuration, &chosen, ExportSelfSigned { format: format.into(), files }, &EXPORTED)
         }
@@ -364,10 +364,10 @@ fn one_only(chosen: &[ControllerEntry]) -> Result<(), Problem> {
 }
 
 fn csr(cli: &CommandContext, configuration: &Configuration, args: CsrArgs) -> Result<CommandOutcome, Problem> {
-    let chosen = args.select.resolve(configuration)?;
+    let chosen = args.select.resolve(configuration, cli.output.language())?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     if args.subject.cn.is_some() && chosen.len() > 1 {
-        return Err(wrong(&"a common name can be given for one controller only"));
+        return Err(wrong(&texts::common_name_of_one(cli.output.language())));
     }
     let fields = CsrFields {
         common_name: args.subject.cn,
@@ -392,10 +392,10 @@ fn self_signed(
     configuration: &Configuration,
     args: SelfSignedArgs,
 ) -> Result<CommandOutcome, Problem> {
-    let chosen = args.select.resolve(configuration)?;
+    let chosen = args.select.resolve(configuration, cli.output.language())?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     if args.subject.cn.is_some() && chosen.len() > 1 {
-        return Err(wrong(&"a common name can be given for one controller only"));
+        return Err(wrong(&texts::common_name_of_one(cli.output.language())));
     }
     let fields = SelfSignedFields {
         common_name: args.subject.cn,

@@ -176,29 +176,30 @@ pub fn run(cli: &CommandContext, command: ClientsCommand) -> Result<CommandOutco
                 Some(ClientListArg::Rejected) => &REJECTED,
                 Some(ClientListArg::Issuers) => &ISSUERS,
             };
-            cli.batch(&configuration, &select.resolve(&configuration)?, ListTrust, presentation)
+            cli.batch(&configuration, &select.resolve(&configuration, cli.output.language())?, ListTrust, presentation)
         }
         ClientsCommand::Add { list, arguments } => {
-            let (files, chosen) = arguments.resolve(&configuration)?;
+            let (files, chosen) = arguments.resolve(&configuration, cli.output.language())?;
             let destination = match list {
                 None => Destination::ByKind,
                 Some(AddDestinationArg::Trusted) => Destination::Trusted,
                 Some(AddDestinationArg::Issuers) => Destination::Issuers,
             };
-            let files = read_trust_files(files.iter().map(Path::new), destination)?;
+            let files = read_trust_files(files.iter().map(Path::new), destination, cli.output.language())?;
             show_plan(cli, &files, destination, &chosen)?;
             let operation = AddTrust { files: files.into(), destination, based_on: None };
             cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
         ClientsCommand::Remove(arguments) => {
-            let (thumbprints, chosen) = arguments.resolve(&configuration)?;
-            let thumbprints = hexadecimal(&thumbprints)?;
+            let (thumbprints, chosen) = arguments.resolve(&configuration, cli.output.language())?;
+            let thumbprints = hexadecimal(&thumbprints, cli.output.language())?;
             let operation = RemoveClients { list: None, thumbprints, based_on: None };
             cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
         ClientsCommand::Trust(arguments) => {
-            let (thumbprints, chosen) = arguments.resolve(&configuration)?;
-            let (from, to, thumbprints) = (ClientList::Rejected, ClientList::Trusted, hexadecimal(&thumbprints)?);
+            let (thumbprints, chosen) = arguments.resolve(&configuration, cli.output.language())?;
+            let (from, to, thumbprints) =
+                (ClientList::Rejected, ClientList::Trusted, hexadecimal(&thumbprints, cli.output.language())?);
             let mut accept_notes = cli.yes;
             if !cli.output.is_json() {
                 let reports = cli.reports(&configuration, &chosen, ListTrust, &REJECTED)?;
@@ -214,15 +215,12 @@ pub fn run(cli: &CommandContext, command: ClientsCommand) -> Result<CommandOutco
 }
 
 /// SHA-1 values as a person may have copied them: any case, with blanks or colons between the bytes. Each once.
-pub fn hexadecimal(texts: &[String]) -> Result<Vec<String>, Problem> {
+pub fn hexadecimal(given: &[String], language: Language) -> Result<Vec<String>, Problem> {
     let mut all: Vec<String> = Vec::new();
-    for text in texts {
+    for text in given {
         let plain: String = text.chars().filter(|c| !matches!(c, ':' | ' ' | '-')).collect();
         if plain.len() != 40 || !plain.bytes().all(|b| b.is_ascii_hexdigit()) {
-            return Err(Problem::with_detail(
-                ErrorCode::NotInList,
-                format!("{text}: 40 hexadecimal digits are needed"),
-            ));
+            return Err(Problem::with_detail(ErrorCode::NotInList, texts::digits_needed(language, text)));
         }
         let plain = plain.to_ascii_uppercase();
         if !all.contains(&plain) {
@@ -240,9 +238,13 @@ mod tests {
     fn a_thumbprint_is_taken_as_other_tools_show_it() {
         let plain = "00112233445566778899AABBCCDDEEFF00112233".to_owned();
         let colons = "00:11:22:33:44:55:66:77:88:99:aa:bb:cc:dd:ee:ff:00:11:22:33".to_owned();
-        assert_eq!(hexadecimal(&[plain.clone(), colons]).unwrap(), std::slice::from_ref(&plain));
+        assert_eq!(hexadecimal(&[plain.clone(), colons], Language::En).unwrap(), std::slice::from_ref(&plain));
         for wrong in ["", "0011", &format!("{plain}00"), &plain.replace('A', "G")] {
-            assert_eq!(hexadecimal(&[wrong.to_owned()]).unwrap_err().code, ErrorCode::NotInList, "{wrong}");
+            assert_eq!(
+                hexadecimal(&[wrong.to_owned()], Language::En).unwrap_err().code,
+                ErrorCode::NotInList,
+                "{wrong}"
+            );
         }
     }
 }

@@ -14,7 +14,7 @@ use super::passwords::passphrase;
 use super::secret_file::read_secret;
 use crate::model::{ControllerName, Credentials, ErrorCode, Problem, text};
 use crate::pki::Fingerprint;
-use crate::texts::TextKey;
+use crate::texts::{TextKey, cli as texts};
 use crate::workspace::{
     Configuration, MAX_PASSWORD_LIST_BYTES, PasswordError, PasswordList, PasswordPlace, PasswordStore, Passwords,
     SystemKeyring, VaultState,
@@ -110,7 +110,7 @@ impl CommandContext {
         )
         .map_err(|problem| match problem.code {
             ErrorCode::NoPassphrase if problem.detail.is_none() => {
-                Problem::with_detail(ErrorCode::NoPassphrase, "the file is named with --vault-passphrase-file")
+                Problem::with_detail(ErrorCode::NoPassphrase, texts::vault_passphrase_option(self.output.language()))
             }
             _ => problem,
         })

@@ -1,6 +1,7 @@
 use clap::Args;
 
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Language, Problem};
+use crate::texts::cli as texts;
 use crate::workspace::{Configuration, ControllerEntry};
 
 /// Which controllers a command works on.
@@ -22,8 +23,8 @@ impl ControllerSelection {
     }
 
     /// The chosen entries, in the order they were named.
-    pub fn resolve(&self, configuration: &Configuration) -> Result<Vec<ControllerEntry>, Problem> {
-        if self.all { all(configuration) } else { named(&self.names, configuration) }
+    pub fn resolve(&self, configuration: &Configuration, language: Language) -> Result<Vec<ControllerEntry>, Problem> {
+        if self.all { all(configuration, language) } else { named(&self.names, configuration) }
     }
 }
 
@@ -42,16 +43,20 @@ pub struct ItemsThenControllers {
 }
 
 impl ItemsThenControllers {
-    pub fn resolve(&self, configuration: &Configuration) -> Result<(Vec<String>, Vec<ControllerEntry>), Problem> {
+    pub fn resolve(
+        &self,
+        configuration: &Configuration,
+        language: Language,
+    ) -> Result<(Vec<String>, Vec<ControllerEntry>), Problem> {
         if self.all {
-            return Ok((self.arguments.clone(), all(configuration)?));
+            return Ok((self.arguments.clone(), all(configuration, language)?));
         }
         let controllers =
             self.arguments.iter().skip(1).rev().take_while(|name| configuration.find(name).is_some()).count();
         let (things, names) = self.arguments.split_at(self.arguments.len() - controllers);
         if names.is_empty() {
             let detail = match self.arguments.as_slice() {
-                [only] => format!("none is named after \"{only}\"; name controllers, or give --all"),
+                [only] => texts::no_controller_after(language, only),
                 several => several.last().cloned().unwrap_or_default(),
             };
             return Err(Problem::with_detail(ErrorCode::UnknownController, detail));
@@ -60,9 +65,9 @@ impl ItemsThenControllers {
     }
 }
 
-fn all(configuration: &Configuration) -> Result<Vec<ControllerEntry>, Problem> {
+fn all(configuration: &Configuration, language: Language) -> Result<Vec<ControllerEntry>, Problem> {
     if configuration.controllers.is_empty() {
-        return Err(Problem::with_detail(ErrorCode::UnknownController, "the list of controllers is empty"));
+        return Err(Problem::with_detail(ErrorCode::UnknownController, texts::no_controllers(language)));
     }
     Ok(configuration.controllers.clone())
 }
@@ -100,7 +105,7 @@ mod tests {
     fn split(arguments: &[&str], all: bool) -> Result<(Vec<String>, Vec<String>), ErrorCode> {
         let arguments = arguments.iter().map(ToString::to_string).collect();
         let (things, chosen) = ItemsThenControllers { arguments, all }
-            .resolve(&list(&["weld", "paint", "operator1"]))
+            .resolve(&list(&["weld", "paint", "operator1"]), Language::En)
             .map_err(|p| p.code)?;
         Ok((things, chosen.iter().map(|c| c.name.to_string()).collect()))
     }

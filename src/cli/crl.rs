@@ -52,18 +52,20 @@ fn line(crl: &ListedCrl, health: &CrlHealth, language: Language) -> String {
 pub fn run(cli: &CommandContext, command: CrlCommand) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     match command {
-        CrlCommand::List(select) => cli.batch(&configuration, &select.resolve(&configuration)?, ListTrust, &CRLS),
+        CrlCommand::List(select) => {
+            cli.batch(&configuration, &select.resolve(&configuration, cli.output.language())?, ListTrust, &CRLS)
+        }
         CrlCommand::Add(arguments) => {
-            let (files, chosen) = arguments.resolve(&configuration)?;
+            let (files, chosen) = arguments.resolve(&configuration, cli.output.language())?;
             let destination = Destination::Crls;
-            let files = read_trust_files(files.iter().map(Path::new), destination)?;
+            let files = read_trust_files(files.iter().map(Path::new), destination, cli.output.language())?;
             show_plan(cli, &files, destination, &chosen)?;
             let operation = AddTrust { files: files.into(), destination, based_on: None };
             cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
         CrlCommand::Remove(arguments) => {
-            let (ids, chosen) = arguments.resolve(&configuration)?;
-            let operation = RemoveCrls { ids: hexadecimal(&ids)?, based_on: None };
+            let (ids, chosen) = arguments.resolve(&configuration, cli.output.language())?;
+            let operation = RemoveCrls { ids: hexadecimal(&ids, cli.output.language())?, based_on: None };
             cli.batch(&configuration, &chosen, operation, &CHANGE)
         }
     }

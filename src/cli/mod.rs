@@ -30,6 +30,7 @@ mod table_cell;
 mod trust_files;
 mod usage_error;
 mod users;
+mod value_error;
 mod vault;
 mod verify;
 mod virtual_fleet;
@@ -173,8 +174,9 @@ enum Command {
 /// The values of `--lang`.
 fn languages() -> impl clap::builder::TypedValueParser<Value = Language> {
     use clap::builder::{PossibleValuesParser, TypedValueParser as _};
-    PossibleValuesParser::new(Language::ALL.map(Language::code))
-        .try_map(|code| parse_language(&code).ok_or("it is not the code of a language"))
+    PossibleValuesParser::new(Language::ALL.map(Language::code)).try_map(|code| {
+        parse_language(&code).ok_or(value_error::ValueError::NoneOf(Language::ALL.map(Language::code).to_vec()))
+    })
 }
 
 fn parse_language(code: &str) -> Option<Language> {

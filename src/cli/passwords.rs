@@ -5,7 +5,7 @@ use secrecy::{ExposeSecret as _, SecretString};
 
 use super::secret_file::read_secret;
 use crate::model::{ErrorCode, Language, Problem};
-use crate::texts::TextKey;
+use crate::texts::{TextKey, cli as texts};
 
 /// The passphrase of the small CA: from a file, or asked for on the terminal, twice where it is chosen.
 pub fn ca_passphrase(file: Option<&Path>, chosen: bool, language: Language) -> Result<SecretString, Problem> {
@@ -27,7 +27,7 @@ pub fn passphrase(
     let ask = |question: TextKey| ask_secret(question.text(language))?.ok_or(Problem::new(ErrorCode::NoPassphrase));
     let passphrase = ask(question)?;
     if chosen && ask(TextKey::CliAskAgain)?.expose_secret() != passphrase.expose_secret() {
-        return Err(Problem::with_detail(ErrorCode::NoPassphrase, "the two entries differ"));
+        return Err(Problem::with_detail(ErrorCode::NoPassphrase, texts::entries_differ(language)));
     }
     Ok(passphrase)
 }

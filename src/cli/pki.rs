@@ -6,12 +6,14 @@ use serde_json::json;
 
 use super::output::{json_path, say};
 use super::secret_file::read_secret;
+use super::value_error::ValueError;
 use super::{CommandContext, CommandOutcome, read_bounded};
 use crate::model::{ErrorCode, Language, Problem, SecurityPolicy, clock};
 use crate::pki::{
     self, Bundle, Certificate, CertificateRejection, MAX_BUNDLE_BYTES, PeerRole, PkiError, PresentedCertificate,
     TrustLists, TrustPolicy, read_bundle,
 };
+use crate::texts::cli as texts;
 
 #[derive(Debug, Subcommand)]
 pub enum PkiCommand {
@@ -79,12 +81,13 @@ impl From<RoleArg> for PeerRole {
     }
 }
 
-fn parse_time(text: &str) -> Result<DateTime<Utc>, String> {
-    DateTime::parse_from_rfc3339(text).map(Into::into).map_err(|e| format!("\"{text}\" is not a time in RFC 3339: {e}"))
+fn parse_time(text: &str) -> Result<DateTime<Utc>, ValueError> {
+    DateTime::parse_from_rfc3339(text).map(Into::into).map_err(ValueError::Time)
 }
 
-fn parse_policy(text: &str) -> Result<SecurityPolicy, String> {
-    text.parse().map_err(|e: crate::model::SettingsError| e.to_string())
+fn parse_policy(text: &str) -> Result<SecurityPolicy, ValueError> {
+    // The error of the model says no more.
+    text.parse().map_err(|_| ValueError::NoneOf(SecurityPolicy::ALL.map(SecurityPolicy::as_str).to_vec()))
 }
 
 pub fn run(cli: &CommandContext, command: PkiCommand) -> Result<CommandOutcome, Problem> {
@@ -105,11 +108,12 @@ fn show(cli: &CommandContext, file: &Path, password_file: Option<&Path>) -> Resu
 }
 
 fn verify(cli: &CommandContext, args: &PkiVerifyArgs) -> Result<CommandOutcome, Problem> {
-    let mut trusted = folder(args.trusted.as_deref())?;
-    let mut issuers = folder(args.issuers.as_deref())?;
-    let crls = folder(args.crls.as_deref())?;
+    let language = cli.output.language();
+    let mut trusted = folder(args.trusted.as_deref(), language)?;
+    let mut issuers = folder(args.issuers.as_deref(), language)?;
+    let crls = folder(args.crls.as_deref(), language)?;
     if let Some(stray) = crls.certificates.first() {
-        let detail = format!("--crls: there is a certificate among the revocation lists, {}", stray.subject());
+        let detail = texts::certificate_among_lists(language, stray.subject());
         return Err(Problem::with_detail(ErrorCode::FileFormat, detail));
     }
     // Some tools keep the revocation lists of a CA beside its certificate.
@@ -184,20 +188,25 @@ fn is_wrong_file(error: &PkiError) -> bool {
 }
 
 /// Everything in the files of a folder and of the folders in it; one that cannot be read is an error.
-fn folder(path: Option<&Path>) -> Result<Bundle, Problem> {
+fn folder(path: Option<&Path>, language: Language) -> Result<Bundle, Problem> {
     let mut bundle = Bundle::default();
     if let Some(path) = path {
         let mut left = MAX_FILES;
-        collect(path, MAX_DEPTH, &mut left, &mut bundle)?;
+        collect(path, (MAX_DEPTH, language), &mut left, &mut bundle)?;
     }
     Ok(bundle)
 }
 
-fn collect(path: &Path, depth: usize, left: &mut usize, bundle: &mut Bundle) -> Result<(), Problem> {
+fn collect(
+    path: &Path,
+    (depth, language): (usize, Language),
+    left: &mut usize,
+    bundle: &mut Bundle,
+) -> Result<(), Problem> {
     let unreadable =
         |e: std::io::Error| Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", path.display()));
     let too_much = || {
-        let detail = format!("{}: more than {MAX_FILES} files, or too deep", path.display());
+        let detail = texts::too_many_files(language, path.display(), MAX_FILES);
         Problem::with_detail(ErrorCode::FileUnreadable, detail)
     };
     let metadata = std::fs::metadata(path).map_err(unreadable)?;
@@ -207,7 +216,7 @@ fn collect(path: &Path, depth: usize, left: &mut usize, bundle: &mut Bundle) -> 
         let entries: Result<Vec<PathBuf>, _> = entries.map(|entry| entry.map(|entry| entry.path())).collect();
         let mut entries = entries.map_err(unreadable)?;
         entries.sort();
-        return entries.iter().try_for_each(|entry| collect(entry, depth, left, bundle));
+        return entries.iter().try_for_each(|entry| collect(entry, (depth, language), left, bundle));
     }
     if !metadata.is_file() {
         return Err(unreadable(std::io::ErrorKind::InvalidInput.into()));

@@ -24,47 +24,54 @@ pub fn read_secret(path: &Path) -> Result<SecretString, Problem> {
     if path == Path::new("-") {
         read(io::stdin().lock()).map_err(|error| error.of("standard input"))
     } else {
-        let open = std::fs::File::open(path).map_err(Error::Unreadable);
+        let open = std::fs::File::open(path).map_err(SecretError::Unreadable);
         open.and_then(read).map_err(|error| error.of(path.display()))
     }
 }
 
-enum Error {
-    Unreadable(io::Error),
-    Format(Cow<'static, str>),
+/// Why there is no secret in a file. Quotes nothing of it.
+#[derive(Debug, thiserror::Error)]
+enum SecretError {
+    #[error(transparent)]
+    Unreadable(#[from] io::Error),
+    #[error(transparent)]
+    Text(#[from] text::TextError),
+    #[error("more than {MAX_PASSWORD_BYTES} bytes are too long for a password")]
+    TooLong,
+    #[error("it has several lines; a password is one line")]
+    SeveralLines,
 }
 
-impl Error {
+impl SecretError {
     fn of(self, source: impl Display) -> Problem {
-        match self {
-            Self::Unreadable(error) => Problem::with_detail(ErrorCode::FileUnreadable, format!("{source}: {error}")),
-            Self::Format(why) => Problem::with_detail(ErrorCode::FileFormat, format!("{source}: {why}")),
-        }
+        let code = match self {
+            Self::Unreadable(_) => ErrorCode::FileUnreadable,
+            Self::Text(_) | Self::TooLong | Self::SeveralLines => ErrorCode::FileFormat,
+        };
+        Problem::with_detail(code, format!("{source}: {self}"))
     }
 }
 
-fn read(source: impl io::Read) -> Result<SecretString, Error> {
+fn read(source: impl io::Read) -> Result<SecretString, SecretError> {
     // Never grows, so that nothing is left behind in memory that was given back.
     let mut bytes = Zeroizing::new(Vec::with_capacity(MAX_FILE_BYTES + 1));
-    source.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes).map_err(Error::Unreadable)?;
-    let too_long =
-        || Error::Format(Cow::Owned(format!("more than {MAX_PASSWORD_BYTES} bytes are too long for a password")));
+    source.take(MAX_FILE_BYTES as u64 + 1).read_to_end(&mut bytes)?;
     if bytes.len() > MAX_FILE_BYTES {
-        return Err(too_long());
+        return Err(SecretError::TooLong);
     }
-    match text::decode(&bytes).map_err(|error| Error::Format(error.to_string().into()))? {
-        Cow::Borrowed(text) => secret(text, too_long),
-        Cow::Owned(text) => secret(&Zeroizing::new(text), too_long),
+    match text::decode(&bytes)? {
+        Cow::Borrowed(text) => secret(text),
+        Cow::Owned(text) => secret(&Zeroizing::new(text)),
     }
 }
 
-fn secret(text: &str, too_long: impl Fn() -> Error) -> Result<SecretString, Error> {
+fn secret(text: &str) -> Result<SecretString, SecretError> {
     let line = ["\r\n", "\n", "\r"].iter().find_map(|end| text.strip_suffix(end)).unwrap_or(text);
     if line.contains(['\r', '\n']) {
-        return Err(Error::Format("it has several lines; a password is one line".into()));
+        return Err(SecretError::SeveralLines);
     }
     if line.len() > MAX_PASSWORD_BYTES {
-        return Err(too_long());
+        return Err(SecretError::TooLong);
     }
     Ok(SecretString::from(line))
 }

@@ -47,15 +47,15 @@ const INFO: Presentation<NoOutput> = Presentation {
 
 pub fn info(cli: &CommandContext, select: &ControllerSelection) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
-    cli.batch(&configuration, &select.resolve(&configuration)?, GetInfo, &INFO)
+    cli.batch(&configuration, &select.resolve(&configuration, cli.output.language())?, GetInfo, &INFO)
 }
 
 pub fn start(cli: &CommandContext, select: &ControllerSelection) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
-    cli.batch(&configuration, &select.resolve(&configuration)?, StartServer, &STATE)
+    cli.batch(&configuration, &select.resolve(&configuration, cli.output.language())?, StartServer, &STATE)
 }
 
 pub fn stop(cli: &CommandContext, select: &ControllerSelection) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
-    cli.batch(&configuration, &select.resolve(&configuration)?, StopServer, &STATE)
+    cli.batch(&configuration, &select.resolve(&configuration, cli.output.language())?, StopServer, &STATE)
 }

@@ -36,7 +36,7 @@ pub fn run(cli: &CommandContext, command: LogCommand) -> Result<CommandOutcome, 
     match command {
         LogCommand::Show { end, select } => {
             let part = if end { LogPart::End } else { LogPart::From(0) };
-            let chosen = select.resolve(&configuration)?;
+            let chosen = select.resolve(&configuration, cli.output.language())?;
             let reports = cli.reports(&configuration, &chosen, ReadLog { part }, &LOG)?;
             if !cli.output.is_json() {
                 for (entry, report) in chosen.iter().zip(&reports) {
@@ -62,7 +62,7 @@ pub fn run(cli: &CommandContext, command: LogCommand) -> Result<CommandOutcome, 
         LogCommand::Delete(select) => {
             let change = BasicSettingsChange { delete_log: true, ..BasicSettingsChange::default() };
             let operation = SetBasicSettings { change, ..SetBasicSettings::default() };
-            cli.batch(&configuration, &select.resolve(&configuration)?, operation, &STATE)
+            cli.batch(&configuration, &select.resolve(&configuration, cli.output.language())?, operation, &STATE)
         }
     }
 }

@@ -41,7 +41,7 @@ const IMPORTED: Presentation<SettingsImported> = Presentation {
 
 pub fn export(cli: &CommandContext, args: &TransferArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
-    let chosen = args.select.resolve(&configuration)?;
+    let chosen = args.select.resolve(&configuration, cli.output.language())?;
     let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
     passphrase.as_ref().map_or(Ok(()), check_passphrase)?;
     let operation = ExportSettings { files: cli.workspace.settings_files(), passphrase };
@@ -50,7 +50,7 @@ pub fn export(cli: &CommandContext, args: &TransferArgs) -> Result<CommandOutcom
 
 pub fn import(cli: &CommandContext, args: &TransferArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
-    let chosen = args.select.resolve(&configuration)?;
+    let chosen = args.select.resolve(&configuration, cli.output.language())?;
     let passphrase = args.passphrase_file.as_ref().map(|f| read_secret(f)).transpose()?;
     let operation = ImportSettings { files: cli.workspace.settings_files(), passphrase };
     cli.batch(&configuration, &chosen, operation, &IMPORTED)

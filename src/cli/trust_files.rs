@@ -9,7 +9,9 @@ use super::{CommandContext, read_bounded};
 use crate::jobs::{
     Destination, ItemContent, PlannedAction, TargetList, TrustFile, TrustNote, TrustPlan, TrustSnapshot,
 };
-use crate::model::{Capabilities, ClientList, ErrorCode, Feature, Language, ListLimits, MissingReason, Problem, clock};
+use crate::model::{
+    Capabilities, ClientList, ErrorCode, Feature, Language, ListLimits, MissingReason, Problem, clock, with_sources,
+};
 use crate::pki::{MAX_BUNDLE_BYTES, read_bundle};
 use crate::session;
 use crate::texts::{TextKey, cli as texts};
@@ -19,6 +21,7 @@ use crate::workspace::ControllerEntry;
 pub fn read_trust_files<'a>(
     paths: impl Iterator<Item = &'a Path>,
     destination: Destination,
+    language: Language,
 ) -> Result<Vec<TrustFile>, Problem> {
     let crls_only = destination == Destination::Crls;
     let code = if crls_only { ErrorCode::BadCrl } else { ErrorCode::BadCertificate };
@@ -26,9 +29,9 @@ pub fn read_trust_files<'a>(
         .map(|path| {
             let bad = |why: String| Problem::with_detail(code, format!("{}: {why}", path.display()));
             let bytes = read_bounded(path, MAX_BUNDLE_BYTES)?;
-            let bundle = read_bundle(&bytes).map_err(|error| bad(error.to_string()))?;
+            let bundle = read_bundle(&bytes).map_err(|error| bad(with_sources(&error)))?;
             if crls_only && bundle.crls.is_empty() {
-                return Err(bad("it holds certificates and no CRL".to_owned()));
+                return Err(bad(texts::only_certificates(language)));
             }
             let file_name = path.file_name().map(|n| n.to_string_lossy().into_owned()).unwrap_or_default();
             Ok(TrustFile { file_name, bundle })

@@ -4,15 +4,16 @@ use std::error::Error as _;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 
+use super::value_error::ValueError;
 use crate::model::Language;
 use crate::texts::{HelpTexts, help};
 
 /// What is wrong, what clap suggests, and the usage. English, and kinds without a text of their own, are in clap's words.
 pub fn explain(error: &clap::Error, language: Language) -> String {
-    help(language).and_then(|texts| translated(error, &texts)).unwrap_or_else(|| error.to_string())
+    help(language).and_then(|texts| translated(error, &texts, language)).unwrap_or_else(|| error.to_string())
 }
 
-fn translated(error: &clap::Error, texts: &HelpTexts) -> Option<String> {
+fn translated(error: &clap::Error, texts: &HelpTexts, language: Language) -> Option<String> {
     let errors = &texts.usage_errors;
     let context = |kind| error.get(kind).map(|value| listed(value, texts.list_separator));
     let argument = || context(ContextKind::InvalidArg);
@@ -37,6 +38,8 @@ fn translated(error: &clap::Error, texts: &HelpTexts) -> Option<String> {
     };
     let mut text = format!("{}{what}", errors.error_heading);
     if let Some(why) = error.source() {
+        // The others are clap's own, in English.
+        let why = why.downcast_ref::<ValueError>().map_or_else(|| why.to_string(), |why| why.reason(language));
         text.push_str(&format!(" ({why})"));
     }
     if let Some(possible) = context(ContextKind::ValidValue).filter(|values| !values.is_empty()) {
@@ -97,5 +100,23 @@ mod tests {
         let chinese = said(Language::Zh, &["cert", "export", "--format", "doc", "weld"]);
         assert!(chinese.starts_with("错误：参数 --format <FORMAT> 的值“doc”无效 [可选值："), "{chinese}");
         assert!(chinese.ends_with("请使用 --help 查看帮助。\n"), "{chinese}");
+    }
+
+    #[test]
+    fn a_value_that_this_program_refuses_is_explained_in_every_language() {
+        let wrong: [(&[&str], &str, &str); 4] = [
+            (&["settings", "set", "--server-log", "perhaps", "weld"], "neither on nor off", "只能为 on 或 off"),
+            (&["ca", "revoke", "01", "--reason", "boredom"], "known are ", "可用的值为 "),
+            (&["pki", "verify", "a.der", "--at", "noon"], "RFC 3339", "RFC 3339 格式的时间"),
+            (&["pki", "verify", "a.der", "--policy", "Basic"], "known are ", "可用的值为 "),
+        ];
+        for (arguments, english, chinese) in wrong {
+            let told = said(Language::En, arguments);
+            assert!(told.contains(english), "{told}");
+            let told = said(Language::Zh, arguments);
+            assert!(told.contains(chinese), "{told}");
+            let told = said(Language::Ja, arguments);
+            assert!(!told.contains("known") && !told.contains("neither") && !told.contains("not a time"), "{told}");
+        }
     }
 }

@@ -44,16 +44,18 @@ fn bad(error: UserCredentialError) -> Problem {
 pub fn run(cli: &CommandContext, command: UsersCommand) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     match command {
-        UsersCommand::List(select) => cli.batch(&configuration, &select.resolve(&configuration)?, ListUsers, &USERS),
+        UsersCommand::List(select) => {
+            cli.batch(&configuration, &select.resolve(&configuration, cli.output.language())?, ListUsers, &USERS)
+        }
         UsersCommand::Add { user, password_file, select } => {
-            let chosen = select.resolve(&configuration)?;
+            let chosen = select.resolve(&configuration, cli.output.language())?;
             let name = user.parse::<UserName>().map_err(bad)?;
             let password = UserPassword::new(read_secret(&password_file)?.expose_secret()).map_err(bad)?;
             let operation = AddUser { credential: UserCredential { name, password }, based_on: None };
             cli.batch(&configuration, &chosen, operation, &STATE)
         }
         UsersCommand::Remove(arguments) => {
-            let (users, chosen) = arguments.resolve(&configuration)?;
+            let (users, chosen) = arguments.resolve(&configuration, cli.output.language())?;
             let names = users.iter().map(|u| u.parse()).collect::<Result<Vec<UserName>, _>>().map_err(bad)?;
             cli.batch(&configuration, &chosen, RemoveUsers { names, based_on: None }, &STATE)
         }

@@ -37,7 +37,7 @@ pub struct VerifyArgs {
 
 pub fn run(cli: &CommandContext, args: &VerifyArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
-    let chosen = args.select.resolve(&configuration)?;
+    let chosen = args.select.resolve(&configuration, cli.output.language())?;
     let login = match (&args.user, &args.user_password_file) {
         (Some(user), Some(file)) => {
             let bad = |e| Problem::with_detail(ErrorCode::BadCredential, e);

@@ -59,10 +59,8 @@ pub fn run(args: &SwitchArgs) -> Result<CommandOutcome, Problem> {
 
 impl SwitchArgs {
     fn chosen(&self) -> Result<Vec<SerialNumber>, Problem> {
-        let unknown = |serial: &str| {
-            let detail = format!("no virtual controller {serial} in {}", self.data.display());
-            Problem::with_detail(ErrorCode::UnknownController, detail)
-        };
+        let unknown =
+            |serial: &str| Problem::with_detail(ErrorCode::UnknownController, self.data.join(serial).display());
         let known = |text: &String| match text.parse::<SerialNumber>() {
             Ok(serial) if self.data.join(serial.folder_name()).is_dir() => Ok(serial),
             _ => Err(unknown(text)),

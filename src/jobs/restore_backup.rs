@@ -139,6 +139,7 @@ async fn read(
             None => read(&connection).or_else(|error| match error {
                 // Made while the controller had no connection password, by a version that allowed it.
                 KeyBackupError::Content { ref source, .. } if source.code() == ErrorCode::WrongKeyPassword => {
+                    // The first error is about the password that the file is expected to have.
                     read(&SecretString::default()).map_err(|_| error)
                 }
                 _ => Err(error),

@@ -9,6 +9,7 @@ use thiserror::Error;
 use crate::model::activation::ActivationKeys;
 use crate::model::{
     Base64Bytes, ControllerSeries, ErrorCode, FirmwareVersion, Problem, SerialNumber, ServerSettings, UserName, text,
+    with_sources,
 };
 use crate::pki::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 
@@ -78,7 +79,7 @@ pub enum ExportError {
     NewerFirmware { export: FirmwareVersion, controller: FirmwareVersion },
     #[error("the passphrase does not open it")]
     WrongPassphrase,
-    #[error("{0}")]
+    #[error(transparent)]
     Failed(SealError),
 }
 
@@ -91,7 +92,7 @@ impl From<ExportError> for Problem {
             ExportError::WrongPassphrase => return ErrorCode::WrongPassphrase.into(),
             ExportError::Failed(_) => ErrorCode::Internal,
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }
 

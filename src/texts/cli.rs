@@ -43,6 +43,35 @@ in_every_language! {
     fn vault_imported(count: usize) -> String;
     fn vault_forgot(name: &str) -> String;
     fn vault_has_none(name: &str) -> String;
+    /// The value of an argument is none of these.
+    fn value_known(known: &[&str]) -> String;
+    /// The value of a switch is another word.
+    fn value_on_or_off() -> String;
+    /// The value of an argument is not a time.
+    fn value_time() -> String;
+    /// Activation keys were typed for several controllers.
+    fn keys_of_one() -> String;
+    /// A common name was typed for several controllers.
+    fn common_name_of_one() -> String;
+    /// A CRL is to be pushed, and no controller is named.
+    fn push_to_none() -> String;
+    /// Two certificates are to be written to one file.
+    fn same_name_in_out() -> String;
+    /// A thumbprint or the id of a CRL has a wrong form.
+    fn digits_needed(text: &str) -> String;
+    /// A passphrase was typed twice, and not the same.
+    fn entries_differ() -> String;
+    /// No passphrase of the vault was given.
+    fn vault_passphrase_option() -> String;
+    /// A folder of CRLs holds a certificate.
+    fn certificate_among_lists(subject: &str) -> String;
+    /// A file of CRLs holds certificates only.
+    fn only_certificates() -> String;
+    /// A command takes things and then controllers, and got only this.
+    fn no_controller_after(argument: &str) -> String;
+    /// Every controller was asked for, and there is none.
+    fn no_controllers() -> String;
+    fn too_many_files(folder: impl Display, most: usize) -> String;
 }
 
 /// Heading of what is done to the controllers with an issuers list, or to those without.

@@ -7,7 +7,7 @@ use super::{
     LoadedConfiguration, PassphraseError, PasswordError, PasswordListError, RecogniseError, SaveError,
     SettingsFileError, SkippedLine, WorkspaceError,
 };
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, with_sources};
 
 impl LoadedConfiguration {
     /// What to tell the engineer, if anything.
@@ -43,7 +43,7 @@ impl From<WorkspaceError> for Problem {
             WorkspaceError::Unreadable { .. } => ErrorCode::FileUnreadable,
             WorkspaceError::ReservedName { .. } => ErrorCode::BadFileName,
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }
 
@@ -56,7 +56,7 @@ impl From<FileError> for Problem {
             FileError::Unreadable { .. } => ErrorCode::FileUnreadable,
             FileError::TooLarge { .. } => ErrorCode::FileFormat,
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }
 
@@ -68,7 +68,7 @@ impl From<RecogniseError> for Problem {
             RecogniseError::File(_) => ErrorCode::FileUnreadable,
             RecogniseError::Unknown(_) => ErrorCode::FileNotRecognised,
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }
 
@@ -79,7 +79,7 @@ impl From<KeyBackupError> for Problem {
             KeyBackupError::NoKey { .. } | KeyBackupError::NoRequest(_) => ErrorCode::FileNotFound,
             KeyBackupError::Content { ref source, .. } => source.code(),
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }
 
@@ -94,7 +94,7 @@ impl From<ConfiguratorIdentityError> for Problem {
             }
             ConfiguratorIdentityError::Path(_) => ErrorCode::Internal,
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }
 
@@ -116,7 +116,7 @@ impl From<SettingsFileError> for Problem {
             SettingsFileError::Renamed(_) => ErrorCode::ExportRenamed,
             SettingsFileError::Missing(_) => ErrorCode::ExportMissing,
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }
 
@@ -184,7 +184,7 @@ impl From<VaultError> for Problem {
             VaultError::Seal(_) => ErrorCode::Internal,
             VaultError::Workspace(error) => return error.into(),
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }
 
@@ -209,6 +209,6 @@ impl From<AuthorityError> for Problem {
             AuthorityError::BackupPassphrase(_) => ErrorCode::BackupPassphrase,
             AuthorityError::Unreadable { .. } => ErrorCode::FileUnreadable,
         };
-        Self::with_detail(code, error)
+        Self::with_detail(code, with_sources(&error))
     }
 }

@@ -12,6 +12,7 @@ use crate::cli::{CommandContext, CommandOutcome};
 use crate::jobs::PushAuthority;
 use crate::model::{ErrorCode, Problem, clock};
 use crate::pki::{Crl, MAX_CRL_DAYS};
+use crate::texts::cli as texts;
 use crate::workspace::write_atomic;
 
 #[derive(Debug, Args)]
@@ -43,9 +44,11 @@ pub fn run(cli: &CommandContext, args: &CrlArgs) -> Result<CommandOutcome, Probl
     let chosen = match &args.push {
         None => Vec::new(),
         Some(names) if names.is_empty() && !args.all => {
-            return Err(Problem::with_detail(ErrorCode::UnknownController, "--push needs names or --all"));
+            return Err(Problem::with_detail(ErrorCode::UnknownController, texts::push_to_none(cli.output.language())));
         }
-        Some(names) => ControllerSelection::new(names.clone(), args.all).resolve(&configuration)?,
+        Some(names) => {
+            ControllerSelection::new(names.clone(), args.all).resolve(&configuration, cli.output.language())?
+        }
     };
     if args.push.is_some() && !cli.yes && !std::io::stdin().is_terminal() {
         return Err(ErrorCode::NotConfirmed.into());

@@ -11,6 +11,7 @@ use crate::cli::output::json_path;
 use crate::cli::{CommandContext, CommandOutcome};
 use crate::model::{CertificateProfile, ErrorCode, FileFormat, Problem, Validity, clock};
 use crate::pki::{Csr, IssueRequest, MAX_CERTIFICATE_FILE_BYTES, ServerNames};
+use crate::texts::cli as texts;
 use crate::workspace::authority::UnlockedAuthority;
 use crate::workspace::{read_import_file, write_atomic};
 
@@ -83,7 +84,7 @@ pub fn run(cli: &CommandContext, args: &SignArgs) -> Result<CommandOutcome, Prob
     let request = args.request()?;
     let targets: Vec<_> = args.files.iter().filter_map(|file| args.target(file)).collect();
     if targets.iter().collect::<BTreeSet<_>>().len() < targets.len() {
-        return Err(Problem::with_detail(ErrorCode::SeveralFiles, "two certificates would get the same name in --out"));
+        return Err(Problem::with_detail(ErrorCode::SeveralFiles, texts::same_name_in_out(cli.output.language())));
     }
     let mut authority = args.passphrase.open(cli)?;
     let mut ending = CommandOutcome::AllDone;

@@ -48,7 +48,7 @@ pub struct SignControllersArgs {
 
 pub fn run(cli: &CommandContext, args: SignControllersArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
-    let chosen = args.select.resolve(&configuration)?;
+    let chosen = args.select.resolve(&configuration, cli.output.language())?;
     let wrong = |e: &dyn std::fmt::Display| Problem::with_detail(ErrorCode::BadCertificateRequest, e);
     let fields = CsrFields {
         common_name: None,

@@ -185,3 +185,63 @@ pub fn vault_forgot(name: &str) -> String {
 pub fn vault_has_none(name: &str) -> String {
     format!("The vault has no password of {name}")
 }
+
+pub fn value_known(known: &[&str]) -> String {
+    format!("known are {}", known.join(", "))
+}
+
+pub fn value_on_or_off() -> String {
+    "it is neither on nor off".to_owned()
+}
+
+pub fn value_time() -> String {
+    "it is not a time in RFC 3339, such as 2026-01-31T12:00:00Z".to_owned()
+}
+
+pub fn keys_of_one() -> String {
+    "use --file for several controllers".to_owned()
+}
+
+pub fn common_name_of_one() -> String {
+    "a common name can be given for one controller only".to_owned()
+}
+
+pub fn push_to_none() -> String {
+    "--push needs names or --all".to_owned()
+}
+
+pub fn same_name_in_out() -> String {
+    "two certificates would get the same name in --out".to_owned()
+}
+
+pub fn digits_needed(text: &str) -> String {
+    format!("{text}: 40 hexadecimal digits are needed")
+}
+
+pub fn entries_differ() -> String {
+    "the two entries differ".to_owned()
+}
+
+pub fn vault_passphrase_option() -> String {
+    "the file is named with --vault-passphrase-file".to_owned()
+}
+
+pub fn certificate_among_lists(subject: &str) -> String {
+    format!("--crls: there is a certificate among the revocation lists, {subject}")
+}
+
+pub fn only_certificates() -> String {
+    "it holds certificates and no CRL".to_owned()
+}
+
+pub fn no_controller_after(argument: &str) -> String {
+    format!("none is named after \"{argument}\"; name controllers, or give --all")
+}
+
+pub fn no_controllers() -> String {
+    "the list of controllers is empty".to_owned()
+}
+
+pub fn too_many_files(folder: impl Display, most: usize) -> String {
+    format!("{folder}: more than {most} files, or too deep")
+}

@@ -188,3 +188,63 @@ pub fn vault_forgot(name: &str) -> String {
 pub fn vault_has_none(name: &str) -> String {
     format!("パスワード保管庫に{name}のパスワードはありません")
 }
+
+pub fn value_known(known: &[&str]) -> String {
+    format!("指定できる値：{}", known.join("、"))
+}
+
+pub fn value_on_or_off() -> String {
+    "onまたはoffを指定してください".to_owned()
+}
+
+pub fn value_time() -> String {
+    "RFC 3339形式の日時ではありません (例：2026-01-31T12:00:00Z)".to_owned()
+}
+
+pub fn keys_of_one() -> String {
+    "複数のコントローラーには--fileを使用してください".to_owned()
+}
+
+pub fn common_name_of_one() -> String {
+    "共通名 (CN) は、1台のコントローラーにのみ指定できます".to_owned()
+}
+
+pub fn push_to_none() -> String {
+    "--pushには、コントローラー名または--allが必要です".to_owned()
+}
+
+pub fn same_name_in_out() -> String {
+    "--outの中で、2つの証明書のファイル名が同じになります".to_owned()
+}
+
+pub fn digits_needed(text: &str) -> String {
+    format!("{text}：40桁の16進数が必要です")
+}
+
+pub fn entries_differ() -> String {
+    "2回の入力が一致しません".to_owned()
+}
+
+pub fn vault_passphrase_option() -> String {
+    "ファイルは--vault-passphrase-fileで指定します".to_owned()
+}
+
+pub fn certificate_among_lists(subject: &str) -> String {
+    format!("--crls：失効リストの中に証明書があります ({subject})")
+}
+
+pub fn only_certificates() -> String {
+    "証明書だけで、CRLがありません".to_owned()
+}
+
+pub fn no_controller_after(argument: &str) -> String {
+    format!("「{argument}」の後にコントローラー名がありません。名前または--allを指定してください")
+}
+
+pub fn no_controllers() -> String {
+    "コントローラーの一覧が空です".to_owned()
+}
+
+pub fn too_many_files(folder: impl Display, most: usize) -> String {
+    format!("{folder}：ファイルが{most}個を超えているか、フォルダーの階層が深すぎます")
+}

@@ -185,3 +185,63 @@ pub fn vault_forgot(name: &str) -> String {
 pub fn vault_has_none(name: &str) -> String {
     format!("密码库中没有 {name} 的密码")
 }
+
+pub fn value_known(known: &[&str]) -> String {
+    format!("可用的值为 {}", known.join("、"))
+}
+
+pub fn value_on_or_off() -> String {
+    "只能为 on 或 off".to_owned()
+}
+
+pub fn value_time() -> String {
+    "不是 RFC 3339 格式的时间，例如 2026-01-31T12:00:00Z".to_owned()
+}
+
+pub fn keys_of_one() -> String {
+    "多台控制器请使用 --file".to_owned()
+}
+
+pub fn common_name_of_one() -> String {
+    "通用名称只能用于一台控制器".to_owned()
+}
+
+pub fn push_to_none() -> String {
+    "--push 需要控制器名称或 --all".to_owned()
+}
+
+pub fn same_name_in_out() -> String {
+    "两个证书在 --out 中的文件名相同".to_owned()
+}
+
+pub fn digits_needed(text: &str) -> String {
+    format!("{text}：需要 40 位十六进制数字")
+}
+
+pub fn entries_differ() -> String {
+    "两次输入不一致".to_owned()
+}
+
+pub fn vault_passphrase_option() -> String {
+    "请用 --vault-passphrase-file 指定文件".to_owned()
+}
+
+pub fn certificate_among_lists(subject: &str) -> String {
+    format!("--crls：吊销列表中有证书 {subject}")
+}
+
+pub fn only_certificates() -> String {
+    "其中只有证书，没有吊销列表".to_owned()
+}
+
+pub fn no_controller_after(argument: &str) -> String {
+    format!("“{argument}”之后没有控制器名称，请给出名称或 --all")
+}
+
+pub fn no_controllers() -> String {
+    "控制器列表为空".to_owned()
+}
+
+pub fn too_many_files(folder: impl Display, most: usize) -> String {
+    format!("{folder}：文件超过 {most} 个，或文件夹层数过多")
+}
