@@ -36,11 +36,11 @@ def others():
     mit = (ROOT / "LICENSE-MIT").read_text(encoding="utf-8")
     apache = (ROOT / "LICENSE-APACHE").read_text(encoding="utf-8")
     font = (ROOT / "assets/fonts/OFL.txt").read_text(encoding="utf-8")
-    node_set = (ROOT / "assets/nodesets/Opc.Ua.Di.NodeSet2.xml").read_text(encoding="utf-8-sig")
-    node_set = node_set.split("<!--")[1].split("-->")[0]
+    node_sets = (ROOT / "assets/nodesets/LICENSE.txt").read_text(encoding="utf-8")
     for face in ("JP", "SC"):
         yield f"Noto Sans CJK {face} (subset)", "2.004", "OFL-1.1", [font]
-    yield "OPC UA Devices NodeSet", "1.05.0", "MIT", [node_set]
+    yield "OPC UA Devices NodeSet", "1.04.0", "MIT", [node_sets]
+    yield "OPC UA Robotics NodeSet", "1.01.2", "MIT", [node_sets]
     rust = "Copyright (c) The Rust Project Contributors\n\n" + mit.split("\n\n", 2)[2]
     yield "Rust standard library", "", "MIT OR Apache-2.0", [rust, apache]
 

@@ -9,7 +9,7 @@ use super::{CommandOutcome, runtime, virtual_switch};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::platform::stop_signal::StopSignals;
-use crate::virtual_controller::cell::CellOptions;
+use crate::virtual_controller::cell::{CellOptions, ClockRate, RobotModel};
 use crate::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, demo_keys};
 
 #[derive(Debug, Args)]
@@ -65,6 +65,15 @@ struct FleetArgs {
     /// Admit OPC UA clients whose CA has given no valid revocation list
     #[arg(long)]
     allow_unknown_revocation: bool,
+    /// Robots on each controller, joined by commas: C4-A601S (six axes), GX4-A251S (SCARA)
+    #[arg(long, value_name = "MODEL", value_delimiter = ',', default_value = "C4-A601S")]
+    robots: Vec<RobotModel>,
+    /// OPC UA clients may write inputs, and see words beside bytes and bits
+    #[arg(long)]
+    virtual_io: bool,
+    /// Simulated seconds in one second, 0.001 to 10000
+    #[arg(long, value_name = "RATE", default_value_t = ClockRate::default())]
+    clock_rate: ClockRate,
     /// The same seed makes the same controllers
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
@@ -134,7 +143,12 @@ fn fleet(args: &FleetArgs) -> Result<CommandOutcome, Problem> {
             detailed_status: args.detailed_status,
             allow_unknown_revocation: args.allow_unknown_revocation,
         },
-        cell: CellOptions { seed: args.seed, ..CellOptions::default() },
+        cell: CellOptions {
+            robots: args.robots.clone(),
+            seed: args.seed,
+            rate: args.clock_rate,
+            virtual_io: args.virtual_io,
+        },
         seed: args.seed,
     };
     runtime()?.block_on(async {

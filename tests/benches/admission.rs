@@ -24,9 +24,7 @@ use opcua_configurator::model::{
 };
 use opcua_configurator::pki::{Certificate, PrivateKey, ServerNames, TrustLists, TrustPolicy, self_signed};
 use opcua_configurator::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
-use opcua_configurator::virtual_controller::opcua::{
-    CertificateClock, DeviceIdentity, OpcUaConfig, OpcUaServer, ServerEvents,
-};
+use opcua_configurator::virtual_controller::opcua::{CertificateClock, OpcUaConfig, OpcUaServer, ServerEvents};
 use report::{Spread, line};
 use rsa::RsaPrivateKey;
 use rsa::pkcs8::{DecodePrivateKey as _, EncodePrivateKey as _, LineEnding};
@@ -152,12 +150,6 @@ async fn gated(folder: &Path, server: &TestApplication, client: &TestApplication
         detailed_status: false,
         refusals: None,
         clock: CertificateClock::default(),
-        identity: DeviceIdentity {
-            name: "Bench".to_owned(),
-            series: ControllerSeries::Rc800,
-            serial: "RC80010001".parse()?,
-            firmware: FirmwareVersion::new(8, 1, 0),
-        },
         cell: cell()?,
         events: ServerEvents::default(),
         pki_folder: folder.join("gated"),

@@ -227,6 +227,9 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     ("virtual", "data", "コントローラーのデータを保存するフォルダー。省略した場合は一時フォルダー"),
     ("virtual", "detailed_status", "拒否されたOPC UAクライアントに、証明書の問題点を通知"),
     ("virtual", "allow_unknown_revocation", "CAの有効なCRLがないOPC UAクライアントにも接続を許可"),
+    ("virtual", "robots", "各コントローラーのロボット (コンマ区切り): C4-A601S (6軸)、GX4-A251S (スカラ)"),
+    ("virtual", "virtual_io", "OPC UAクライアントによる入力の書き込みを許可し、バイトとビットに加えてワードも表示"),
+    ("virtual", "clock_rate", "1秒あたりのシミュレーション秒数 (0.001〜10000)"),
     (
         "virtual switch",
         "data",

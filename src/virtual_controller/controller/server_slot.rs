@@ -7,7 +7,7 @@ use crate::model::{CertificateSummary, DisconnectedClient};
 use crate::pki::{Certificate, Crl, PkiError, TrustLists, TrustPolicy};
 use crate::virtual_controller::cell::CellHandle;
 use crate::virtual_controller::opcua::{
-    CertificateClock, DeviceIdentity, DisconnectedConnection, OpcUaConfig, OpcUaServer, OpcUaUser, ServerEvents,
+    CertificateClock, DisconnectedConnection, OpcUaConfig, OpcUaServer, OpcUaUser, ServerEvents,
 };
 use crate::virtual_controller::state::{ControllerState, OperatingContext, TrustListCertificate};
 
@@ -87,12 +87,6 @@ pub(super) fn opcua_config(
         detailed_status: false,
         refusals: None,
         clock: CertificateClock::default(),
-        identity: DeviceIdentity {
-            name: state.identity.name.to_string(),
-            series: state.identity.series,
-            serial: state.identity.serial.clone(),
-            firmware: state.identity.firmware,
-        },
         cell,
         events: ServerEvents::default(),
         pki_folder: folder.join(OPCUA_FOLDER),

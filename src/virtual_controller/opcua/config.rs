@@ -10,9 +10,10 @@ use rsa::pkcs8::{DecodePrivateKey, EncodePublicKey};
 use x509_parser::prelude::{FromDer, X509Certificate};
 use zeroize::Zeroizing;
 
+use super::address_space::is_model_namespace;
 use super::{CertificateClock, InvalidParameter, RejectionRecorder, ServerEvents, StartError};
 use crate::model::with_cause;
-use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, SerialNumber, UserTokenPolicy};
+use crate::model::{SecurityPolicy, UserTokenPolicy};
 use crate::pki::{TrustLists, TrustPolicy};
 use crate::virtual_controller::cell::CellHandle;
 
@@ -45,8 +46,8 @@ pub struct OpcUaConfig {
     pub refusals: Option<Arc<dyn RejectionRecorder>>,
     /// The clock certificates are checked by.
     pub clock: CertificateClock,
-    pub identity: DeviceIdentity,
-    /// What the controller's nodes show.
+    /// What the address space shows: the controller, its robots and what is around them. The firmware decides which nodes
+    /// there are.
     pub cell: CellHandle,
     /// Told what happens while the server runs.
     pub events: ServerEvents,
@@ -77,21 +78,15 @@ pub struct OpcUaUser {
     pub password_hash: String,
 }
 
-/// What the controller says it is in the address space.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct DeviceIdentity {
-    /// The name the controller itself carries.
-    pub name: String,
-    pub series: ControllerSeries,
-    pub serial: SerialNumber,
-    pub firmware: FirmwareVersion,
-}
-
 impl OpcUaConfig {
     /// The server's key, after every parameter was found usable.
     pub(super) fn check(&self) -> Result<RsaPrivateKey, StartError> {
         if self.application_name.is_empty() || self.application_uri.is_empty() {
             return Err(InvalidParameter::ApplicationName.into());
+        }
+        // It becomes the URI of namespace 1.
+        if is_model_namespace(&self.application_uri) {
+            return Err(InvalidParameter::ModelNamespace.into());
         }
         if self.policies.is_empty() {
             return Err(InvalidParameter::NoPolicy.into());
@@ -131,7 +126,6 @@ impl fmt::Debug for OpcUaConfig {
             .field("trusted_clients", &self.trust.trusted().len())
             .field("trust_policy", &self.trust_policy)
             .field("detailed_status", &self.detailed_status)
-            .field("identity", &self.identity)
             .field("cell", &self.cell)
             .field("pki_folder", &self.pki_folder)
             .finish_non_exhaustive()

@@ -14,8 +14,7 @@
 //! | `users` | password hashes, logging in |
 //! | `login_delays` | who guesses passwords waits |
 //! | `certificate_store` | the private folder the crate reads certificates from |
-//! | `address_space` | the nodes of the controller |
-//! | `nodesets` | the bundled information models |
+//! | `address_space` | the nodes of the controller and of the information models they build on |
 
 mod address_space;
 mod admission;
@@ -24,7 +23,6 @@ mod config;
 mod endpoints;
 mod events;
 mod login_delays;
-mod nodesets;
 mod server;
 mod start_error;
 #[cfg(test)]
@@ -32,7 +30,7 @@ mod tests;
 mod users;
 
 pub use admission::{CertificateClock, DisconnectedConnection, RejectionRecorder};
-pub use config::{AdmissionOptions, DeviceIdentity, OpcUaConfig, OpcUaUser};
+pub use config::{AdmissionOptions, OpcUaConfig, OpcUaUser};
 pub use events::{ServerEvent, ServerEvents};
 pub use server::OpcUaServer;
 pub use start_error::{InvalidParameter, StartError};

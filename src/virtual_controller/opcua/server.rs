@@ -6,7 +6,6 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::Duration;
 
-use opcua::server::address_space::AddressSpace;
 use opcua::server::node_manager::ServerContext;
 use opcua::server::node_manager::memory::{CoreNodeManagerBuilder, InMemoryNodeManagerBuilder};
 use opcua::server::{Server, ServerBuilder, ServerHandle};
@@ -16,7 +15,7 @@ use rsa::traits::PublicKeyParts;
 use tokio::net::TcpListener;
 use tokio::task::JoinHandle;
 
-use super::address_space::ControllerNodes;
+use super::address_space::{ControllerNodes, Types};
 use super::admission::{
     AdmissionReporter, Attached, ClientVerifier, DisconnectedConnection, Gate, GateSettings, GuardedNodeManager,
     InnerServer, ServerKeyPair, deaf_listener,
@@ -25,7 +24,6 @@ use super::certificate_store::{OWN_CERTIFICATE, PkiFolder};
 use super::config::OpcUaConfig;
 use super::endpoints::{self, UserTokens};
 use super::events::{ServerEvent, ServerEvents};
-use super::nodesets::NodeSet;
 use super::start_error::{InvalidParameter, StartError};
 use super::users::Users;
 use crate::model::Cause;
@@ -164,7 +162,8 @@ async fn listen(address: IpAddr, port: u16) -> Result<TcpListener, StartError> {
 
 fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHandle, Attached), StartError> {
     let key = config.check()?;
-    let devices = NodeSet::devices().map_err(told)?;
+    let description = config.cell.description();
+    let types = Types::of(description.controller.generation(), description.virtual_io).map_err(failed)?;
     let pki = PkiFolder::create(config.pki_folder.clone()).map_err(failed)?;
     let pem = key.to_pkcs8_pem(LineEnding::LF).map_err(failed)?;
     pki.write_own(&config.certificate_der, &pem).map_err(failed)?;
@@ -177,7 +176,7 @@ fn build(config: &OpcUaConfig, address: SocketAddr) -> Result<(Server, ServerHan
         pki,
         AdmissionReporter::new(config.events.clone(), config.refusals.clone()),
     ));
-    let (server, handle) = builder(config, address, key.size() * 8, devices, &gate).build().map_err(told)?;
+    let (server, handle) = builder(config, address, key.size() * 8, types, &gate).build().map_err(told)?;
     let attached = gate.attach(handle.clone());
     gate.pki().close_rejected().map_err(failed)?;
     if handle.info().server_pkey.is_none() || handle.info().server_certificate.is_none() {
@@ -190,13 +189,14 @@ fn builder(
     config: &OpcUaConfig,
     address: SocketAddr,
     key_bits: usize,
-    devices: Arc<NodeSet>,
+    types: Types,
     gate: &Arc<Gate>,
 ) -> ServerBuilder {
-    let identity = config.identity.clone();
-    let controller = InMemoryNodeManagerBuilder::new(move |context: ServerContext, space: &mut AddressSpace| {
-        ControllerNodes::build(&context, space, &devices, &identity)
-    });
+    let cell = config.cell.clone();
+    let firmware = cell.description().controller.firmware;
+    let of_channel = gate.clone();
+    let longest_response = Box::new(move |channel| of_channel.longest_response(channel));
+    let controller = move |context: ServerContext| ControllerNodes::new(&context, types, cell, longest_response);
     let tokens = UserTokens::new(config.user_tokens.clone());
     let mut builder = ServerBuilder::new()
         // The controller's nodes before the standard ones: that gives them namespace 1. The crate's diagnostics want
@@ -215,7 +215,7 @@ fn builder(
             product_uri: PRODUCT_URI.into(),
             manufacturer_name: env!("CARGO_PKG_NAME").into(),
             product_name: "Virtual controller".into(),
-            software_version: config.identity.firmware.to_string().into(),
+            software_version: firmware.to_string().into(),
             build_number: env!("CARGO_PKG_VERSION").into(),
             ..Default::default()
         })

@@ -20,6 +20,8 @@ pub enum StartError {
 pub enum InvalidParameter {
     #[error("the application name or URI is empty")]
     ApplicationName,
+    #[error("the application URI is that of an information model")]
+    ModelNamespace,
     #[error("no security policy")]
     NoPolicy,
     #[error("no user token policy")]

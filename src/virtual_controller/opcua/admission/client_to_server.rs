@@ -15,7 +15,7 @@ use super::channel_keys::{ChannelKeys, MessageStart, Sender, decode, token_of};
 use super::chunk_buffer::ChunkBuffer;
 use super::connections::{ClaimedIdentity, GateConnection, StopReason};
 use super::fault::Fault;
-use super::frame::{MessageHeader, MessageKind, channel_of};
+use super::frame::{MessageHeader, MessageKind, channel_of, longest_response};
 use super::gate::Gate;
 use super::logins;
 
@@ -74,6 +74,8 @@ impl<'a> ClientToServer<'a> {
         deadline: Instant,
     ) -> Result<(), StopReason> {
         if let Some(hello) = self.next()? {
+            let longest = self.chunk_buffer.chunk(hello).and_then(longest_response);
+            self.connection.state.lock().longest_response = longest;
             self.chunk_buffer.pass(hello);
         }
         loop {

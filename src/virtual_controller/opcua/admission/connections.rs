@@ -37,6 +37,8 @@ pub(super) struct GateConnection {
 pub(super) struct ConnectionState {
     /// With what it was admitted.
     pub(super) identity: Option<Arc<ClaimedIdentity>>,
+    /// The longest message the client takes, in bytes, if its Hello said so.
+    pub(super) longest_response: Option<usize>,
     /// The secure channel the server gave it.
     pub(super) channel: Option<u32>,
     /// Sessions on it that were looked at and found to belong there.

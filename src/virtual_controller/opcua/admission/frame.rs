@@ -62,6 +62,23 @@ impl MessageHeader {
     }
 }
 
+/// The longest message that a client takes, by its Hello (OPC 10000-6 §7.1.2.3): in bytes, or in chunks that its buffer
+/// bounds. `None` without a limit, or for something else than a whole Hello.
+pub(super) fn longest_response(hello: &[u8]) -> Option<usize> {
+    let fields = hello.get(HEADER..HEADER + 5 * 4)?;
+    let field = |at: usize| -> Option<usize> {
+        let bytes = fields.get(at * 4..)?.first_chunk::<4>()?;
+        usize::try_from(u32::from_le_bytes(*bytes)).ok()
+    };
+    let (buffer, bytes, chunks) = (field(1)?, field(3)?, field(4)?);
+    let by_chunks = (chunks != 0).then(|| buffer.saturating_sub(CHUNK_OVERHEAD).saturating_mul(chunks));
+    let by_bytes = (bytes != 0).then_some(bytes);
+    by_bytes.into_iter().chain(by_chunks).min()
+}
+
+/// More than headers, padding and signature take of a chunk.
+const CHUNK_OVERHEAD: usize = 1024;
+
 /// The part of an OpenSecureChannel chunk that is not encrypted (OPC 10000-6 §6.7.2.3).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(in super::super) struct OpenChannelHeader<'a> {
@@ -214,6 +231,20 @@ pub(in super::super) mod tests {
         let not_text =
             open(0, "x", b"", b"", b"").into_iter().map(|b| if b == b'x' { 0xff } else { b }).collect::<Vec<_>>();
         assert_eq!(OpenChannelHeader::parse(&not_text).unwrap_err().status, StatusCode::BadSecurityPolicyRejected);
+    }
+
+    #[test]
+    fn a_hello_says_how_long_a_response_may_be() {
+        let hello = |buffer: u32, bytes: u32, chunks: u32| {
+            let fields = [0, buffer, 65_535, bytes, chunks].map(u32::to_le_bytes).concat();
+            longest_response(&[&b"HELF\x20\0\0\0"[..], &fields, &u32::MAX.to_le_bytes()].concat())
+        };
+        assert_eq!(hello(65_535, 0, 0), None);
+        assert_eq!(hello(65_535, 20_000, 0), Some(20_000));
+        assert_eq!(hello(9216, 0, 2), Some(16_384));
+        assert_eq!(hello(9216, 10_000, 2), Some(10_000));
+        assert_eq!(hello(100, 0, 5), Some(0));
+        assert_eq!(longest_response(b"HELF"), None);
     }
 
     #[test]

@@ -296,6 +296,11 @@ impl Gate {
         self.reporter.refused(connection.peer, reason);
     }
 
+    /// The longest message the client of a secure channel takes, in bytes; `None` without a limit.
+    pub(in super::super) fn longest_response(&self, channel: u32) -> Option<usize> {
+        self.connections.of_channel(channel)?.state.lock().longest_response
+    }
+
     /// Whether a session belongs to the connection it came by. If it does not, the connection ends.
     ///
     /// `facts`: the certificate of CreateSession, DER, and the ApplicationUri; asked for once a session.

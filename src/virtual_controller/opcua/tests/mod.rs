@@ -48,20 +48,14 @@ fn config(folder: &TempDir) -> OpcUaConfig {
         detailed_status: false,
         refusals: None,
         clock: CertificateClock::default(),
-        identity: DeviceIdentity {
-            name: "Weld 1".to_owned(),
-            series: ControllerSeries::Rc800,
-            serial: "SN0000123".parse().unwrap(),
-            firmware: FirmwareVersion::new(8, 0, 1),
-        },
-        cell: cell(),
+        cell: cell(CellClock::manual()),
         events: ServerEvents::default(),
         pki_folder: folder.path().join("pki"),
     }
 }
 
-/// A cell whose time stands.
-fn cell() -> CellHandle {
+/// The cell of a controller with current firmware and a six-axis robot.
+fn cell(clock: CellClock) -> CellHandle {
     let config = CellConfig {
         name: "Weld 1".parse().unwrap(),
         serial: "SN0000123".parse().unwrap(),
@@ -71,7 +65,7 @@ fn cell() -> CellHandle {
         variables: Vec::new(),
         options: CellOptions::default(),
     };
-    CellHandle::new(Cell::new(config), CellClock::manual())
+    CellHandle::new(Cell::new(config), clock)
 }
 
 async fn start(config: OpcUaConfig) -> OpcUaServer {

@@ -86,33 +86,38 @@ async fn namespace_1_is_the_servers_own_and_the_controller_lies_in_the_device_se
 
     let Variant::Array(namespaces) = client.read(VariableId::Server_NamespaceArray).await else { panic!("no array") };
     let namespaces: Vec<String> = namespaces.values.into_iter().map(string).collect();
-    assert_eq!(namespaces, ["http://opcfoundation.org/UA/", URI, "http://opcfoundation.org/UA/DI/"]);
+    assert_eq!(
+        namespaces,
+        [
+            "http://opcfoundation.org/UA/",
+            URI,
+            "http://opcfoundation.org/UA/DI/",
+            "http://opcfoundation.org/UA/Robotics/"
+        ]
+    );
 
     let objects = client.browse(ObjectId::ObjectsFolder).await;
     let device_set = NodeId::new(2, 5001u32);
     assert!(objects.contains(&("DeviceSet".to_owned(), device_set.clone())), "{objects:?}");
-    let devices = client.browse(device_set).await;
-    let system = NodeId::new(1, "MotionDeviceSystem_0");
-    assert!(devices.contains(&("MotionDeviceSystem_0".to_owned(), system.clone())), "{devices:?}");
-
-    let children = client.browse(system).await;
-    let names: Vec<&str> = children.iter().map(|(name, _)| name.as_str()).collect();
+    let below = async |id: NodeId, name: &str| {
+        let children = client.browse(id).await;
+        let found = children.iter().find(|(known, _)| known == name).map(|(_, id)| id.clone());
+        found.unwrap_or_else(|| panic!("no {name} in {children:?}"))
+    };
+    let system = below(device_set, "MotionDeviceSystem_0").await;
+    let controller = below(below(system, "Controllers").await, "Controller_0").await;
     for (name, value) in [
         ("Manufacturer", "Seiko Epson Corporation"),
         ("Model", "RC800"),
         ("SerialNumber", "SN0000123"),
-        ("SoftwareRevision", "8.0.1"),
-        ("DeviceManual", ""),
+        ("ComponentName", "Weld 1"),
     ] {
-        let (_, id) = children.iter().find(|(n, _)| n == name).unwrap_or_else(|| panic!("{name} of {names:?}"));
-        assert_eq!(string(client.read(id.clone()).await), value, "{name}");
+        assert_eq!(string(client.read(below(controller.clone(), name).await).await), value, "{name}");
     }
-    for (path, value) in [("ControllerName", "Weld 1"), ("ServerStatus", "Run")] {
-        let id = NodeId::new(1, format!("MotionDeviceSystem_0.ControllerStatus.{path}"));
-        assert_eq!(string(client.read(id).await), value);
-    }
+    let software = below(below(controller.clone(), "Software").await, "Software_0").await;
+    assert_eq!(string(client.read(below(software, "SoftwareRevision").await).await), "8.0.1");
 
-    let write = WriteValue::value_attr(NodeId::new(1, "MotionDeviceSystem_0.SerialNumber"), "SN2".into());
+    let write = WriteValue::value_attr(below(controller, "SerialNumber").await, "SN2".into());
     let results = timeout(WAIT_LIMIT, client.session.write(&[write])).await.unwrap().unwrap();
     assert_eq!(results, [StatusCode::BadNotWritable]);
 
