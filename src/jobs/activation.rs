@@ -10,6 +10,7 @@ use crate::model::{ErrorCode, Feature, Problem, SerialNumber};
 /// sent to it.
 #[derive(Debug, Clone)]
 pub struct Activate {
+    /// The keys of one controller, or a file with the keys of many.
     pub keys: KeySource,
 }
 

@@ -30,11 +30,17 @@ impl Operation for ReadBasicSettings {
 /// The settings to be changed; what is `None` stays as it is in each controller.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct BasicSettingsChange {
+    /// TCP port of the OPC UA server.
     pub port: Option<ServerPort>,
+    /// Whether the server starts with the controller.
     pub startup: Option<StartupMode>,
+    /// The security policies that clients may use.
     pub security_policies: Option<BTreeSet<SecurityPolicy>>,
+    /// The ways in which users may log in.
     pub user_tokens: Option<BTreeSet<UserTokenPolicy>>,
+    /// Whether the server log is written.
     pub server_log: Option<bool>,
+    /// Deletes the server log, after it was switched off or before it is switched on.
     pub delete_log: bool,
 }
 
@@ -73,6 +79,7 @@ impl BasicSettingsChange {
 /// Changes the basic settings (manual 2.6.1).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SetBasicSettings {
+    /// What is changed.
     pub change: BasicSettingsChange,
     /// The configuration that a dialog showed; `None` bases the change on the present one.
     pub based_on: Option<RevisionToken>,

@@ -6,9 +6,13 @@ use crate::workspace::ControllerEntry;
 /// A controller as a job sees it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JobController {
+    /// Its name in the list of controllers.
     pub name: ControllerName,
+    /// Where its management protocol answers.
     pub address: Address,
+    /// The protocol that is spoken with it.
     pub connection: ConnectionKind,
+    /// The pinned identity; `None` if it was not confirmed yet.
     pub fingerprint: Option<Fingerprint>,
     /// What was read last; lets an operation refuse before anything is sent.
     pub known: Option<ControllerInfo>,

@@ -13,10 +13,15 @@ use crate::workspace::{CertificateFiles, SavedCsr};
 pub struct CsrFields {
     /// `None`: each controller's own ApplicationName. The only choice for several controllers.
     pub common_name: Option<String>,
+    /// ISO 3166-1 alpha-2 code, or empty.
     pub country: String,
+    /// State or province; may be empty.
     pub state: String,
+    /// City; may be empty.
     pub locality: String,
+    /// Organisation; may be empty.
     pub organisation: String,
+    /// Length of the new key.
     pub key_length: KeyLength,
 }
 
@@ -42,8 +47,11 @@ impl CsrFields {
 /// Legacy firmware gets the key from the PC in place of the old one: its CA-signed certificate is invalid at once.
 #[derive(Debug, Clone)]
 pub struct CreateCsr {
+    /// Who the certificate is for, and the length of the key.
     pub fields: CsrFields,
+    /// How the request is written to the file.
     pub format: FileFormat,
+    /// Where the request is saved.
     pub files: CertificateFiles,
     /// Whether to keep a copy of the key of a legacy controller (manual 2.8.1).
     pub backup: bool,
@@ -54,6 +62,7 @@ pub struct CreateCsr {
 pub struct CsrSaved {
     /// The CommonName of its subject.
     pub common_name: String,
+    /// The file with the request, and what was moved aside for it.
     pub saved: SavedCsr,
 }
 

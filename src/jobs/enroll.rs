@@ -5,7 +5,9 @@ use crate::pki::Fingerprint;
 /// A controller that was met for the first time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Enrolled {
+    /// The identity that was confirmed.
     pub fingerprint: Fingerprint,
+    /// The first information, read after the login.
     pub info: ControllerInfo,
     /// The password works, but could only be kept until the program ends.
     pub password_not_kept: Option<Problem>,

@@ -8,14 +8,18 @@ use crate::workspace::{CertificateFiles, SavedFile};
 /// Saves a controller's self-signed certificate, in use or not, into its folder on the PC (manual 2.7.1.3).
 #[derive(Debug, Clone)]
 pub struct ExportSelfSigned {
+    /// How the certificate is written to the file.
     pub format: FileFormat,
+    /// Where the certificate is saved.
     pub files: CertificateFiles,
 }
 
 /// A server certificate was saved on the PC.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertificateExported {
+    /// Names and dates of the certificate.
     pub summary: CertificateSummary,
+    /// The file, and what was moved aside for it.
     pub saved: SavedFile,
 }
 

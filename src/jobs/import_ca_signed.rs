@@ -82,6 +82,7 @@ async fn read_for_csr(
 /// ([`ErrorCode::Preflight`]).
 #[derive(Debug, Clone)]
 pub struct ImportCaSigned {
+    /// Where the certificate is.
     pub source: CaSignedSource,
     /// Import although some clients may complain. Otherwise that is [`ErrorCode::PreflightWarnings`].
     pub accept_warnings: bool,

@@ -59,6 +59,7 @@ pub enum ServerEffect {
 /// What an operation does that a person must agree to. What only some controllers are subject to is said as well.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Confirmation {
+    /// What happens to a running server.
     pub server: ServerEffect,
     /// The server certificate of the same type in the controller is replaced, and the server uses the new one.
     pub replaces_certificate: bool,
@@ -89,13 +90,19 @@ pub struct Confirmation {
 /// The step a controller is at.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum JobStep {
+    /// Opens the session.
     Connect,
+    /// Reads from the controller.
     Read,
     /// Connecting as an OPC UA client.
     Verify,
+    /// Makes a key, which may take a minute on a slow PC.
     MakeKey,
+    /// Signs a certificate with the key of the small CA.
     Sign,
+    /// Sends the change.
     Apply,
+    /// Saves a backup on the PC.
     SaveBackup,
 }
 
@@ -145,7 +152,9 @@ impl<T: std::fmt::Debug + Send + 'static> OperationOutput for Revisioned<T> {
 
 /// One controller's turn: the open session, and a way to say where it is.
 pub struct OperationRun<'a> {
+    /// The controller this run is about.
     pub controller: &'a JobController,
+    /// The open session with it.
     pub session: &'a mut dyn ControllerSession,
     /// The password among the controller's credentials: protects the files that are saved for it.
     pub password: &'a SecretString,

@@ -11,12 +11,17 @@ pub struct ReadOverview;
 /// Settings of a controller, and how long its lists are.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Overview {
+    /// The basic settings.
     pub settings: ServerSettings,
+    /// Number of users.
     pub users: usize,
+    /// Certificates in the trusted list.
     pub trusted: usize,
+    /// Certificates in the rejected list.
     pub rejected: usize,
     /// `None` where the controller has no such list.
     pub issuers: Option<usize>,
+    /// Number of CRLs.
     pub crls: usize,
 }
 

@@ -12,6 +12,7 @@ use crate::pki::{
 /// A server certificate from elsewhere was installed and selected.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertificateImported {
+    /// Names and dates of the certificate.
     pub summary: CertificateSummary,
     /// What clients may complain about, and was accepted.
     pub findings: Vec<CertificateFinding>,

@@ -19,6 +19,7 @@ use crate::workspace::{BackupKind, KeyBackup, KeyBackupError, KeyBackupSource};
 /// certificate that clients would refuse ([`ErrorCode::Preflight`]).
 #[derive(Debug, Clone)]
 pub struct RestoreBackup {
+    /// Which backup is put back.
     pub source: KeyBackupSource,
     /// What protects the backup; `None`: the connection password.
     pub password: Option<SecretString>,
@@ -95,6 +96,7 @@ impl Operation for RestoreBackup {
 /// Looks at a backup as [`RestoreBackup`] would, and changes nothing.
 #[derive(Debug, Clone)]
 pub struct CheckBackup {
+    /// Which backup is looked at.
     pub source: KeyBackupSource,
     /// What protects the backup; `None`: the connection password.
     pub password: Option<SecretString>,

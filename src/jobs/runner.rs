@@ -15,7 +15,9 @@ use crate::workspace::Passwords;
 /// What every job needs and shares.
 #[derive(Clone)]
 pub struct JobContext {
+    /// The driver of each kind of connection.
     pub connectors: Connectors,
+    /// Where the connection passwords are looked up.
     pub passwords: Arc<dyn Passwords>,
     /// How many controllers are worked on at once.
     pub parallelism: usize,
@@ -64,6 +66,7 @@ impl JobContext {
 /// The result of an operation for one controller. `O`: the operation's [`Operation::Output`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct ControllerReport<O> {
+    /// What the operation returned, or why it failed.
     pub result: Result<O, Problem>,
     /// The controller's information after the operation, whether that succeeded or not; `None` if it was not reached.
     pub info: Option<ControllerInfo>,
@@ -72,20 +75,35 @@ pub struct ControllerReport<O> {
 /// What happens while a job runs. `index` counts the job's controllers.
 #[derive(Debug, Clone, PartialEq)]
 pub enum JobEvent<O> {
-    Step { index: usize, step: JobStep },
-    Finished { index: usize, report: Box<ControllerReport<O>> },
+    /// A controller has reached a step.
+    Step {
+        /// Position of the controller in the job.
+        index: usize,
+        /// The step.
+        step: JobStep,
+    },
+    /// A controller is finished.
+    Finished {
+        /// Position of the controller in the job.
+        index: usize,
+        /// Its result.
+        report: Box<ControllerReport<O>>,
+    },
 }
 
 /// How a job ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct JobSummary {
+    /// Controllers that succeeded.
     pub done: usize,
+    /// Controllers that failed, without those that were cancelled.
     pub failed: usize,
     /// Cancelled before their turn, or before their change was sent.
     pub not_started: usize,
 }
 
 impl JobSummary {
+    /// Counts one result.
     pub fn add<O>(&mut self, result: &Result<O, Problem>) {
         match result {
             Ok(_) => self.done += 1,

@@ -19,11 +19,17 @@ use crate::workspace::{CertificateFiles, SavedCertificate};
 pub struct SelfSignedFields {
     /// `None`: each controller's own ApplicationName. The only choice for several controllers.
     pub common_name: Option<String>,
+    /// ISO 3166-1 alpha-2 code, or empty.
     pub country: String,
+    /// State or province; may be empty.
     pub state: String,
+    /// City; may be empty.
     pub locality: String,
+    /// Organisation; may be empty.
     pub organisation: String,
+    /// Length of the new key.
     pub key_length: KeyLength,
+    /// How long the certificate is valid.
     pub validity: Validity,
 }
 
@@ -48,6 +54,7 @@ impl SelfSignedFields {
 /// current firmware makes both itself.
 #[derive(Debug, Clone)]
 pub struct SelfSigned {
+    /// Who the certificate is for, its key and its validity.
     pub fields: SelfSignedFields,
     /// Where to keep a copy (manual 2.8.1); `None` when backup is off.
     pub backup: Option<CertificateFiles>,
@@ -60,6 +67,7 @@ pub(super) fn bad_request(error: impl std::fmt::Display) -> Problem {
 /// A self-signed certificate was made and is in use.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertificateMade {
+    /// Names and dates of the certificate.
     pub summary: CertificateSummary,
     /// Its backup; `None` when backup is off.
     pub saved: Option<SavedCertificate>,

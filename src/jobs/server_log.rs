@@ -25,9 +25,11 @@ const MAX_TIME: Duration = Duration::from_secs(120);
 /// asked for, or that goes on without text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ReadLog {
+    /// Which part is read.
     pub part: LogPart,
 }
 
+/// A part of the server log.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LogPart {
     /// The last of it, up to 256 KiB: one request.
@@ -39,12 +41,14 @@ pub enum LogPart {
 /// Reads the whole server log and saves it on the PC as text ([`untrusted_text::lines`]), readable by its owner only. A file of the same name is replaced. Limits and errors are those of [`ReadLog`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SaveLog {
+    /// The file to be written.
     pub path: PathBuf,
 }
 
 /// The server log is in this file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct LogSaved {
+    /// The file that was written.
     pub path: PathBuf,
 }
 

@@ -13,6 +13,7 @@ use crate::workspace::{SettingsFiles, check_passphrase, check_protects_files};
 /// them: passwords' hashes never lie open on the PC.
 #[derive(Debug, Clone)]
 pub struct ExportSettings {
+    /// Where exports are saved.
     pub files: SettingsFiles,
     /// `None`: each controller's connection password, as with its key files; an empty one is refused
     /// ([`ErrorCode::UnprotectedFile`](crate::model::ErrorCode::UnprotectedFile)).
@@ -22,6 +23,7 @@ pub struct ExportSettings {
 /// Puts exports back into the controllers they were made by, whole or not at all (manual 2.6.5).
 #[derive(Debug, Clone)]
 pub struct ImportSettings {
+    /// Where exports are looked for.
     pub files: SettingsFiles,
     /// What the exports were sealed with; `None`: each controller's connection password.
     pub passphrase: Option<SecretString>,
@@ -30,6 +32,7 @@ pub struct ImportSettings {
 /// The settings of the controller are in this file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SettingsExported {
+    /// The file that was written.
     pub path: PathBuf,
 }
 
@@ -42,6 +45,7 @@ impl OperationOutput for SettingsExported {
 /// The settings of this file are in the controller.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SettingsImported {
+    /// The file that was read.
     pub path: PathBuf,
 }
 

@@ -21,6 +21,7 @@ pub struct SharedAuthority {
 }
 
 impl SharedAuthority {
+    /// `passphrase`: that of the CA's key. Nothing is read before the first certificate is needed.
     pub fn new(files: AuthorityFiles, passphrase: SecretString) -> Self {
         Self { files, passphrase, opened: Mutex::new(None) }
     }
@@ -44,6 +45,7 @@ impl SharedAuthority {
 /// operation can simply be repeated. A controller that uses it already is left alone.
 #[derive(Debug, Clone)]
 pub struct SignCsrs {
+    /// The CA, shared by all controllers of the job.
     pub authority: Arc<SharedAuthority>,
     /// How a controller is asked for a signing request.
     pub request: CreateCsr,
@@ -51,6 +53,7 @@ pub struct SignCsrs {
     pub new_key: bool,
     /// Sign again what was signed before.
     pub renew: bool,
+    /// How long the certificates are valid.
     pub validity: Validity,
     /// See [`IssueRequest::allow_short_keys`].
     pub allow_short_keys: bool,

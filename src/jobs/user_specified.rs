@@ -21,8 +21,11 @@ use crate::workspace::{CertificateFiles, read_import_file};
 pub enum UserSpecifiedFiles {
     /// A PKCS#12 with key and certificate.
     Pfx(PathBuf),
+    /// Certificate and key in two files.
     Pair {
+        /// The certificate, with or without its chain; PEM or DER.
         certificate: PathBuf,
+        /// The private key; PEM or DER.
         key: PathBuf,
     },
     /// The only `.pfx` in a controller's folder, found when it is read.
@@ -86,7 +89,9 @@ fn at(path: &Path, error: PkiError) -> Problem {
 /// would refuse ([`ErrorCode::Preflight`]).
 #[derive(Debug, Clone)]
 pub struct ImportUserSpecified {
+    /// The files to be imported.
     pub files: UserSpecifiedFiles,
+    /// Password of the file or of the key; `None` where it has none.
     pub password: Option<SecretString>,
     /// Import although some clients may complain. Otherwise that is [`ErrorCode::PreflightWarnings`].
     pub accept_warnings: bool,
@@ -127,7 +132,9 @@ impl Operation for ImportUserSpecified {
 /// Looks at key and certificate as [`ImportUserSpecified`] would, and changes nothing.
 #[derive(Debug, Clone)]
 pub struct CheckUserSpecified {
+    /// The files to be looked at.
     pub files: UserSpecifiedFiles,
+    /// Password of the file or of the key; `None` where it has none.
     pub password: Option<SecretString>,
 }
 

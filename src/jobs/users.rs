@@ -24,6 +24,7 @@ impl Operation for ListUsers {
 /// Adds one user (manual 2.6.2.2).
 #[derive(Debug, Clone)]
 pub struct AddUser {
+    /// Name and password of the new user.
     pub credential: UserCredential,
     /// The configuration that a dialog showed; `None` bases the change on the present one.
     pub based_on: Option<RevisionToken>,
@@ -55,6 +56,7 @@ impl Operation for AddUser {
 /// Removes users (manual 2.6.2.3).
 #[derive(Debug, Clone)]
 pub struct RemoveUsers {
+    /// The users to be removed.
     pub names: Vec<UserName>,
     /// The configuration that a dialog showed; `None` bases the change on the present one.
     pub based_on: Option<RevisionToken>,

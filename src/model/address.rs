@@ -19,33 +19,47 @@ pub struct Address {
     port: u16,
 }
 
+/// Why a text is not an [`Address`]. Each variant but `Empty` quotes the part of the text that is wrong.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum AddressError {
+    /// There is no text.
     #[error("the address is empty")]
     Empty,
+    /// The host is neither an IP address nor a host name.
     #[error("\"{0}\" is not an IP address or a host name")]
     Host(String),
+    /// The port is not a number from 1 to 65535.
     #[error("\"{0}\" is not a port between 1 and 65535")]
     Port(String),
     /// The address of an OPC UA server or of a web page names another port and protocol.
     #[error("leave out \"{0}://\", and give the address, and perhaps the port, of the management protocol")]
     Scheme(String),
+    /// Something follows the port, as in a URL.
     #[error("leave out \"{0}\"")]
     Path(String),
     /// Some programs read them as octal numbers.
     #[error("\"{found}\" has leading zeros; write {meant}")]
-    LeadingZeros { found: String, meant: String },
+    LeadingZeros {
+        /// The number as it was written.
+        found: String,
+        /// The address without leading zeros, to be proposed.
+        meant: String,
+    },
+    /// The IPv6 address has a zone (`%eth0`), which has a meaning on one computer only.
     #[error("the zone \"{0}\" is not supported; give an address that needs none")]
     Zone(String),
+    /// The host name holds characters outside ASCII.
     #[error("\"{0}\" has characters that are not ASCII; use half-width digits, and the \"xn--\" form of a host name")]
     NotAscii(String),
 }
 
 impl Address {
+    /// The host, without the square brackets of an IPv6 address; host names in lower case.
     pub fn host(&self) -> &str {
         &self.host
     }
 
+    /// The TCP port; the default of the management protocol if the text named none.
     pub fn port(&self) -> u16 {
         self.port
     }

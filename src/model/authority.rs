@@ -16,8 +16,10 @@ pub enum CertificateProfile {
 }
 
 impl CertificateProfile {
+    /// Both, in the order of the dialogs.
     pub const ALL: [Self; 2] = [Self::Server, Self::Client];
 
+    /// `server` or `client`: the word in JSON and on the command line.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Server => "server",
@@ -37,9 +39,12 @@ pub struct AuthorityValidity(u8);
 pub struct InvalidAuthorityValidity(pub u8);
 
 impl AuthorityValidity {
+    /// Shortest validity, in years.
     pub const MIN_YEARS: u8 = 1;
+    /// Longest validity, in years.
     pub const MAX_YEARS: u8 = 30;
 
+    /// The validity in years, 1–30.
     pub const fn years(self) -> u8 {
         self.0
     }
@@ -78,9 +83,11 @@ impl From<AuthorityValidity> for u8 {
 /// What the certificate of a CA is to be made of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AuthorityRequest {
+    /// Name of the CA. The common name is required.
     pub subject: Subject,
     /// 2048 or 4096 bits.
     pub key_length: KeyLength,
+    /// How long the certificate of the CA is valid.
     pub validity: AuthorityValidity,
 }
 

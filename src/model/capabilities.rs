@@ -80,6 +80,7 @@ impl Capabilities {
         self
     }
 
+    /// Whether the controller offers this feature.
     pub fn offers(&self, feature: Feature) -> bool {
         self.missing(feature).is_none()
     }

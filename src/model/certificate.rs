@@ -11,13 +11,16 @@ use super::{Country, SecurityPolicy, SerialNumber};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CertificateType {
+    /// Made and signed by the controller or by this program (manual 2.7.1.2).
     SelfSigned,
     /// Legacy firmware only.
     UserSpecified,
+    /// Issued by a CA for a signing request of the controller (manual 2.7.1.5).
     CaSigned,
 }
 
 impl CertificateType {
+    /// All types, in the order of their numbers.
     pub const ALL: [Self; 3] = [Self::SelfSigned, Self::UserSpecified, Self::CaSigned];
 
     /// As the protocol and `--json` write it.
@@ -45,13 +48,17 @@ impl CertificateType {
 pub enum KeyLength {
     /// Only the deprecated policies take it.
     Rsa1024,
+    /// 2048 bits; allowed by every security policy.
     Rsa2048,
+    /// 4096 bits; not allowed by `Basic128Rsa15` and `Basic256`.
     Rsa4096,
 }
 
 impl KeyLength {
+    /// All lengths, the shortest first.
     pub const ALL: [Self; 3] = [Self::Rsa1024, Self::Rsa2048, Self::Rsa4096];
 
+    /// Length of the modulus in bits.
     pub const fn bits(self) -> u16 {
         match self {
             Self::Rsa1024 => 1024,
@@ -97,9 +104,12 @@ pub fn offered_key_lengths(policies: &BTreeSet<SecurityPolicy>) -> Vec<KeyLength
 pub struct Validity(u8);
 
 impl Validity {
+    /// Shortest validity, in years.
     pub const MIN_YEARS: u8 = 1;
+    /// Longest validity, in years.
     pub const MAX_YEARS: u8 = 10;
 
+    /// The validity in years, 1–10.
     pub const fn years(self) -> u8 {
         self.0
     }
@@ -135,26 +145,36 @@ pub struct Subject {
     pub common_name: String,
     /// An ISO 3166-1 alpha-2 code.
     pub country: String,
+    /// State or province (ST); may be empty.
     pub state: String,
+    /// City (L); may be empty.
     pub locality: String,
+    /// Organisation (O); may be empty.
     pub organisation: String,
 }
 
 /// Which field of a certificate request is wrong, and how.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum SubjectError {
+    /// A required field is empty; holds its name.
     #[error("{0} is empty")]
     Empty(&'static str),
+    /// A field is too long: its name, its length and the greatest length, in characters.
     #[error("{0} has {1} characters; at most {2} are allowed")]
     TooLong(&'static str, usize, usize),
+    /// A field holds other characters than half-width printable ones; holds its name.
     #[error("{0} contains a character that is not half-width printable")]
     Characters(&'static str),
+    /// The country is no ISO 3166-1 alpha-2 code; holds the text.
     #[error("\"{0}\" is not an ISO 3166-1 alpha-2 country code")]
     Country(String),
+    /// The key length is none of [`KeyLength::ALL`]; holds the bits.
     #[error("{0} is not a key length; choose 1024, 2048 or 4096")]
     KeyLength(u16),
+    /// A ticked security policy does not allow this key length; holds the bits.
     #[error("the ticked security policies do not allow {0}-bit keys")]
     KeyLengthNotAllowed(u16),
+    /// The validity is out of range; holds the years.
     #[error("{0} years is not a validity; choose 1 to 10")]
     Years(u8),
 }
@@ -190,12 +210,17 @@ impl Subject {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SelfSignedRequest {
+    /// Who the certificate is for.
     pub subject: Subject,
+    /// Length of the new key.
     pub key_length: KeyLength,
+    /// How long the certificate is valid.
     pub validity: Validity,
 }
 
 impl SelfSignedRequest {
+    /// Checks the fields, and the key length against the ticked security policies. Returns the first field that is
+    /// wrong.
     pub fn check(&self, policies: &BTreeSet<SecurityPolicy>) -> Result<(), SubjectError> {
         check_request(&self.subject, self.key_length, policies)
     }
@@ -206,11 +231,14 @@ impl SelfSignedRequest {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CsrRequest {
+    /// Who the certificate is for.
     pub subject: Subject,
+    /// Length of the new key.
     pub key_length: KeyLength,
 }
 
 impl CsrRequest {
+    /// As [`SelfSignedRequest::check`].
     pub fn check(&self, policies: &BTreeSet<SecurityPolicy>) -> Result<(), SubjectError> {
         check_request(&self.subject, self.key_length, policies)
     }
@@ -232,12 +260,15 @@ fn check_request(
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum FileFormat {
+    /// Binary (ITU-T X.690), `.der` or `.csr`.
     #[default]
     Der,
+    /// Base64 between `-----BEGIN …` and `-----END …` (RFC 7468).
     Pem,
 }
 
 impl FileFormat {
+    /// Both, the default first.
     pub const ALL: [Self; 2] = [Self::Der, Self::Pem];
 
     /// The file name extension, without its dot.
@@ -259,14 +290,19 @@ pub fn default_common_name(serial: &SerialNumber, ip: Ipv4Addr) -> String {
 /// What a list shows of one certificate without holding it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CertificateSummary {
+    /// Common name of the subject, or the whole subject where it has none.
     pub issued_to: String,
+    /// Common name of the issuer, or the whole name where it has none.
     pub issued_by: String,
     /// Upper-case hexadecimal.
     pub serial_number: String,
+    /// First moment of the validity.
     pub not_before: DateTime<Utc>,
+    /// Last moment of the validity.
     pub not_after: DateTime<Utc>,
     /// SHA-1 of the DER, upper-case hexadecimal: the one OPC UA tools show.
     pub thumbprint: String,
+    /// Length of the public key in bits.
     pub key_bits: u16,
     /// The first URI of the subject alternative name.
     pub application_uri: Option<String>,

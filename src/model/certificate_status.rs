@@ -10,21 +10,35 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "&'static str")]
 pub enum CertificateStatus {
+    /// `BadCertificateInvalid`: the structure, an extension or the signature is wrong.
     CertificateInvalid,
+    /// `BadCertificateChainIncomplete`: no chain to a trusted certificate was found.
     ChainIncomplete,
     /// What a peer is told instead of the truth, so that it learns nothing. The validator never gives it.
     SecurityChecksFailed,
+    /// `BadCertificatePolicyCheckFailed`: the key or the signature does not satisfy the security policy.
     PolicyCheckFailed,
+    /// `BadCertificateUntrusted`: neither the certificate nor a CA above it is trusted.
     Untrusted,
+    /// `BadCertificateTimeInvalid`: the certificate is expired or not valid yet.
     TimeInvalid,
+    /// `BadCertificateIssuerTimeInvalid`: a CA certificate of the chain is expired or not valid yet.
     IssuerTimeInvalid,
+    /// `BadCertificateHostNameInvalid`: the certificate does not name the host.
     HostNameInvalid,
+    /// `BadCertificateUriInvalid`: the certificate does not name the application URI.
     UriInvalid,
+    /// `BadCertificateUseNotAllowed`: key usage or extended key usage do not allow the use.
     UseNotAllowed,
+    /// `BadCertificateIssuerUseNotAllowed`: a certificate of the chain may not issue others.
     IssuerUseNotAllowed,
+    /// `BadCertificateRevocationUnknown`: no usable CRL says whether the certificate is revoked.
     RevocationUnknown,
+    /// `BadCertificateIssuerRevocationUnknown`: no usable CRL says whether a CA of the chain is revoked.
     IssuerRevocationUnknown,
+    /// `BadCertificateRevoked`: a CRL revokes the certificate.
     Revoked,
+    /// `BadCertificateIssuerRevoked`: a CRL revokes a CA of the chain.
     IssuerRevoked,
 }
 
@@ -34,6 +48,7 @@ pub enum CertificateStatus {
 pub struct UnknownCertificateStatus(String);
 
 impl CertificateStatus {
+    /// All statuses, in the order of the steps of OPC 10000-4 §6.1.3.
     pub const ALL: [Self; 15] = [
         Self::CertificateInvalid,
         Self::ChainIncomplete,

@@ -15,6 +15,7 @@ pub enum ClientList {
 }
 
 impl ClientList {
+    /// `trusted`, `issuers` or `rejected`: the word in JSON and on the command line.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Trusted => "trusted",
@@ -27,9 +28,11 @@ impl ClientList {
 /// How much fits into each list of one controller, as the controller itself reports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ListLimits {
+    /// Most certificates in the trusted list.
     pub trusted: usize,
     /// 0 where the firmware has no such list.
     pub issuers: usize,
+    /// Most CRLs.
     pub crls: usize,
 }
 

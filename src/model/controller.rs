@@ -9,17 +9,22 @@ use super::file_names::is_reserved;
 /// The controller series a configurator can talk to (manual 1.3.1.1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum ControllerSeries {
+    /// The RC90 series.
     #[serde(rename = "RC90")]
     Rc90,
+    /// The RC700 series.
     #[serde(rename = "RC700")]
     Rc700,
+    /// The T and VT series, whose controller is built into the manipulator.
     #[serde(rename = "T/VT")]
     TVt,
+    /// The RC800 series.
     #[serde(rename = "RC800")]
     Rc800,
 }
 
 impl ControllerSeries {
+    /// All series, in the order of the manual.
     pub const ALL: [Self; 4] = [Self::Rc90, Self::Rc700, Self::TVt, Self::Rc800];
 
     /// The series assumed for a controller that was not reached yet and whose connection list does not name one: the
@@ -100,10 +105,12 @@ pub enum FirmwareGeneration {
 }
 
 impl FirmwareVersion {
+    /// The version `major.minor.patch`.
     pub const fn new(major: u16, minor: u16, patch: u16) -> Self {
         Self { major, minor, patch }
     }
 
+    /// The set of rules that this version follows (manual 1.3.1.1).
     pub const fn generation(self) -> FirmwareGeneration {
         if self.major < 8 { FirmwareGeneration::Legacy } else { FirmwareGeneration::Current }
     }
@@ -115,6 +122,7 @@ impl fmt::Display for FirmwareVersion {
     }
 }
 
+/// The text is no `major.minor.patch`; holds the text.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("\"{0}\" is not a firmware version such as 7.5.4")]
 pub struct VersionError(String);
@@ -139,16 +147,22 @@ text_in_messages!(FirmwareVersion, VersionError);
 /// Why a name, a serial number or a series was not understood.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum NameError {
+    /// There is no text.
     #[error("the name is empty")]
     Empty,
+    /// The name is too long; holds its length in characters.
     #[error("the name has {0} characters; at most {max} are allowed", max = ControllerName::MAX_CHARS)]
     TooLong(usize),
+    /// The name holds a control character.
     #[error("the name contains a control character")]
     ControlCharacter,
+    /// The text is no serial number; holds the text.
     #[error("\"{0}\" is not a serial number: 1 to 32 letters, digits, \"-\" or \"_\"")]
     Serial(String),
+    /// Windows reserves this serial number as a device name, so it cannot name a folder; holds the text.
     #[error("\"{0}\" cannot be a serial number: its folder would have a name that is kept for something else")]
     ReservedSerial(String),
+    /// No series has this name; holds the text.
     #[error("\"{0}\" is not a controller series; known are RC90, RC700, T/VT and RC800")]
     UnknownSeries(String),
 }
@@ -161,8 +175,10 @@ pub enum NameError {
 pub struct ControllerName(String);
 
 impl ControllerName {
+    /// Longest name, in Unicode characters.
     pub const MAX_CHARS: usize = 32;
 
+    /// The name as it was entered.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -205,6 +221,7 @@ impl SerialNumber {
     /// What the workspace keeps beside the folders of controllers; in any case of letters.
     pub const WORKSPACE_FOLDERS: [&str; 3] = ["CA", "Configurator", "virtual"];
 
+    /// The serial number as the controller reports it.
     pub fn as_str(&self) -> &str {
         &self.0
     }

@@ -2,7 +2,12 @@ macro_rules! countries {
     ($($code:ident,)*) => {
         /// A country that the subject of a certificate may name, by its ISO 3166-1 alpha-2 code.
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub enum Country { $($code),* }
+        pub enum Country {
+            $(
+                #[doc = concat!("ISO 3166-1 alpha-2: `", stringify!($code), "`.")]
+                $code,
+            )*
+        }
 
         impl Country {
             /// In the order of their codes.

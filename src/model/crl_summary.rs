@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 pub struct CrlSummary {
     /// The common name of the authority, or its whole name where there is none.
     pub issuer: String,
+    /// When the CRL was issued (`thisUpdate`).
     pub this_update: DateTime<Utc>,
     /// When the authority promised the next one; after that, this one says nothing any more.
     pub next_update: Option<DateTime<Utc>>,

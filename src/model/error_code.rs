@@ -20,10 +20,15 @@ macro_rules! error_codes {
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
         #[non_exhaustive]
         pub enum ErrorCode {
-            $(#[serde(rename = $wire_name)] $code,)*
+            $(
+                #[doc = concat!("`", $wire_name, "`; arises in: ", stringify!($origin), ".")]
+                #[serde(rename = $wire_name)]
+                $code,
+            )*
         }
 
         impl ErrorCode {
+            /// All codes, in the order of their table.
             pub const ALL: &[Self] = &[$(Self::$code),*];
 
             /// The code as the protocol and `--json` write it.
@@ -31,6 +36,7 @@ macro_rules! error_codes {
                 match self { $(Self::$code => $wire_name),* }
             }
 
+            /// Where the error can arise.
             pub const fn origin(self) -> ErrorOrigin {
                 match self { $(Self::$code => ErrorOrigin::$origin),* }
             }

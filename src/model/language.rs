@@ -4,13 +4,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Language {
+    /// English.
     #[default]
     En,
+    /// Simplified Chinese.
     Zh,
+    /// Japanese.
     Ja,
 }
 
 impl Language {
+    /// All languages, in the order of the options.
     pub const ALL: [Self; 3] = [Self::En, Self::Zh, Self::Ja];
 
     /// ISO 639-1, as in locale names, in the configuration file and after `--lang`.

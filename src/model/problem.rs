@@ -12,16 +12,20 @@ use super::untrusted_text::one_line;
 /// that a terminal obeys ([`super::untrusted_text`]).
 #[derive(Debug, Clone, PartialEq, Eq, Error, Serialize, Deserialize)]
 pub struct Problem {
+    /// What went wrong.
     pub code: ErrorCode,
+    /// A technical detail: English, one line, without secrets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub detail: Option<String>,
 }
 
 impl Problem {
+    /// A problem without a detail.
     pub const fn new(code: ErrorCode) -> Self {
         Self { code, detail: None }
     }
 
+    /// A problem with a detail, made one line of bounded length without control characters.
     pub fn with_detail(code: ErrorCode, detail: impl fmt::Display) -> Self {
         Self { code, detail: Some(one_line(&detail.to_string(), MAX_DETAIL_CHARS)) }
     }

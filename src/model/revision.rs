@@ -33,6 +33,8 @@ impl fmt::Display for RevisionToken {
 /// A value, and the configuration that it was read from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Revisioned<T> {
+    /// The configuration that the value was read from.
     pub revision: RevisionToken,
+    /// The value.
     pub value: T,
 }

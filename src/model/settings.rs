@@ -8,15 +8,22 @@ use thiserror::Error;
 /// The OPC UA security policies a controller offers (manual 2.6.1; OPC 10000-7).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 pub enum SecurityPolicy {
+    /// `None`: messages are neither signed nor encrypted.
     None,
+    /// `Basic128Rsa15`; SHA-1, deprecated by OPC 10000-7.
     Basic128Rsa15,
+    /// `Basic256`; SHA-1, deprecated by OPC 10000-7.
     Basic256,
+    /// `Basic256Sha256`.
     Basic256Sha256,
+    /// `Aes128_Sha256_RsaOaep`.
     Aes128Sha256RsaOaep,
+    /// `Aes256_Sha256_RsaPss`.
     Aes256Sha256RsaPss,
 }
 
 impl SecurityPolicy {
+    /// All policies, the weakest first.
     pub const ALL: [Self; 6] = [
         Self::None,
         Self::Basic128Rsa15,
@@ -26,6 +33,7 @@ impl SecurityPolicy {
         Self::Aes256Sha256RsaPss,
     ];
 
+    /// The name in the manual, in JSON and on the command line.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::None => "None",
@@ -69,14 +77,17 @@ impl FromStr for SecurityPolicy {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum UserTokenPolicy {
+    /// Without a name.
     Anonymous,
     /// User name and password.
     UserName,
 }
 
 impl UserTokenPolicy {
+    /// Both, in the order of the dialog.
     pub const ALL: [Self; 2] = [Self::Anonymous, Self::UserName];
 
+    /// The name in the manual, in JSON and on the command line.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Anonymous => "anonymous",
@@ -108,8 +119,10 @@ pub enum StartupMode {
 }
 
 impl StartupMode {
+    /// Both, in the order of the dialog.
     pub const ALL: [Self; 2] = [Self::Auto, Self::Manual];
 
+    /// The name in the manual, in JSON and on the command line.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Auto => "AUTO",
@@ -136,20 +149,24 @@ impl FromStr for StartupMode {
 #[serde(try_from = "u16", into = "u16")]
 pub struct ServerPort(u16);
 
+/// Why a number is no [`ServerPort`].
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PortError {
     /// The manual's own message (6.2).
     #[error("\"{0}\" is not a port between 0 and 65535")]
     NotAPort(String),
+    /// The port belongs to the system (0–1023).
     #[error("port {0} belongs to the system; choose one from {min} to 65535", min = ServerPort::MIN)]
     System(u16),
 }
 
 impl ServerPort {
+    /// Smallest port that a server may use.
     pub const MIN: u16 = 1024;
     /// The port IANA registered for `opc.tcp`.
     pub const DEFAULT: Self = Self(4840);
 
+    /// The port number.
     pub const fn get(self) -> u16 {
         self.0
     }
@@ -186,7 +203,9 @@ impl fmt::Display for ServerPort {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ServerSettings {
+    /// TCP port of the OPC UA server.
     pub port: ServerPort,
+    /// Whether the server starts with the controller.
     pub startup: StartupMode,
     /// At least one.
     pub security_policies: BTreeSet<SecurityPolicy>,
@@ -196,16 +215,22 @@ pub struct ServerSettings {
     pub server_log: bool,
 }
 
+/// Why settings cannot be applied (manual 2.6.1).
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum SettingsError {
+    /// No security policy is ticked.
     #[error("no security policy is ticked")]
     NoPolicy,
+    /// No user token policy is ticked.
     #[error("no user token policy is ticked")]
     NoToken,
+    /// No security policy has this name; holds the text.
     #[error("\"{0}\" is not a security policy")]
     UnknownPolicy(String),
+    /// No user token policy has this name; holds the text.
     #[error("\"{0}\" is not a user token policy; known are anonymous and username")]
     UnknownToken(String),
+    /// No startup mode has this name; holds the text.
     #[error("\"{0}\" is not a startup mode; known are auto and manual")]
     UnknownStartup(String),
 }
@@ -213,6 +238,7 @@ pub enum SettingsError {
 /// What is allowed but deserves a word before it is applied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SettingsWarning {
+    /// A ticked policy is deprecated by OPC 10000-7 or gives no security.
     WeakPolicy(SecurityPolicy),
     /// Nobody can log in: user names are required and none exists.
     NoUsers,

@@ -24,6 +24,7 @@ impl StoredServerCertificates {
 /// One server certificate.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct StoredServerCertificate {
+    /// How the certificate came to be.
     #[serde(rename = "type")]
     pub kind: CertificateType,
     /// DER.

@@ -9,9 +9,17 @@ use thiserror::Error;
 pub enum TextError {
     /// Older spreadsheets write the code page of the computer, such as Windows-1252 or GBK.
     #[error("line {line} is not UTF-8 text; save the file as UTF-8 (in Excel: \"CSV UTF-8\")")]
-    NotUtf8 { line: usize },
+    NotUtf8 {
+        /// Line of the first wrong byte, counted from 1.
+        line: usize,
+    },
+    /// The byte order mark says UTF-16, but the bytes are not.
     #[error("line {line} is damaged UTF-16 text; save the file as UTF-8")]
-    NotUtf16 { line: usize },
+    NotUtf16 {
+        /// Line of the first wrong character, counted from 1.
+        line: usize,
+    },
+    /// The text is UTF-32, which is not read.
     #[error("it is UTF-32 text; save the file as UTF-8")]
     Utf32,
 }

@@ -14,7 +14,9 @@ pub struct TextTableRow {
 /// A table, and what separates its fields.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TextTable {
+    /// The rows that are not empty, in the order of the file.
     pub rows: Vec<TextTableRow>,
+    /// What separates the fields: comma, semicolon or tab.
     pub separator: char,
 }
 

@@ -12,6 +12,7 @@ pub struct ListedCertificate {
     pub file_name: String,
     /// DER.
     pub certificate: Base64Bytes,
+    /// Names, dates and thumbprint of the certificate.
     pub summary: CertificateSummary,
     /// By the controller's clock.
     pub added: DateTime<Utc>,
@@ -25,6 +26,7 @@ pub struct ListedCrl {
     /// DER. `None` where the list would become too large: the CRL is read on its own then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub crl: Option<Base64Bytes>,
+    /// Issuer, number and dates of the CRL.
     pub summary: CrlSummary,
     /// By the controller's clock.
     pub added: DateTime<Utc>,
@@ -45,18 +47,41 @@ pub struct TrustStamp {
 pub enum TrustStep {
     /// Adds DER certificates to the trusted or the issuers list, each with the file name it is shown under. A list never
     /// holds the same certificate twice.
-    Add { list: ClientList, certificates: Vec<(String, Base64Bytes)> },
+    Add {
+        /// Trusted or issuers.
+        list: ClientList,
+        /// Certificate names and their DER.
+        certificates: Vec<(String, Base64Bytes)>,
+    },
     /// By thumbprint, each of which must be in the list.
-    Remove { list: ClientList, thumbprints: Vec<String> },
+    Remove {
+        /// Any list.
+        list: ClientList,
+        /// SHA-1 of each certificate, in hexadecimal.
+        thumbprints: Vec<String>,
+    },
     /// By thumbprint, from one list into another.
-    Move { from: ClientList, to: ClientList, thumbprints: Vec<String> },
+    Move {
+        /// The list that holds the certificates.
+        from: ClientList,
+        /// The list they go into.
+        to: ClientList,
+        /// SHA-1 of each certificate, in hexadecimal.
+        thumbprints: Vec<String>,
+    },
     /// Adds DER CRLs, each with the file name it is shown under. A CRL replaces the one of the same issuer (same name,
     /// same authority key identifier) for the same certificates (same issuing distribution point) if it is newer: by its
     /// `thisUpdate`, then by CRL number. An older one is refused with
     /// [`ErrorCode::CrlOutdated`](super::ErrorCode::CrlOutdated).
-    AddCrls { crls: Vec<(String, Base64Bytes)> },
+    AddCrls {
+        /// CRL names and their DER.
+        crls: Vec<(String, Base64Bytes)>,
+    },
     /// By [`CrlSummary::id`], each of which must be in the controller.
-    RemoveCrls { ids: Vec<String> },
+    RemoveCrls {
+        /// The identifier of each CRL in the controller.
+        ids: Vec<String>,
+    },
 }
 
 /// A client whose open connection the controller ended because the client is no longer accepted.
@@ -64,8 +89,11 @@ pub enum TrustStep {
 pub struct DisconnectedClient {
     /// IP address and port.
     pub address: String,
+    /// Common name of its certificate.
     pub issued_to: String,
+    /// SHA-1 of its certificate, in hexadecimal.
     pub thumbprint: String,
+    /// Why the certificate is not accepted any more.
     pub status: CertificateStatus,
 }
 

@@ -14,8 +14,10 @@ const MAX_CHARS: usize = 32;
 /// Which rule of manual 2.6.2.2 a user name or password breaks. Never carries the password itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum UserCredentialError {
+    /// The text has fewer than 8 or more than 32 characters; holds how many.
     #[error("it has {0} characters; 8 to 32 are required")]
     Length(usize),
+    /// A character is neither an ASCII letter nor a digit.
     #[error("only the letters A–Z, a–z and the digits 0–9 are allowed")]
     Characters,
 }
@@ -36,6 +38,7 @@ fn check(text: &str) -> Result<(), UserCredentialError> {
 pub struct UserName(String);
 
 impl UserName {
+    /// The name as it was entered.
     pub fn as_str(&self) -> &str {
         &self.0
     }
@@ -61,14 +64,17 @@ impl fmt::Display for UserName {
 pub struct UserPassword(SecretString);
 
 impl UserPassword {
+    /// Checks the rules of manual 2.6.2.2. The text passed in is not wiped: that is up to the caller.
     pub fn new(text: &str) -> Result<Self, UserCredentialError> {
         check(text).map(|()| Self(SecretString::from(text)))
     }
 
+    /// The password, still protected from `Debug`.
     pub fn secret(&self) -> &SecretString {
         &self.0
     }
 
+    /// The password in plain text.
     pub fn expose(&self) -> &str {
         self.0.expose_secret()
     }
@@ -77,7 +83,9 @@ impl UserPassword {
 /// A user to be added.
 #[derive(Debug, Clone)]
 pub struct UserCredential {
+    /// Name of the user.
     pub name: UserName,
+    /// Password of the user.
     pub password: UserPassword,
 }
 

@@ -15,7 +15,9 @@ const MAX_ITEMS: usize = 1000;
 /// What a file with public trust material holds, each in the order of the file.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Bundle {
+    /// The certificates.
     pub certificates: Vec<Certificate>,
+    /// The revocation lists.
     pub crls: Vec<Crl>,
 }
 

@@ -21,12 +21,19 @@ use crate::model::Cause;
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum ExtendedKeyUsage {
+    /// Every use (2.5.29.37.0).
     AnyExtendedKeyUsage,
+    /// A TLS or OPC UA server.
     ServerAuth,
+    /// A TLS or OPC UA client.
     ClientAuth,
+    /// Signing of programs.
     CodeSigning,
+    /// Protection of e-mail.
     EmailProtection,
+    /// Signing of time stamps.
     TimeStamping,
+    /// Signing of OCSP answers.
     #[serde(rename = "OCSPSigning")]
     OcspSigning,
     /// Its object identifier.
@@ -53,9 +60,13 @@ impl ExtendedKeyUsage {
 #[derive(Debug, Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AlternativeName {
+    /// A URI, such as the application URI of an OPC UA application.
     Uri(String),
+    /// A DNS name.
     Dns(String),
+    /// An IP address.
     Ip(IpAddr),
+    /// An e-mail address.
     Email(String),
     /// Of a kind OPC UA has no use for.
     Other(String),
@@ -76,7 +87,9 @@ impl fmt::Display for AlternativeName {
 /// Whether a certificate is that of a CA, and how many CAs may stand below it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BasicConstraints {
+    /// Whether the certificate is that of a CA.
     pub ca: bool,
+    /// Most CA certificates that may follow below it, self-issued ones not counted; `None`: no limit.
     pub path_length: Option<u32>,
 }
 

@@ -12,7 +12,9 @@ use crate::model::{KeyLength, Subject, Validity, with_cause, with_told_cause};
 ///
 /// `Debug` shows the certificate only.
 pub struct ClientIdentity {
+    /// The certificate.
     pub certificate: Certificate,
+    /// Its private key.
     pub key: PrivateKey,
 }
 

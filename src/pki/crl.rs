@@ -62,7 +62,9 @@ struct RevokedEntry {
 /// What a revocation list says of one certificate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RevocationEntry {
+    /// When the certificate was revoked.
     pub date: DateTime<Utc>,
+    /// Why it was revoked; [`RevocationReason::Unspecified`] where the list does not tell.
     pub reason: RevocationReason,
 }
 

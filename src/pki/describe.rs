@@ -25,29 +25,44 @@ use crate::model::{Cause, Language, with_cause};
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Description {
+    /// An X.509 certificate.
     Certificate(Box<CertificateDescription>),
+    /// A revocation list.
     Crl(Box<CrlDescription>),
+    /// A signing request.
     Csr(Box<CsrDescription>),
+    /// A private key. Nothing secret of it is told.
     PrivateKey(KeyDescription),
+    /// A public key.
     PublicKey(KeyDescription),
 }
 
 /// Everything a certificate says. Texts hold no control characters.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CertificateDescription {
+    /// The whole subject name.
     pub subject: String,
+    /// The whole name of the issuer.
     pub issuer: String,
+    /// The common name of the subject, if it has one.
     pub common_name: Option<String>,
     /// Upper-case hexadecimal.
     pub serial_number: String,
+    /// X.509 version: 1, 2 or 3.
     pub version: u32,
+    /// First moment of the validity.
     pub not_before: DateTime<Utc>,
+    /// Last moment of the validity.
     pub not_after: DateTime<Utc>,
     /// The first URI of the alternative names.
     pub application_uri: Option<String>,
+    /// The subject alternative names; empty without the extension.
     pub alternative_names: Vec<AlternativeName>,
+    /// Whether it is the certificate of a CA; `None` without the extension.
     pub basic_constraints: Option<BasicConstraints>,
+    /// What the key may be used for; `None` without the extension.
     pub key_usages: Option<Vec<KeyUsage>>,
+    /// What the certificate is for; `None` without the extension.
     pub extended_key_usages: Option<Vec<ExtendedKeyUsage>>,
     /// What an authority says about the names below it.
     #[serde(default)]
@@ -59,7 +74,9 @@ pub struct CertificateDescription {
     pub subject_key_id: Option<String>,
     /// Upper-case hexadecimal.
     pub authority_key_id: Option<String>,
+    /// The public key.
     pub key: KeyDescription,
+    /// Name of the signature algorithm, or its object identifier.
     pub signature_algorithm: String,
     /// Whether its own key signed it: not only its names are the same, its signature was checked.
     pub self_signed: bool,
@@ -76,19 +93,26 @@ pub struct CertificateDescription {
 /// RFC 5280 §4.2.1.10.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NameConstraintsDescription {
+    /// The names that a CA below may certify.
     pub permitted: Vec<String>,
+    /// The names that a CA below must not certify.
     pub excluded: Vec<String>,
 }
 
 /// Everything a revocation list says.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CrlDescription {
+    /// The whole name of the issuer.
     pub issuer: String,
+    /// The CRL number in decimal; `None` without the extension.
     pub number: Option<String>,
+    /// When the list was issued.
     pub this_update: DateTime<Utc>,
+    /// Until when a newer one is due; `None` if the list does not tell.
     pub next_update: Option<DateTime<Utc>>,
     /// Upper-case hexadecimal.
     pub authority_key_id: Option<String>,
+    /// Name of the signature algorithm, or its object identifier.
     pub signature_algorithm: String,
     /// The SHA-1 thumbprint of the certificate in the same file whose key signed it.
     pub signed_by: Option<String>,
@@ -96,7 +120,9 @@ pub struct CrlDescription {
     pub unusable: Option<String>,
     /// Which certificates it is only about, if not about all of its authority.
     pub limits: Option<String>,
+    /// SHA-1 of the DER in upper-case hexadecimal.
     pub sha1: String,
+    /// The revoked certificates, in the order of the list.
     pub entries: Vec<CrlEntry>,
 }
 
@@ -105,22 +131,32 @@ pub struct CrlDescription {
 pub struct CrlEntry {
     /// Upper-case hexadecimal.
     pub serial_number: String,
+    /// When the certificate was revoked.
     pub date: DateTime<Utc>,
+    /// Why it was revoked.
     pub reason: RevocationReason,
 }
 
 /// Everything a certificate signing request asks for.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CsrDescription {
+    /// The whole subject name.
     pub subject: String,
+    /// The subject alternative names; empty without the extension.
     pub alternative_names: Vec<AlternativeName>,
+    /// Whether the certificate of a CA is asked for; `None` without the extension.
     pub basic_constraints: Option<BasicConstraints>,
+    /// What the key is to be used for; `None` without the extension.
     pub key_usages: Option<Vec<KeyUsage>>,
+    /// What the certificate is to be for; `None` without the extension.
     pub extended_key_usages: Option<Vec<ExtendedKeyUsage>>,
+    /// The public key.
     pub key: KeyDescription,
+    /// Name of the signature algorithm, or its object identifier.
     pub signature_algorithm: String,
     /// Whether its signature proves that the requester holds the private key.
     pub signature_is_right: bool,
+    /// SHA-1 of the DER in upper-case hexadecimal.
     pub sha1: String,
 }
 
@@ -129,7 +165,9 @@ pub struct CsrDescription {
 pub struct KeyDescription {
     /// `RSA`, `EC`, or an object identifier.
     pub algorithm: String,
+    /// Length in bits, of an RSA key.
     pub bits: Option<u16>,
+    /// Name or object identifier of the curve, of an EC key.
     pub curve: Option<String>,
     /// SHA-1 of the public key in upper-case hexadecimal (RFC 5280 §4.2.1.2, method 1): the same for a key, its request
     /// and its certificates.

@@ -10,29 +10,49 @@ use crate::model::{Cause, ErrorCode, Problem, SubjectError, with_sources};
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PkiError {
     // a certificate file
+    /// The file has no bytes.
     #[error("the file is empty")]
     Empty,
+    /// The file is larger than is read.
     #[error("{bytes} bytes are too many; at most {max} are read")]
-    TooLarge { bytes: usize, max: usize },
+    TooLarge {
+        /// Size of the file.
+        bytes: usize,
+        /// Greatest size that is read.
+        max: usize,
+    },
+    /// The bytes are not an X.509 certificate.
     #[error("not an X.509 certificate, or a damaged one")]
     NotACertificate(#[source] Cause),
+    /// Bytes follow the certificate, list or request; holds how many.
     #[error("{0} bytes follow the end")]
     TrailingBytes(usize),
+    /// The signature algorithms inside and outside of the signed part differ (RFC 5280 §4.1.1.2).
     #[error("it names two different signature algorithms")]
     SignatureAlgorithms,
+    /// An extension occurs twice (RFC 5280 §4.2).
     #[error("it has the same extension twice")]
     RepeatedExtension,
+    /// A PEM block is not closed, or is not base64.
     #[error("the PEM text is damaged")]
     BadPem,
+    /// A text file has an unknown encoding.
     #[error(transparent)]
     Text(#[from] TextError),
     /// The file holds something else, which may be what was wanted in another form.
     #[error("it is {found}, not {wanted}{}", found.remedy(*wanted).map(|remedy| format!("; {remedy}")).unwrap_or_default())]
-    OtherContent { found: FileContent, wanted: Wanted },
+    OtherContent {
+        /// What the file is.
+        found: FileContent,
+        /// What was expected.
+        wanted: Wanted,
+    },
+    /// The file has no certificate.
     #[error("there is no certificate in it")]
     NoCertificate,
     #[error("not a public key, or a damaged one")]
     NotAPublicKey(#[source] Cause),
+    /// The file has several certificates where one is expected; holds how many.
     #[error("there are {0} certificates in it; exactly one is expected")]
     SeveralCertificates(usize),
     /// A private key does not belong among certificates, which are handed around.
@@ -40,22 +60,30 @@ pub enum PkiError {
     PrivateKeyInside,
 
     // a revocation list, and files of several things
+    /// The bytes are not a usable CRL; holds why.
     #[error("not a certificate revocation list, or a damaged one: {0}")]
     NotACrl(#[source] Cause),
+    /// The bytes are not a PKCS#7 with certificates; holds why.
     #[error("not a PKCS#7 with certificates, or a damaged one: {0}")]
     NotPkcs7(#[source] Cause),
+    /// The file holds neither certificates nor CRLs.
     #[error("neither a certificate nor a revocation list nor a PKCS#7, or a damaged one")]
     NotTrustMaterial,
+    /// The file holds more objects than are read; holds the limit.
     #[error("it holds more than {0} certificates and revocation lists, or encrypted keys")]
     TooMany(usize),
+    /// More signatures would have to be checked than is done for one file.
     #[error("too many certificates in it have the same name to find out who signed what")]
     TooManySigners,
 
     // a certificate signing request
+    /// The bytes are not a signing request for an RSA key.
     #[error("not a certificate signing request (PKCS#10) for an RSA key, or a damaged one")]
     NotACsr(#[source] Cause),
+    /// The signature of the signing request does not fit its key.
     #[error("the signature of the certificate signing request is wrong")]
     CsrSignature,
+    /// The file has several signing requests; holds how many.
     #[error("there are {0} certificate signing requests in it; exactly one is expected")]
     SeveralCsrs(usize),
 
@@ -69,49 +97,67 @@ pub enum PkiError {
         #[source]
         cause: Cause,
     },
+    /// The key in the request is too short for the CA to sign; holds the bits.
     #[error("the key has {0} bits; at least 2048 are asked for")]
     ShortKey(u16),
+    /// The key of a CA has another length than 2048 or 4096 bits; holds the bits.
     #[error("the key of a CA has 2048 or 4096 bits, not {0}")]
     AuthorityKey(u16),
+    /// Intermediate and root CA have the same name.
     #[error("the intermediate CA needs another name than the root")]
     AuthorityName,
+    /// The certificate cannot be issued by the CA; holds the sentence.
     #[error("{0}")]
     CannotSign(&'static str),
+    /// The certificate of the CA has expired; holds when.
     #[error("the CA was valid until {0}")]
     AuthorityExpired(DateTime<Utc>),
+    /// The certificate of the CA is not valid yet; holds from when on.
     #[error("the CA is valid from {0} on")]
     AuthorityNotYetValid(DateTime<Utc>),
 
     // a key
+    /// The bytes are not an RSA private key.
     #[error("not an RSA private key, or a damaged one")]
     NotAPrivateKey(#[source] Cause),
+    /// The RSA key has a length that is not used; holds the bits.
     #[error("RSA keys of {0} bits are not used; only 1024, 2048 and 4096 are")]
     KeyLength(u16),
+    /// The cryptographic library made no key.
     #[error("the key could not be made")]
     KeyGeneration(#[source] Cause),
+    /// The key could not be encoded.
     #[error("the key could not be written")]
     KeyEncoding(#[source] Cause),
 
     // a PKCS#12 file
+    /// The bytes are not a PKCS#12.
     #[error("not a PKCS#12 file")]
     NotPkcs12,
+    /// The PKCS#12 uses an algorithm or structure that is not read; holds which.
     #[error("this kind of PKCS#12 is not supported: {0}")]
     UnsupportedPkcs12(String),
     /// The format cannot always tell the two apart.
     #[error("the password is wrong, or the file is damaged")]
     WrongPasswordOrDamaged,
+    /// The file has no private key.
     #[error("there is no private key in it")]
     NoKey,
+    /// The file has several private keys; holds how many.
     #[error("there are {0} private keys in it; exactly one is expected")]
     SeveralKeys(usize),
+    /// No certificate in the file has the public key of the private key.
     #[error("no certificate belongs to the private key")]
     NotAPair,
+    /// The PKCS#12 could not be encoded.
     #[error("the PKCS#12 could not be written")]
     Pkcs12Encoding,
+    /// The structure of the file is damaged.
     #[error("the file is damaged")]
     Damaged,
 
     // a key file
+    /// The key is encrypted and no password was given.
     #[error("the private key is encrypted, and no password was given")]
     PasswordNeeded,
     /// How the key is encrypted.
@@ -122,26 +168,41 @@ pub enum PkiError {
     UnsupportedKeyEncryption(String),
 
     // a certificate to be used
+    /// The certificate has expired; holds when.
     #[error("the certificate was valid until {0}")]
     Expired(DateTime<Utc>),
+    /// No ticked security policy allows the key length; holds the bits.
     #[error("the security policies do not allow {0}-bit keys")]
     KeyLengthNotAllowed(u16),
 
     // a certificate to be made
+    /// The subject is wrong.
     #[error(transparent)]
     Subject(#[from] SubjectError),
+    /// The text is not a URI; holds the text.
     #[error("the application URI \"{0}\" is not a URI")]
     ApplicationUri(String),
+    /// The text is not a DNS name; holds the text.
     #[error("\"{0}\" is not a DNS name")]
     DnsName(String),
+    /// No address and no DNS name were given for a server certificate.
     #[error("a server certificate needs at least one IP address or DNS name")]
     NoHostName,
+    /// The key has another length than was asked for.
     #[error("a {asked}-bit key was asked for, but the key has {got} bits")]
-    OtherKeyLength { asked: u16, got: u16 },
+    OtherKeyLength {
+        /// Bits asked for.
+        asked: u16,
+        /// Bits of the key.
+        got: u16,
+    },
+    /// A date is outside of what X.509 can write.
     #[error("the certificate's dates cannot be written")]
     Dates(#[source] Cause),
+    /// The operating system gave no random numbers.
     #[error("no random numbers are to be had")]
     Random(#[source] Cause),
+    /// The cryptographic library did not sign.
     #[error("the certificate could not be signed")]
     Signing(#[source] Cause),
 }

@@ -5,11 +5,15 @@ use std::fmt;
 /// What a file, or one object of it, is.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum FileContent {
+    /// An X.509 certificate.
     Certificate,
+    /// A revocation list.
     Crl,
+    /// A signing request (PKCS#10).
     Csr,
     /// With certificates and revocation lists, or with something else.
     Pkcs7,
+    /// A PKCS#12 (`.pfx`, `.p12`).
     Pkcs12,
     /// PKCS#8, PKCS#1 or SEC 1, not encrypted, of any algorithm.
     PrivateKey,
@@ -17,29 +21,40 @@ pub enum FileContent {
     EncryptedKey,
     /// PEM with `DEK-Info`, encrypted outside of the DER.
     TraditionalKey,
+    /// A private key in OpenSSH's own form.
     OpenSshKey,
+    /// A private key in PuTTY's own form.
     PuttyKey,
     /// Microsoft's PVK.
     PvkKey,
+    /// A public key.
     PublicKey,
+    /// A public key in SSH's own form.
     SshPublicKey,
     /// JKS or JCEKS.
     JavaKeystore,
+    /// HTML, as a web server sends instead of a file that is missing.
     WebPage,
+    /// A ZIP archive.
     ZipArchive,
     /// A block of PEM under this label, which nothing here reads.
     Block(String),
+    /// None of these.
     Unknown,
 }
 
 /// What a reader was asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Wanted {
+    /// One certificate.
     Certificate,
     /// Certificates and revocation lists.
     TrustMaterial,
+    /// A signing request.
     Csr,
+    /// A private key.
     PrivateKey,
+    /// A PKCS#12.
     Pkcs12,
 }
 

@@ -18,8 +18,10 @@ pub struct Fingerprint([u8; 32]);
 /// Why a text is not a fingerprint.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FingerprintError {
+    /// A character that is neither a hexadecimal digit nor a separator.
     #[error("{0:?} is not a hexadecimal digit")]
     Character(char),
+    /// The number of hexadecimal digits is not 64; holds it.
     #[error("a fingerprint has 64 hexadecimal digits, not {0}")]
     Length(usize),
 }

@@ -9,6 +9,7 @@ const MAX_CHAIN: usize = 20;
 /// is decided about trust.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Issuers {
+    /// The certificates above it, its own issuer first.
     pub chain: Vec<Certificate>,
     /// The last one issued itself: nothing is missing.
     pub complete: bool,

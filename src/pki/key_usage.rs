@@ -4,15 +4,24 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum KeyUsage {
+    /// Signatures other than on certificates and CRLs; required by OPC UA.
     DigitalSignature,
+    /// Signatures that cannot be denied later (contentCommitment); required by OPC UA.
     NonRepudiation,
+    /// Encryption of keys; required by OPC UA.
     KeyEncipherment,
+    /// Encryption of data; required by OPC UA.
     DataEncipherment,
+    /// Agreement on keys.
     KeyAgreement,
+    /// Signatures on certificates.
     KeyCertSign,
+    /// Signatures on CRLs.
     #[serde(rename = "cRLSign")]
     CrlSign,
+    /// With key agreement: encryption only.
     EncipherOnly,
+    /// With key agreement: decryption only.
     DecipherOnly,
 }
 

@@ -13,6 +13,7 @@ pub struct RejectedClient {
     /// The issuer certificates that the client sent with it, in DER, in the order sent. The controller may keep only the
     /// first few.
     pub chain: Vec<Base64Bytes>,
+    /// Names, dates and thumbprint of the certificate.
     pub summary: CertificateSummary,
     /// The reason of the latest refusal, as an OPC UA status code.
     pub status: CertificateStatus,

@@ -5,18 +5,27 @@ use x509_parser::prelude::ReasonCode;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub enum RevocationReason {
+    /// No reason is given.
     Unspecified,
+    /// The private key is known to others, or may be.
     KeyCompromise,
+    /// The key of the CA is known to others, or may be.
     #[serde(rename = "cACompromise")]
     CaCompromise,
+    /// The name of the subject has changed.
     AffiliationChanged,
+    /// Another certificate has taken its place.
     Superseded,
+    /// The certificate is not needed any more.
     CessationOfOperation,
+    /// The certificate is suspended, and may come back.
     CertificateHold,
     /// Only in a delta list: it is not revoked any more.
     #[serde(rename = "removeFromCRL")]
     RemoveFromCrl,
+    /// A right that the certificate gave was withdrawn.
     PrivilegeWithdrawn,
+    /// The key of the attribute authority is known to others, or may be.
     #[serde(rename = "aACompromise")]
     AaCompromise,
 }

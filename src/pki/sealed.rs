@@ -9,24 +9,33 @@ use crate::model::{Cause, with_told_cause};
 /// Bytes that only the passphrase opens: AES-256-GCM under a key that Argon2id makes of passphrase and salt.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sealed {
+    /// Random, one for each passphrase.
     pub salt: [u8; SEAL_SALT_BYTES],
+    /// Random, one for each sealing.
     pub nonce: [u8; NONCE_LEN],
     /// As long as what was sealed, and sixteen bytes.
     pub bytes: Vec<u8>,
 }
 
+/// Bytes of [`Sealed::salt`].
 pub const SEAL_SALT_BYTES: usize = 16;
+/// Bytes of [`Sealed::nonce`].
 pub const SEAL_NONCE_BYTES: usize = NONCE_LEN;
 
+/// Why data cannot be sealed or opened.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum SealError {
     // The library does not say why it opens or seals nothing, so that no error helps an attacker.
+    /// The passphrase is wrong, or the data was changed.
     #[error("the passphrase is wrong, or the data was changed")]
     NotOpened,
+    /// The operating system gave no random numbers; holds its error.
     #[error("the system gives no random numbers: {0}")]
     Random(#[source] Cause),
+    /// Argon2id made no key; holds its error.
     #[error("the passphrase cannot be made a key: {0}")]
     Key(#[source] Cause),
+    /// AES-256-GCM did not encrypt.
     #[error("the data cannot be encrypted")]
     Encrypt,
 }

@@ -14,9 +14,12 @@ pub struct TrustHealth {
     pub without_crl: Vec<String>,
 }
 
+/// Whether one CRL can be used.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct CrlHealth {
+    /// Whose CRL it is.
     pub issuer: CrlIssuer,
+    /// Whether its dates fit the controller's clock.
     pub dates: CrlDates,
 }
 
@@ -25,21 +28,33 @@ pub struct CrlHealth {
 #[serde(rename_all = "kebab-case")]
 pub enum CrlIssuer {
     /// An authority in the trusted or issuers list signed it.
-    Held { thumbprint: String },
+    Held {
+        /// SHA-1 of the authority's certificate.
+        thumbprint: String,
+    },
     /// It carries the name of this authority, but is signed with another key: it is of no use.
-    NotSignedBy { thumbprint: String },
+    NotSignedBy {
+        /// SHA-1 of the authority's certificate.
+        thumbprint: String,
+    },
     /// This authority signed it, but its certificate does not allow it to: it is of no use.
-    MayNotSign { thumbprint: String },
+    MayNotSign {
+        /// SHA-1 of the authority's certificate.
+        thumbprint: String,
+    },
     /// No authority of that name is held: it is of no use until one is.
     Missing,
 }
 
+/// How the dates of a CRL compare with the clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CrlDates {
+    /// The CRL is in force.
     Current,
     /// A newer one should have come: certificates of its issuer are refused until it does.
     Expired,
+    /// The CRL is from the future.
     NotYetValid,
     /// It does not say until when it is valid: it is of no use.
     NoEnd,

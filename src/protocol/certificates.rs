@@ -36,7 +36,9 @@ impl Response for StoredServerCertificates {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SelectCertificate {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// The certificate to be used.
     #[serde(rename = "type")]
     pub kind: CertificateType,
 }
@@ -45,7 +47,9 @@ pub struct SelectCertificate {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MakeSelfSigned {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// What the certificate is to be made of.
     pub request: SelfSignedRequest,
 }
 
@@ -54,8 +58,11 @@ pub struct MakeSelfSigned {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCertificate {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// The type it is stored as.
     pub kind: CertificateType,
+    /// Key and certificate, encrypted with the password beside it.
     pub pkcs12: Base64Bytes,
     /// The password of `pkcs12`, made for this transfer only.
     pub password: WireSecret,
@@ -64,6 +71,7 @@ pub struct ImportCertificate {
 /// A server certificate was installed and selected.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CertificateInstalled {
+    /// The server's state and the new revision.
     pub changed: Changed,
     /// DER.
     pub certificate: Base64Bytes,
@@ -76,7 +84,9 @@ impl Response for CertificateInstalled {}
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MakeCsr {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// What the request is to be made of.
     pub request: CsrRequest,
 }
 
@@ -88,6 +98,7 @@ pub struct MakeCsr {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCsr {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
     /// DER.
     pub csr: Base64Bytes,
@@ -103,6 +114,7 @@ pub struct ImportCsr {
 /// The controller has a new CSR.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CsrMade {
+    /// The server's state and the new revision.
     pub changed: Changed,
     /// DER.
     pub csr: Base64Bytes,
@@ -114,6 +126,7 @@ impl Response for CsrMade {}
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportCaSigned {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
     /// DER.
     pub certificate: Base64Bytes,

@@ -13,6 +13,7 @@ use crate::model::{Changed, ErrorCode, Problem, Revisioned};
 pub struct WireSecret(pub SecretString);
 
 impl WireSecret {
+    /// The secret in plain text.
     pub fn expose(&self) -> &str {
         self.0.expose_secret()
     }
@@ -47,9 +48,11 @@ impl Response for Changed {}
 /// The body of every failed request.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FailureBody {
+    /// What went wrong.
     pub code: ErrorCode,
     /// English, for logs; a client shows its own text for the code.
     pub message: String,
+    /// A technical detail in English; never a secret.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub detail: Option<String>,
 }

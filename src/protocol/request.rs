@@ -11,12 +11,15 @@ use crate::model::RevisionToken;
 ///
 /// The table of all requests is [`REQUESTS`](super::REQUESTS).
 pub trait Request: Serialize + DeserializeOwned + fmt::Debug + Send + Sync {
+    /// The HTTP method.
     const METHOD: Method;
     /// Begins with `/v1/`. At most one part stands for a value: `{id}`.
     const PATH: &'static str;
+    /// What the request must carry.
     const NEEDS: RequestNeeds;
     /// The request is the JSON body. Otherwise the request has no body, and its fields are in the path or the query.
     const HAS_BODY: bool;
+    /// The body of the answer to a request that succeeded.
     type Response: Response;
 
     /// Path and query of this request: [`Request::PATH`] with the value filled in.
@@ -31,7 +34,9 @@ pub trait Request: Serialize + DeserializeOwned + fmt::Debug + Send + Sync {
 pub enum Method {
     /// Changes nothing.
     Get,
+    /// Replaces a value as a whole.
     Put,
+    /// Does something.
     Post,
 }
 
@@ -62,9 +67,13 @@ pub enum RequestNeeds {
 pub struct RequestRow {
     /// The name of the type.
     pub request: &'static str,
+    /// The HTTP method.
     pub method: Method,
+    /// The path, which begins with `/v1/`; `{name}` stands for a parameter.
     pub path: &'static str,
+    /// What the request must carry.
     pub needs: RequestNeeds,
+    /// Whether the request has a JSON body.
     pub has_body: bool,
 }
 

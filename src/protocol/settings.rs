@@ -28,7 +28,9 @@ impl Response for ServerSettings {}
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SetSettings {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// The settings as a whole.
     pub settings: ServerSettings,
     /// Deletes the server log as well. Default: false.
     #[serde(default)]
@@ -61,8 +63,11 @@ impl Response for SettingsExport {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ImportSettings {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// The export, as the file holds it.
     pub export: SettingsExport,
+    /// The passphrase that the export was sealed with.
     pub passphrase: WireSecret,
 }
 
@@ -73,7 +78,10 @@ pub struct ImportSettings {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Activate {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// The licence key of this controller.
     pub licence: LicenceKey,
+    /// The activation key that belongs to it.
     pub activation: ActivationKey,
 }

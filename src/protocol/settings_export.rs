@@ -27,13 +27,19 @@ pub struct SettingsExport {
     pub format: String,
     /// Always [`EXPORT_VERSION`].
     pub version: u32,
+    /// Serial number of the controller that made the export.
     pub serial: SerialNumber,
+    /// Series of that controller.
     pub series: ControllerSeries,
+    /// Firmware that made the export.
     pub firmware: FirmwareVersion,
     /// By the controller's clock; whole seconds.
     pub exported: DateTime<Utc>,
+    /// Salt of Argon2id, 16 bytes.
     pub salt: Base64Bytes,
+    /// Nonce of AES-256-GCM, 12 bytes.
     pub nonce: Base64Bytes,
+    /// The encrypted [`ExportContent`], with its authentication tag.
     pub sealed: Base64Bytes,
     /// Lower-case hexadecimal.
     pub checksum: String,
@@ -43,21 +49,27 @@ pub struct SettingsExport {
 #[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExportContent {
+    /// The basic settings.
     pub settings: ServerSettings,
+    /// The users, with their password hashes.
     pub users: Vec<ExportedUser>,
     /// `None`: the controller was not activated by keys; an import then leaves its activation as it is.
     pub activation: Option<ActivationKeys>,
 }
 
+/// One user of an export.
 #[derive(Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ExportedUser {
+    /// Name of the user.
     pub name: UserName,
     /// Argon2id, as a PHC string: the password itself is known to nobody.
     pub password_hash: String,
 }
 
+/// `format` of every export.
 pub const EXPORT_FORMAT: &str = "opcua-controller-settings";
+/// `version` of the exports that this program reads and writes.
 pub const EXPORT_VERSION: u32 = 1;
 /// A larger file is not an export: ten users take 3 KB.
 pub const MAX_EXPORT_BYTES: usize = 256 * 1024;
@@ -65,20 +77,38 @@ pub const MAX_EXPORT_BYTES: usize = 256 * 1024;
 /// Why an export cannot be used.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ExportError {
+    /// The file is larger than an export may be.
     #[error("the file has more than {MAX_EXPORT_BYTES} bytes")]
     TooLarge,
+    /// The bytes are no export; holds why.
     #[error("the file is not a settings export: {0}")]
     NotAnExport(String),
+    /// The export has a version that is not known; holds it.
     #[error("the file is of format {0}; this program knows format {EXPORT_VERSION}")]
     Version(u32),
+    /// The file was changed after it was made: the checksum does not fit.
     #[error("its checksum differs")]
     Checksum,
+    /// The export was made by another controller.
     #[error("it belongs to {series} {serial}")]
-    AnotherController { series: ControllerSeries, serial: SerialNumber },
+    AnotherController {
+        /// Series of that controller.
+        series: ControllerSeries,
+        /// Serial number of that controller.
+        serial: SerialNumber,
+    },
+    /// The export was made by newer firmware.
     #[error("it was exported from firmware {export}, which is newer than the controller's {controller}")]
-    NewerFirmware { export: FirmwareVersion, controller: FirmwareVersion },
+    NewerFirmware {
+        /// Firmware that made the export.
+        export: FirmwareVersion,
+        /// Firmware of the controller.
+        controller: FirmwareVersion,
+    },
+    /// The passphrase is not the one that the export was sealed with.
     #[error("the passphrase does not open it")]
     WrongPassphrase,
+    /// Sealing or opening failed.
     #[error(transparent)]
     Failed(SealError),
 }
@@ -159,6 +189,7 @@ impl SettingsExport {
         Ok(export)
     }
 
+    /// The file `option.json`: JSON with line ends, for people to look at.
     pub fn to_json(&self) -> Vec<u8> {
         let mut json = serde_json::to_vec_pretty(self).unwrap_or_default();
         json.push(b'\n');

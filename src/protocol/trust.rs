@@ -67,6 +67,7 @@ impl Response for TrustStamp {}
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EditTrust {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
     /// 1 to [`MAX_TRUST_STEPS`].
     pub steps: Vec<TrustStep>,
@@ -75,6 +76,7 @@ pub struct EditTrust {
 /// Lists and CRLs were changed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrustChanged {
+    /// The server's state and the new revision.
     pub changed: Changed,
     /// The clients whose open connections the controller ended because of the change.
     pub cut: Vec<DisconnectedClient>,

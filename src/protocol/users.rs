@@ -25,8 +25,11 @@ impl Response for UserName {}
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AddUser {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// Name of the new user.
     pub name: UserName,
+    /// Password of the new user.
     pub password: WireSecret,
 }
 
@@ -34,7 +37,9 @@ pub struct AddUser {
 #[derive(Debug, Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RemoveUsers {
+    /// The configuration that the change is based on.
     pub revision: RevisionToken,
+    /// The users to be removed.
     pub names: Vec<UserName>,
 }
 

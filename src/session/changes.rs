@@ -7,6 +7,7 @@ use crate::model::{Changed, DisconnectedClient, ServerSettings};
 /// New basic settings (manual 2.6.1).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SettingsUpdate {
+    /// The settings as a whole: what is not to be changed has the value that was read.
     pub settings: ServerSettings,
     /// Deletes the server log as well.
     pub delete_log: bool,
@@ -16,6 +17,7 @@ pub struct SettingsUpdate {
 
 /// A private key, with or without its certificate, as PKCS#12 for one transfer.
 pub struct SealedKey {
+    /// PKCS#12, encrypted with a password of its own.
     pub pkcs12: Vec<u8>,
     /// The password of `pkcs12`, made for this transfer only.
     pub password: SecretString,
@@ -44,6 +46,7 @@ pub struct CsrImport {
 /// A server certificate was installed and selected.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct InstalledCertificate {
+    /// The server's state and the new revision.
     pub changed: Changed,
     /// DER.
     pub certificate: Vec<u8>,
@@ -52,6 +55,7 @@ pub struct InstalledCertificate {
 /// The controller has a new signing request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct StoredCsr {
+    /// The server's state and the new revision.
     pub changed: Changed,
     /// DER.
     pub csr: Vec<u8>,
@@ -60,6 +64,7 @@ pub struct StoredCsr {
 /// Client lists and CRLs were changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct TrustEdited {
+    /// The server's state and the new revision.
     pub changed: Changed,
     /// The clients whose open connections the controller ended because of the change.
     pub cut: Vec<DisconnectedClient>,

@@ -27,7 +27,9 @@ pub struct CertificateFiles {
 /// What was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SavedCertificate {
+    /// The certificate.
     pub certificate: PathBuf,
+    /// Its private key, where a backup of it was kept.
     pub key: Option<PathBuf>,
     /// Where the files of the former certificate are now.
     pub moved_aside: Vec<PathBuf>,
@@ -36,6 +38,7 @@ pub struct SavedCertificate {
 /// One file that was written.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SavedFile {
+    /// The file that was written.
     pub file: PathBuf,
     /// Where the files of the former certificate are now.
     pub moved_aside: Vec<PathBuf>,
@@ -44,7 +47,9 @@ pub struct SavedFile {
 /// What was written of a signing request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SavedCsr {
+    /// The signing request.
     pub csr: PathBuf,
+    /// Its private key, where a backup of it was kept.
     pub key: Option<PathBuf>,
     /// Where the files of the former request are now: the request, its key, and what a CA issued for it.
     pub moved_aside: Vec<PathBuf>,

@@ -18,8 +18,10 @@ pub const MAX_PARALLELISM: usize = 64;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Configuration {
     version: u32,
+    /// The connection targets, in the order in which they were added.
     #[serde(default)]
     pub controllers: Vec<ControllerEntry>,
+    /// The options of the program.
     #[serde(default)]
     pub options: Options,
 }
@@ -27,8 +29,11 @@ pub struct Configuration {
 /// A connection target. Its password is not here: see [`super::Passwords`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ControllerEntry {
+    /// Its name, unique in the list.
     pub name: ControllerName,
+    /// Where its management protocol answers.
     pub address: Address,
+    /// Its series: assumed until the controller was reached.
     pub series: ControllerSeries,
     /// How the controller is configured. [`ConnectionKind::Management`] in files that do not say it.
     #[serde(default)]
@@ -52,16 +57,22 @@ impl ControllerEntry {
 /// Information with the time of this PC at which it was read.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RetrievedInfo {
+    /// When it was read, by the clock of this PC.
     pub at: DateTime<Utc>,
+    /// What was read.
     pub info: ControllerInfo,
 }
 
+/// The colours of the window.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ThemeChoice {
+    /// As the operating system; the default.
     #[default]
     System,
+    /// Dark text on a light ground.
     Light,
+    /// Light text on a dark ground.
     Dark,
 }
 
@@ -120,6 +131,7 @@ fn real_widths<S: Serializer>(values: &BTreeMap<String, f32>, serializer: S) -> 
     serializer.collect_map(values.iter().filter(|(_, width)| WindowState::is_length(**width)))
 }
 
+/// What can be chosen in the dialogs "Options" and "Backup", and what the window remembers.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Options {
@@ -134,7 +146,9 @@ pub struct Options {
     pub passwords: PasswordPlace,
     /// `None` follows the operating system.
     pub language: Option<Language>,
+    /// The colours of the window. Default: as the operating system.
     pub theme: ThemeChoice,
+    /// Sizes and columns of the window.
     pub window: WindowState,
 }
 
@@ -186,6 +200,7 @@ impl Configuration {
         Ok(serde_json::to_vec_pretty(self)?)
     }
 
+    /// The entry with this name; upper and lower case are the same.
     pub fn find(&self, name: &str) -> Option<&ControllerEntry> {
         self.controllers.iter().find(|c| c.name.as_str() == name)
     }

@@ -25,6 +25,7 @@ pub struct ConfiguratorIdentityFiles {
 /// The identity, ready to be used.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConfiguratorIdentity {
+    /// The certificate.
     pub certificate: Certificate,
     /// DER.
     pub certificate_path: PathBuf,
@@ -54,13 +55,28 @@ pub enum ConfiguratorIdentityError {
     Making(#[from] PkiError),
     /// A file exists and cannot be read.
     #[error("{}: {source}", path.display())]
-    Unreadable { path: PathBuf, source: io::Error },
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
     /// Key and certificate are damaged, or do not belong together.
     #[error("{}: {source}", path.display())]
-    Content { path: PathBuf, source: PkiError },
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: PkiError,
+    },
     /// The key was protected by another Windows account.
     #[error("{}: {source}", path.display())]
-    Unprotect { path: PathBuf, source: io::Error },
+    Unprotect {
+        /// The file with the key.
+        path: PathBuf,
+        /// The error of Windows.
+        source: io::Error,
+    },
     /// The current folder of the process is not known.
     #[error("{0}")]
     Path(#[source] io::Error),

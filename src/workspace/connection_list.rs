@@ -36,14 +36,17 @@ struct Columns {
 /// Why the bytes are no connection list at all.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ConnectionListError {
+    /// The file is larger than is read; holds its size in bytes.
     #[error("the file has {0} bytes; at most {MAX_CONNECTION_LIST_BYTES} are read")]
     TooLarge(usize),
+    /// The bytes are not text in a known Unicode encoding.
     #[error(transparent)]
     Text(#[from] TextError),
     /// The names that stand there, if one of them is right; otherwise nothing, since it may be a secret of some other
     /// file.
     #[error("the first line does not name the columns Name, Type and Address{found}", found = found(.0))]
     Columns(String),
+    /// The list has more lines than a configuration has controllers.
     #[error("it has more than {MAX_CONNECTIONS} entries")]
     TooMany,
 }
@@ -61,13 +64,16 @@ pub struct PlannedConnection {
     pub name: String,
     /// As it stands in the file.
     pub address: String,
+    /// The entry to be added, or why the line is left out.
     pub verdict: Result<NewConnection, SkippedLine>,
 }
 
 /// An entry that can be added.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NewConnection {
+    /// Name of the new entry.
     pub name: ControllerName,
+    /// Address of the new entry.
     pub address: Address,
 }
 
@@ -86,18 +92,25 @@ pub enum SkippedLine {
     /// Not an error: the manual asks for it.
     #[error("the address is already in the list of controllers, as \"{0}\"")]
     AddressRegistered(ControllerName),
+    /// The line has too few fields; holds how many.
     #[error("it has {0} field{s}; name, type and address are required", s = if *.0 == 1 { "" } else { "s" })]
     Fields(usize),
+    /// A quotation mark is not closed, or a field holds a line end.
     #[error("a quotation mark is not closed, or a field has a line end in it")]
     Quotes,
+    /// The type of connection is not known; holds the text.
     #[error("\"{0}\" is not a type of connection; known are Ethernet, USB and Virtual")]
     Type(String),
+    /// The name is not one.
     #[error("{0}")]
     Name(#[source] NameError),
+    /// The address is not one.
     #[error("{0}")]
     Address(#[source] AddressError),
+    /// Another line of the list has the name; holds its number, counted from 1.
     #[error("the name also stands in line {0}")]
     NameTwice(usize),
+    /// Another line of the list has the address; holds its number, counted from 1.
     #[error("the address also stands in line {0}")]
     AddressTwice(usize),
 }

@@ -9,10 +9,20 @@ use thiserror::Error;
 pub enum WorkspaceError {
     /// The folder, or a file in it, cannot be written.
     #[error("{}: {source}", path.display())]
-    NotWritable { path: PathBuf, source: io::Error },
+    NotWritable {
+        /// The file or folder.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
     /// The disk or the quota is full, or the file system takes no file of that size.
     #[error("{}: {source}", path.display())]
-    Full { path: PathBuf, source: io::Error },
+    Full {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
     /// Another process holds the lock of the folder.
     #[error("{} is in use", .0.display())]
     Busy(PathBuf),
@@ -21,10 +31,20 @@ pub enum WorkspaceError {
     Held(#[source] io::Error),
     /// A file cannot be read.
     #[error("{}: {source}", path.display())]
-    Unreadable { path: PathBuf, source: io::Error },
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
     /// See [`is_reserved`](crate::model::file_names::is_reserved).
     #[error("{}: \"{name}\" is a name that Windows keeps for itself", path.display())]
-    ReservedName { path: PathBuf, name: String },
+    ReservedName {
+        /// The folder or file.
+        path: PathBuf,
+        /// The part of the path that Windows reserves.
+        name: String,
+    },
 }
 
 impl WorkspaceError {
@@ -46,22 +66,49 @@ impl WorkspaceError {
 pub enum FileError {
     /// The file does not exist.
     #[error("{}: {source}", path.display())]
-    Missing { path: PathBuf, source: io::Error },
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
     /// No file in the folder has the extension; or there is no such folder.
     #[error("{}: no .{extension}", folder.display())]
-    NoneOfKind { folder: PathBuf, extension: &'static str },
+    NoneOfKind {
+        /// The folder that was searched.
+        folder: PathBuf,
+        /// The extension, without its dot.
+        extension: &'static str,
+    },
     /// Several files in the folder have the extension, where one is expected.
     #[error("{}: {count} .{extension} files", folder.display())]
-    SeveralOfKind { folder: PathBuf, extension: &'static str, count: usize },
+    SeveralOfKind {
+        /// The folder that was searched.
+        folder: PathBuf,
+        /// The extension, without its dot.
+        extension: &'static str,
+        /// How many there are.
+        count: usize,
+    },
     /// The name has other characters than letters, digits and underscores (manual 6.2), or Windows keeps it for itself.
     #[error("{}", .0.display())]
     BadName(PathBuf),
     /// The file exists and cannot be read.
     #[error("{}: {source}", path.display())]
-    Unreadable { path: PathBuf, source: io::Error },
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
     /// The file has more bytes than any of its kind.
     #[error("{}: more than {max} bytes", path.display())]
-    TooLarge { path: PathBuf, max: usize },
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// Greatest size in bytes.
+        max: usize,
+    },
 }
 
 impl FileError {

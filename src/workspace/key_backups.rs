@@ -24,7 +24,9 @@ pub enum BackupKind {
 /// Which backup.
 #[derive(Debug, Clone)]
 pub struct KeyBackupSource {
+    /// The folders with the backups.
     pub files: CertificateFiles,
+    /// What the backup is of.
     pub kind: BackupKind,
     /// This key file, for one controller; `None`: the one in each controller's folder that is not moved aside.
     pub chosen: Option<PathBuf>,
@@ -33,8 +35,22 @@ pub struct KeyBackupSource {
 /// What was in a backup. The key belongs to what is beside it here.
 #[derive(Debug)]
 pub enum KeyBackup {
-    SelfSigned { key: PrivateKey, certificate: Certificate },
-    CaSigned { key: PrivateKey, csr: Csr, certificate: Option<Certificate> },
+    /// A self-signed certificate with its key.
+    SelfSigned {
+        /// The private key.
+        key: PrivateKey,
+        /// Its certificate.
+        certificate: Certificate,
+    },
+    /// A signing request with its key.
+    CaSigned {
+        /// The private key.
+        key: PrivateKey,
+        /// The signing request.
+        csr: Csr,
+        /// What a CA issued for the request, if it is on the PC.
+        certificate: Option<Certificate>,
+    },
 }
 
 impl KeyBackup {
@@ -56,13 +72,23 @@ pub enum KeyBackupError {
     File(#[from] FileError),
     /// The controller has no key file on the PC. `moved_aside`: the newest of those that a later one replaced.
     #[error("{}{}", path.display(), moved(moved_aside.as_ref()))]
-    NoKey { path: PathBuf, moved_aside: Option<PathBuf> },
+    NoKey {
+        /// The file that is missing.
+        path: PathBuf,
+        /// The newest key file that a later one replaced.
+        moved_aside: Option<PathBuf>,
+    },
     /// No signing request of the key is in this folder or beside the key.
     #[error("{}: no 3_csr.der or 3_csr.pem of this key", .0.display())]
     NoRequest(PathBuf),
     /// The file is damaged, of another kind, or the password does not open it.
     #[error("{}: {source}", path.display())]
-    Content { path: PathBuf, source: PkiError },
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: PkiError,
+    },
 }
 
 fn moved(aside: Option<&PathBuf>) -> String {

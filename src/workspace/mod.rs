@@ -119,6 +119,7 @@ fn lock_folder(folder: &Path) -> Result<WorkspaceLock, WorkspaceError> {
 /// A configuration as it was found.
 #[derive(Debug)]
 pub struct LoadedConfiguration {
+    /// What was loaded; the default where the file was damaged or missing.
     pub configuration: Configuration,
     /// The file was damaged and is now kept under this name, with the reason.
     pub damaged: Option<(PathBuf, String)>,
@@ -136,6 +137,7 @@ impl Workspace {
         Self { root: root.into() }
     }
 
+    /// The folder itself.
     pub fn root(&self) -> &Path {
         &self.root
     }
@@ -145,6 +147,7 @@ impl Workspace {
         self.root.join(CONNECTION_LIST)
     }
 
+    /// Where the exports of settings are kept.
     pub fn settings_files(&self) -> SettingsFiles {
         SettingsFiles::new(self.root.clone())
     }
@@ -159,10 +162,12 @@ impl Workspace {
         VaultFiles::new(&self.root)
     }
 
+    /// Where the configurator's own OPC UA certificate is kept.
     pub fn own_identity(&self) -> ConfiguratorIdentityFiles {
         ConfiguratorIdentityFiles::new(&self.root)
     }
 
+    /// Where the certificates of controllers are kept.
     pub fn certificate_files(&self) -> CertificateFiles {
         CertificateFiles::new(self.root.clone())
     }

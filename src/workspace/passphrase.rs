@@ -7,6 +7,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PassphraseError {
+    /// A new passphrase has fewer than the required characters.
     #[error("a passphrase has at least {MIN_PASSPHRASE_CHARS} characters")]
     TooShort,
     /// A connection password may be empty, but then it protects nothing.

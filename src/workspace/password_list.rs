@@ -20,20 +20,33 @@ pub struct PasswordList(BTreeMap<String, SecretString>);
 /// Why the text is not a list of passwords. Never quotes it.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PasswordListError {
+    /// The file is larger than is read.
     #[error("the file has more than {MAX_PASSWORD_LIST_BYTES} bytes")]
     TooLarge,
+    /// The first line does not name the columns.
     #[error("the first line has no columns \"Name\" and \"Password\"")]
     Columns,
+    /// A line ends before the password; holds its number, counted from 1.
     #[error("line {0} has no field for the password")]
     NoPassword(usize),
+    /// A line has an empty name; holds its number, counted from 1.
     #[error("line {0} has no name")]
     NoName(usize),
+    /// Two lines have the same name.
     #[error("line {line}: its name stands in line {first} too")]
-    Twice { line: usize, first: usize },
+    Twice {
+        /// The later line, counted from 1.
+        line: usize,
+        /// The earlier line, counted from 1.
+        first: usize,
+    },
+    /// A password is longer than a vault holds; holds its line, counted from 1.
     #[error("line {0}: the password has more than {MAX_VAULT_PASSWORD_BYTES} bytes")]
     TooLong(usize),
+    /// A quotation mark is not closed; holds its line, counted from 1.
     #[error("line {0}: a quotation mark has no counterpart")]
     Quotes(usize),
+    /// The list has more lines than a configuration has controllers.
     #[error("the list has more than {MAX_CONNECTIONS} controllers")]
     TooMany,
 }
@@ -45,6 +58,7 @@ impl std::fmt::Debug for PasswordList {
 }
 
 impl PasswordList {
+    /// Reads the text of a list. The first line names the columns; other columns are passed over.
     pub fn parse(text: &str) -> Result<Self, PasswordListError> {
         if text.len() > MAX_PASSWORD_LIST_BYTES {
             return Err(PasswordListError::TooLarge);
@@ -78,6 +92,7 @@ impl PasswordList {
         Ok(Self(list))
     }
 
+    /// The password of the controller with this name.
     pub fn get(&self, name: &str) -> Option<&SecretString> {
         self.0.get(name)
     }

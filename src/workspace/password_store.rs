@@ -25,10 +25,13 @@ pub enum PasswordPlace {
 pub enum VaultState {
     /// The workspace has none.
     None,
+    /// There is a vault, and its passphrase was not given yet.
     Closed,
     /// The passphrase was asked for and not given: passwords are asked for instead.
     Declined,
+    /// The vault is open.
     Open {
+        /// How many passwords it holds.
         passwords: usize,
     },
 }
@@ -36,9 +39,11 @@ pub enum VaultState {
 /// What the store is like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct StoreStatus {
+    /// Where passwords are to be kept.
     pub place: PasswordPlace,
     /// The keyring was asked and failed.
     pub keyring_fails: bool,
+    /// What the vault is like.
     pub vault: VaultState,
 }
 
@@ -92,6 +97,7 @@ impl std::fmt::Debug for PasswordStore {
 }
 
 impl PasswordStore {
+    /// A store over the vault of a workspace and a keyring. Neither is opened yet.
     pub fn new(vault: VaultFiles, place: PasswordPlace, keyring: impl Keyring + 'static) -> Self {
         let state = StoreState {
             place,
@@ -115,6 +121,7 @@ impl PasswordStore {
         StoreStatus { place: state.place, keyring_fails: state.keyring_fails, vault }
     }
 
+    /// Changes where passwords are kept from now on. Passwords stay where they are.
     pub fn use_place(&self, place: PasswordPlace) {
         self.state.lock().place = place;
     }

@@ -12,13 +12,16 @@ use crate::pki::Fingerprint;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum PasswordError {
+    /// The keyring failed.
     #[error(transparent)]
     Keyring(#[from] KeyringError),
+    /// The vault failed.
     #[error(transparent)]
     Vault(#[from] VaultError),
     /// The vault that may hold the password is not open.
     #[error("the vault is closed")]
     VaultClosed,
+    /// The vault was chosen, and the workspace has none.
     #[error("there is no vault")]
     NoVault,
 }

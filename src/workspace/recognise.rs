@@ -23,6 +23,7 @@ pub enum Recognised {
     ConnectionList,
     /// Settings of one controller (manual 2.6.4).
     SettingsExport,
+    /// Certificates, CRLs, a signing request or a key.
     Pki(PkiKind),
 }
 

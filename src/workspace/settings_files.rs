@@ -46,6 +46,7 @@ impl SettingsFiles {
         Self { chosen: Some(file), ..self }
     }
 
+    /// Where the export of this controller is, whether it exists or not.
     pub fn path(&self, serial: &SerialNumber) -> PathBuf {
         self.root.join(serial.folder_name()).join(FILE)
     }

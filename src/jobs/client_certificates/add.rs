@@ -14,7 +14,9 @@ use crate::model::RevisionToken;
 /// nothing is new, nothing is sent.
 #[derive(Debug, Clone)]
 pub struct AddTrust {
+    /// The files, read and parsed once for all controllers.
     pub files: Arc<[TrustFile]>,
+    /// Which list certificates go into.
     pub destination: Destination,
     /// The configuration that a dialog showed; `None` bases the change on the present one.
     pub based_on: Option<RevisionToken>,

@@ -8,7 +8,9 @@ use crate::model::{ClientList, ErrorCode, Language, Problem, RevisionToken, Trus
 /// Moves certificates from one client list into another, such as a refused client into the trusted list.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MoveClients {
+    /// The list that holds the certificates.
     pub from: ClientList,
+    /// The list they go into.
     pub to: ClientList,
     /// SHA-1, upper-case hexadecimal.
     pub thumbprints: Vec<String>,

@@ -15,14 +15,28 @@ pub enum TrustNote {
     /// An authority that came with an application's certificate goes into the issuers list, not into the one asked for.
     OnlyCompletesAChain,
     /// No client is ever let in with this certificate, or, of an authority, with a certificate from it.
-    NeverAccepted { authority: bool, flaw: CertificateFlaw },
+    NeverAccepted {
+        /// Whether it is the certificate of a CA.
+        authority: bool,
+        /// Why it is refused with any list.
+        flaw: CertificateFlaw,
+    },
     /// A CRL among certificates goes to the CRLs.
     CrlAmongCertificates,
     /// It takes the place of the older CRL of the same issuer.
     ReplacesOlder,
     /// It is newer than another CRL of the same issuer, but its number is lower: numbers go up (RFC 5280 §5.2.3) unless the
     /// authority was set up anew.
-    NumberStartsAgain { number: String, date: DateTime<Utc>, before: String, date_before: DateTime<Utc> },
+    NumberStartsAgain {
+        /// Number of the new CRL.
+        number: String,
+        /// Issue date of the new CRL.
+        date: DateTime<Utc>,
+        /// Number of the CRL it replaces.
+        before: String,
+        /// Issue date of the CRL it replaces.
+        date_before: DateTime<Utc>,
+    },
     /// Its validity is over, or a newer CRL should have come.
     Expired,
     /// Its validity has not begun.

@@ -18,6 +18,7 @@ use crate::session::{MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES};
 pub struct TrustFile {
     /// Without its folder.
     pub file_name: String,
+    /// The certificates and CRLs of the file, in its order.
     pub bundle: Bundle,
 }
 
@@ -53,27 +54,50 @@ pub struct PlannedItem {
     pub file_name: String,
     /// The name the controller will show it under: the file's, with a number where a file holds several.
     pub shown_as: String,
+    /// The certificate or CRL.
     pub content: ItemContent,
+    /// Whether it is sent, and where to.
     pub action: PlannedAction,
 }
 
+/// A certificate or CRL of a file, as it is sent.
 #[derive(Debug, Clone, PartialEq)]
 pub enum ItemContent {
-    Certificate { der: Vec<u8>, summary: CertificateSummary, authority: bool },
-    Crl { der: Vec<u8>, summary: CrlSummary },
+    /// A certificate.
+    Certificate {
+        /// The certificate in DER.
+        der: Vec<u8>,
+        /// Names, dates and thumbprint.
+        summary: CertificateSummary,
+        /// Whether it is the certificate of a CA.
+        authority: bool,
+    },
+    /// A CRL.
+    Crl {
+        /// The CRL in DER.
+        der: Vec<u8>,
+        /// Issuer, number and dates.
+        summary: CrlSummary,
+    },
 }
 
 /// What becomes of it.
 #[derive(Debug, Clone, PartialEq)]
 pub enum PlannedAction {
     /// It is sent; a person may want to think about the notes first.
-    Send { to: TargetList, notes: Vec<TrustNote> },
+    Send {
+        /// The list it goes into.
+        to: TargetList,
+        /// What to consider before agreeing.
+        notes: Vec<TrustNote>,
+    },
     /// It is left out, and nothing is wrong.
     Skipped(SkipReason),
     /// It makes the whole request wrong.
     Refused(Problem),
 }
 
+/// Why a certificate or CRL is left out. None of it is a mistake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum SkipReason {
     /// The same stands earlier in the files.
@@ -240,6 +264,7 @@ impl PlannedItem {
 }
 
 impl ItemContent {
+    /// The certificate or CRL in DER.
     pub fn der(&self) -> &[u8] {
         match self {
             Self::Certificate { der, .. } | Self::Crl { der, .. } => der,

@@ -17,12 +17,15 @@ pub struct ListTrust;
 /// Everything a controller trusts, and whom it refused, at one moment.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrustSnapshot {
+    /// The configuration that everything was read from.
     pub revision: RevisionToken,
     /// What the controller offers over this connection.
     pub capabilities: Capabilities,
+    /// How much fits into each list.
     pub limits: ListLimits,
     /// The controller's clock when this was read.
     pub clock: DateTime<Utc>,
+    /// The trusted list.
     pub trusted: Vec<ListedCertificate>,
     /// Seen last first.
     pub rejected: Vec<RejectedClient>,
@@ -30,6 +33,7 @@ pub struct TrustSnapshot {
     pub issuers: Vec<ListedCertificate>,
     /// Each with its DER.
     pub crls: Vec<ListedCrl>,
+    /// Expired and missing CRLs, and what that means for clients.
     pub health: TrustHealth,
 }
 
@@ -144,6 +148,7 @@ impl TrustSnapshot {
         listed.chain(shown).filter_map(|der| Certificate::from_der(&der.0).ok())
     }
 
+    /// Whether a list holds the certificate with this thumbprint (SHA-1, hexadecimal).
     pub fn holds(&self, list: ClientList, thumbprint: &str) -> bool {
         self.thumbprints(list).any(|held| held == thumbprint)
     }

@@ -46,6 +46,7 @@ pub struct Verify {
     pub login: Option<UserCredential>,
     /// Put this program's certificate into the trusted list first.
     pub trust_first: bool,
+    /// How long each connection may take.
     pub timeouts: ConnectTimeouts,
 }
 

@@ -23,6 +23,7 @@ pub struct VerifyReport {
 /// How this computer, as a client, judges the certificate the server shows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertificateVerdict {
+    /// Names and dates of the certificate.
     pub summary: CertificateSummary,
     /// Why it is refused (OPC 10000-4 §6.1.3); `None`: it is accepted.
     pub refused: Option<CertificateRejection>,
@@ -35,22 +36,29 @@ pub struct CertificateVerdict {
 pub struct EndpointVerdict {
     /// Or the URI of one that is not known here.
     pub policy: Result<SecurityPolicy, String>,
+    /// Message security mode; `None` if it is none that is known here.
     pub mode: Option<MessageSecurity>,
+    /// What came of each token the endpoint offers.
     pub tokens: Vec<TokenVerdict>,
 }
 
 /// What came of one token at one endpoint.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TokenVerdict {
+    /// The kind of token.
     pub kind: TokenKind,
+    /// What came of it.
     pub verdict: TokenOutcome,
 }
 
+/// What came of a login with one token.
 #[derive(Debug, Clone, PartialEq)]
 pub enum TokenOutcome {
     /// A session was activated, and values were read.
     Works,
+    /// A login that should succeed does not.
     Fails(ConnectRefusal),
+    /// The login was left out.
     NotTried(NotTried),
 }
 
@@ -59,6 +67,7 @@ pub enum TokenOutcome {
 pub enum ConnectRefusal {
     /// No TCP connection; the operating system's words.
     NotReachable(String),
+    /// The server does not answer in time.
     TimedOut,
     /// What answers is no OPC UA server, or a broken one.
     NotOpcUa(String),
@@ -79,7 +88,9 @@ pub enum ConnectRefusal {
     State(i32),
     /// Any other OPC UA status, with the server's own words if it gave any.
     Status {
+        /// Name of the status code in OPC 10000-6, annex A.
         name: String,
+        /// What the server says about it; may be empty.
         reason: String,
     },
 }
@@ -87,7 +98,9 @@ pub enum ConnectRefusal {
 /// Why a certificate was refused, as far as it is told.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefusalDetails {
+    /// The status code that the certificate was refused with.
     pub status: CertificateStatus,
+    /// What is wrong, and with which certificate; `None` if the controller does not tell.
     pub cause: Option<RefusalCause>,
     /// In English.
     pub reason: String,
@@ -117,20 +130,26 @@ pub enum NotTried {
 pub enum VerifyFinding {
     /// Nothing was connected to.
     NotRunning {
+        /// What the controller reports of its server.
         status: ServerStatus,
+        /// Why the server does not run, if the controller tells.
         error: Option<ErrorCode>,
     },
     /// The server could not be asked for its endpoints.
     NoAnswer(ConnectRefusal),
+    /// The server offers no endpoint.
     NoEndpoints,
     /// Ticked in the basic settings, but not offered.
     PolicyMissing(SecurityPolicy),
     /// Offered, but not ticked.
     PolicyNotTicked(SecurityPolicy),
+    /// A ticked user token policy is not offered by any endpoint.
     TokenMissing(UserTokenPolicy),
+    /// A user token policy is offered although it is not ticked.
     TokenNotTicked(UserTokenPolicy),
     /// The server names another address than the one it was reached at. Clients that ask for endpoints follow it.
     OtherAddress {
+        /// The URL that the server gives.
         url: String,
         /// From this computer.
         reachable: bool,
@@ -195,8 +214,11 @@ impl CertificateVerdict {
 /// See [`VerifyReport::counts`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct VerifyCounts {
+    /// Logins that work.
     pub work: usize,
+    /// Logins that fail.
     pub fail: usize,
+    /// Logins that were left out.
     pub not_tried: usize,
 }
 
@@ -212,6 +234,7 @@ impl EndpointVerdict {
 }
 
 impl VerifyFinding {
+    /// Whether it keeps clients out or is a warning.
     pub fn severity(&self) -> Severity {
         match self {
             Self::NotRunning { .. }

@@ -8,6 +8,7 @@ use crate::workspace::{ConfiguratorIdentity, ConfiguratorIdentityFiles};
 /// connect as an OPC UA client like any other.
 #[derive(Debug, Clone)]
 pub struct TrustConfigurator {
+    /// The certificate of this program; made first if there is none.
     pub identity: ConfiguratorIdentityFiles,
 }
 

@@ -28,7 +28,9 @@ pub struct ActivationFile {
 pub struct ActivationLine {
     /// Counted from 1, the first line of the file included.
     pub line: usize,
+    /// The controller that the keys were bought for.
     pub serial: SerialNumber,
+    /// Its licence key and activation key.
     pub keys: ActivationKeys,
 }
 
@@ -40,22 +42,34 @@ pub struct LineMistake {
     pub line: usize,
     /// Whom the line is for, as far as that can be read.
     pub serial: Option<SerialNumber>,
+    /// What is wrong with the line.
     pub mistake: ActivationMistake,
 }
 
 /// What is wrong with a line. Never carries a key.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ActivationMistake {
+    /// The line does not have three fields; holds how many it has.
     #[error("it has {0} field{s}; serial number, licence key and activation key are required", s = if *.0 == 1 { "" } else { "s" })]
     Fields(usize),
+    /// Fields are separated by another character than in the lines before.
     #[error("its fields are separated by {found:?}, those of the lines before by {expected:?}")]
-    Separator { found: char, expected: char },
+    Separator {
+        /// The separator of this line.
+        found: char,
+        /// The separator of the lines before.
+        expected: char,
+    },
+    /// A quotation mark is not closed, or a field holds a line end.
     #[error("a quotation mark is not closed, or a field has a line end in it")]
     Quotes,
+    /// The first field is not a serial number.
     #[error("the serial number is not one: 1 to 32 letters, digits, \"-\" or \"_\"")]
     Serial,
+    /// The second field is not a licence key.
     #[error("licence key: {0}")]
     Licence(KeyError),
+    /// The third field is not an activation key.
     #[error("activation key: {0}")]
     Activation(KeyError),
     /// Which of the lines is meant nobody can know, so none of them is used.
@@ -66,10 +80,13 @@ pub enum ActivationMistake {
 /// Why the bytes are no activation file at all.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ActivationFileError {
+    /// The file is larger than [`MAX_ACTIVATION_FILE_BYTES`]; holds its size in bytes.
     #[error("the file has {0} bytes; at most {MAX_ACTIVATION_FILE_BYTES} are read")]
     TooLarge(usize),
+    /// The bytes are not text in a known Unicode encoding.
     #[error(transparent)]
     Text(#[from] TextError),
+    /// The file holds no line with keys.
     #[error("it is empty; the first line has to be \"{FIRST_LINE}\"")]
     Empty,
     /// What stands there instead, if it is like it; otherwise nothing, since it may be a secret of some other file.
@@ -96,8 +113,11 @@ fn difference(found: &str) -> String {
 /// What an activation file says about one controller.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ActivationEntry<'a> {
+    /// One good line names the controller.
     Line(&'a ActivationLine),
+    /// The line of the controller gives no keys.
     Mistake(&'a LineMistake),
+    /// The file does not name the controller.
     Missing,
 }
 

@@ -21,17 +21,26 @@ pub struct ActivationKey(String);
 /// Both keys of one controller.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ActivationKeys {
+    /// The licence key.
     pub licence: LicenceKey,
+    /// The activation key that belongs to it.
     pub activation: ActivationKey,
 }
 
 /// Why a text is not a key. Never carries more of it than one character.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum KeyError {
+    /// A character that is neither an ASCII letter nor a digit.
     #[error("{0:?} is neither a half-width letter nor a digit")]
     Character(char),
+    /// The number of letters and digits is wrong.
     #[error("it has {found} letters and digits; {expected} are required")]
-    Length { found: usize, expected: usize },
+    Length {
+        /// Letters and digits in the text.
+        found: usize,
+        /// Letters and digits of such a key.
+        expected: usize,
+    },
 }
 
 impl LicenceKey {

@@ -10,10 +10,14 @@ pub struct ActivationPlan {
     pub unused: Vec<(usize, SerialNumber)>,
 }
 
+/// One ticked controller and what will happen to it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlannedActivation {
+    /// Its name in the list of controllers.
     pub name: ControllerName,
+    /// Its serial number, by which the file is searched.
     pub serial: SerialNumber,
+    /// Whether it is activated, and why not.
     pub decision: ActivationDecision,
 }
 
@@ -21,7 +25,10 @@ pub struct PlannedActivation {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum ActivationDecision {
     /// It gets the keys of this line.
-    Activate { line: usize },
+    Activate {
+        /// Line of the file with its keys, counted from 1.
+        line: usize,
+    },
     /// The file does not mention it: it fails alone, and nothing is sent to it.
     Missing,
     /// Its line gives no keys: as with a missing one.

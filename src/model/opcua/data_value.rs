@@ -18,6 +18,7 @@ pub struct DataValue {
 /// The severity of a status code, with the code's name unless it is simply good (OPC 10000-4 §7.39).
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub enum Quality {
+    /// The value can be used.
     #[default]
     Good,
     /// The value may be inexact or old.

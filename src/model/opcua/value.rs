@@ -10,36 +10,54 @@ pub enum Value {
     /// No value.
     #[default]
     Null,
+    /// True or false.
     Boolean(bool),
+    /// Signed, 8 bits.
     SByte(i8),
+    /// Unsigned, 8 bits.
     Byte(u8),
+    /// Signed, 16 bits.
     Int16(i16),
+    /// Unsigned, 16 bits.
     UInt16(u16),
+    /// Signed, 32 bits.
     Int32(i32),
+    /// Unsigned, 32 bits.
     UInt32(u32),
+    /// Signed, 64 bits.
     Int64(i64),
+    /// Unsigned, 64 bits.
     UInt64(u64),
+    /// IEEE 754, 32 bits.
     Float(f32),
+    /// IEEE 754, 64 bits.
     Double(f64),
+    /// Text of the server; may hold control characters.
     String(String),
     /// `None`: the null time, which the encoding writes as the year 1601.
     DateTime(Option<DateTime<Utc>>),
     /// In its text form.
     Guid(String),
+    /// Bytes without a meaning known here.
     ByteString(Vec<u8>),
     /// The name of the status, or its number in hexadecimal digits.
     StatusCode(String),
+    /// The identifier of a node.
     NodeId(NodeId),
+    /// A name with its namespace.
     QualifiedName(QualifiedName),
     /// A text in one language.
     LocalizedText {
         /// RFC 3066 name of the language; may be empty.
         locale: String,
+        /// The text in that language.
         text: String,
     },
     /// `Range`, for example of `EURange` (OPC 10000-8 §5.6.2).
     Range {
+        /// Least value.
         low: f64,
+        /// Greatest value.
         high: f64,
     },
     /// `EUInformation` (OPC 10000-8 §5.6.3).

@@ -97,10 +97,12 @@ impl CertificateAuthority {
         Ok(Self { certificate, key, name: tbs.subject, key_id })
     }
 
+    /// The certificate of the CA.
     pub const fn certificate(&self) -> &Certificate {
         &self.certificate
     }
 
+    /// The key that signs.
     pub const fn key(&self) -> &PrivateKey {
         &self.key
     }

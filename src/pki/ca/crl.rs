@@ -16,7 +16,9 @@ use crate::pki::{Crl, PkiError, RevocationReason};
 pub struct RevokedCertificate {
     /// Hexadecimal.
     pub serial_number: String,
+    /// When the certificate was revoked.
     pub at: DateTime<Utc>,
+    /// Why it was revoked.
     pub reason: RevocationReason,
 }
 

@@ -13,6 +13,7 @@ use crate::pki::{Certificate, Csr, PkiError, ServerNames};
 /// What the CA is to make of a signing request.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct IssueRequest {
+    /// Whether the certificate is for a server or a client.
     pub profile: CertificateProfile,
     /// Cut to the CA's own.
     pub validity: Validity,

@@ -15,39 +15,49 @@ pub enum CrlFlaw {
     /// It has the name of the authority, but the key of the authority did not sign it.
     NotSigned,
     /// The algorithm is not supported, or proves nothing.
-    SignatureUnverifiable {
-        because: UnverifiableSignature,
-    },
+    SignatureUnverifiable { because: UnverifiableSignature },
     /// It names another key of the authority than the one that signed the certificate, and no certificate of that key
     /// is at hand.
     KeyNotHeld,
     /// It is signed with another key of the authority, and the chain of that key's certificate is not good (RFC 5280
     /// §6.3.3 (f)). `subject`: the certificate of that chain which is at fault.
     KeyNotAccepted {
+        /// Subject of the certificate at fault.
         subject: String,
+        /// What is wrong with it.
         because: Box<CertificateFlaw>,
     },
     /// The certificate of its signer does not allow the signing of lists.
     MayNotSign,
+    /// The signature uses a hash that can be forged.
     WeakHash {
+        /// Name of the algorithm.
         algorithm: String,
     },
     /// It does not count by itself, whichever certificate is asked about.
     Unusable {
+        /// Why it does not count.
         because: CrlUnusable,
     },
     /// It is about other certificates.
     OutOfScope {
+        /// Which certificates it is about.
         because: OutOfScope,
     },
+    /// The list is from the future.
     NotYetValid {
+        /// `thisUpdate` of the list.
         from: DateTime<Utc>,
+        /// The time of the check.
         now: DateTime<Utc>,
     },
     /// It does not say until when it is valid.
     NoEnd,
+    /// A newer list is due.
     Expired {
+        /// `nextUpdate` of the list.
         until: DateTime<Utc>,
+        /// The time of the check.
         now: DateTime<Utc>,
     },
     /// The lists that count are only about some reasons for a revocation, and there is none about the others.
@@ -62,9 +72,11 @@ pub enum CrlUnusable {
     Delta,
     /// RFC 5280 §5.2.5.
     Indirect,
+    /// The list is only about attribute certificates.
     OnlyAttributeCertificates,
     /// Only about applications, and only about authorities.
     AboutNothing,
+    /// The list is only about some reasons for a revocation.
     OnlySomeReasons,
     /// The object identifier of an extension that is critical and not supported.
     CriticalExtension(String),

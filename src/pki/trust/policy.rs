@@ -7,10 +7,13 @@ use crate::pki::{Certificate, CertificateFlaw, KeyUsage};
 /// What a peer shows of itself, and what it is compared with.
 #[derive(Debug, Clone, Copy)]
 pub struct PresentedCertificate<'a> {
+    /// The certificate to be checked.
     pub certificate: &'a Certificate,
     /// What the peer sent besides, in any order.
     pub chain: &'a [Certificate],
+    /// What its owner is to us.
     pub role: PeerRole,
+    /// The time of the check.
     pub now: DateTime<Utc>,
     /// The ApplicationUri of the peer's ApplicationDescription; `None` skips the check.
     pub application_uri: Option<&'a str>,

@@ -7,6 +7,7 @@ use crate::pki::{Certificate, CertificateFlaw, RefusalCause};
 /// Why a certificate is not trusted.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct CertificateRejection {
+    /// What is wrong.
     pub flaw: CertificateFlaw,
     /// Of the certificate at fault, which may be an issuer. Without control characters.
     pub subject: String,
@@ -30,6 +31,7 @@ impl CertificateRejection {
         Self { flaw, subject: quoted(subject), depth: 0 }
     }
 
+    /// The OPC UA status of the flaw.
     pub fn status(&self) -> CertificateStatus {
         self.flaw.status(self.depth > 0)
     }

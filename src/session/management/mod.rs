@@ -55,6 +55,7 @@ const LOGOUT_TIMEOUT: Duration = Duration::from_secs(2);
 /// Opens sessions over HTTPS with a pinned certificate.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ManagementConnector {
+    /// How long each kind of request may take.
     pub timeouts: ManagementTimeouts,
 }
 

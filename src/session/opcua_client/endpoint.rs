@@ -10,12 +10,16 @@ use crate::pki::{Certificate, PkiError};
 /// How messages are protected (OPC 10000-4 §7.20).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 pub enum MessageSecurity {
+    /// Neither signed nor encrypted.
     None,
+    /// Signed, and readable by others.
     Sign,
+    /// Signed and encrypted.
     SignAndEncrypt,
 }
 
 impl MessageSecurity {
+    /// The name in OPC 10000-4.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::None => "None",
@@ -29,7 +33,9 @@ impl MessageSecurity {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TokenKind {
+    /// No user name.
     Anonymous,
+    /// A user name and a password.
     UserName,
     /// With a certificate of the user's own.
     Certificate,
@@ -60,6 +66,7 @@ impl TokenKind {
 /// A token one endpoint takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OfferedToken {
+    /// The kind of token.
     pub kind: TokenKind,
     /// Whether a password is encrypted on its way; `false` where the server asks for it in the clear.
     pub protected: bool,
@@ -79,6 +86,7 @@ pub struct Endpoint {
     pub tokens: Vec<OfferedToken>,
     /// The server's certificate, and what it sends after it.
     pub certificate: Vec<u8>,
+    /// Application URI that the server reports.
     pub application_uri: String,
 }
 

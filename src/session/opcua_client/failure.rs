@@ -14,12 +14,15 @@ pub enum ConnectStage {
     Channel,
     /// Asking for the endpoints.
     Endpoints,
+    /// The CreateSession request.
     CreateSession,
     /// ActivateSession: the user logs in.
     Login,
+    /// The Read request.
     Read,
     /// Browsing, or finding a node by its path.
     Browse,
+    /// The Write request.
     Write,
     /// Creating a subscription, or waiting for its notifications.
     Subscribe,
@@ -28,7 +31,9 @@ pub enum ConnectStage {
 /// A try that did not succeed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ConnectFailure {
+    /// What was being done.
     pub stage: ConnectStage,
+    /// Why it failed.
     pub cause: ConnectFailureCause,
 }
 
@@ -37,6 +42,7 @@ pub struct ConnectFailure {
 pub enum ConnectFailureCause {
     /// No TCP connection came about; the operating system's words.
     NotReachable(String),
+    /// No answer came within the limit.
     TimedOut,
     /// What answers is not an OPC UA server, or a broken one.
     NotOpcUa(String),
@@ -46,6 +52,7 @@ pub enum ConnectFailureCause {
     OtherCertificate,
     /// The server, or this side's own checks, refused with an OPC UA status.
     Status {
+        /// The status code of OPC 10000-6, annex A.
         code: u32,
         /// `BadSecurityChecksFailed` and the like.
         name: String,

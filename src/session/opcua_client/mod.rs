@@ -78,6 +78,7 @@ impl Default for ConnectTimeouts {
 pub struct ServerLocation {
     /// A name or an address, without brackets.
     pub host: String,
+    /// TCP port.
     pub port: u16,
 }
 
@@ -100,8 +101,15 @@ impl ServerLocation {
 /// Who logs in.
 #[derive(Debug, Clone)]
 pub enum UserLogin {
+    /// Without a user name.
     Anonymous,
-    User { name: String, password: SecretString },
+    /// With user name and password.
+    User {
+        /// The user name.
+        name: String,
+        /// Its password; encrypted for the server's certificate where the endpoint asks for that.
+        password: SecretString,
+    },
 }
 
 /// What a client that was let in has read.

@@ -52,18 +52,24 @@ pub struct IssuedCertificate {
     pub serial_number: String,
     /// Its common name.
     pub issued_to: String,
+    /// The application URI in it; `None` if it has none.
     pub application_uri: Option<String>,
     /// SHA-1 of the DER, upper-case hexadecimal.
     pub thumbprint: String,
     /// SHA-256 of the public key, lower-case hexadecimal: certificates for the same key have the same.
     pub key: String,
+    /// Whether it is for a server or a client.
     pub profile: CertificateProfile,
+    /// First moment of its validity.
     pub not_before: DateTime<Utc>,
+    /// Last moment of its validity.
     pub not_after: DateTime<Utc>,
+    /// When it was signed.
     pub issued: DateTime<Utc>,
     /// `None`: for a request from a file.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub controller: Option<IssuedFor>,
+    /// `None` unless it was revoked.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub revoked: Option<RecordedRevocation>,
 }
@@ -74,13 +80,17 @@ pub struct IssuedCertificate {
 pub struct IssuedFor {
     /// As it was called then.
     pub name: ControllerName,
+    /// Serial number of the controller.
     pub serial: SerialNumber,
 }
 
+/// When and why a certificate was revoked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RecordedRevocation {
+    /// When it was revoked.
     pub at: DateTime<Utc>,
+    /// Why it was revoked.
     pub reason: RevocationReason,
 }
 
@@ -88,13 +98,16 @@ pub struct RecordedRevocation {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CertificateState {
+    /// In its validity, and not revoked.
     Valid,
+    /// Its validity is over, and it was not revoked before.
     Expired,
     /// Also once it has expired.
     Revoked,
 }
 
 impl CertificateState {
+    /// `valid`, `expired` or `revoked`: the word in JSON.
     pub const fn as_str(self) -> &'static str {
         match self {
             Self::Valid => "valid",
@@ -105,6 +118,7 @@ impl CertificateState {
 }
 
 impl IssuedCertificate {
+    /// Its state at a time. A revoked certificate stays revoked after its validity.
     pub fn state(&self, now: DateTime<Utc>) -> CertificateState {
         if self.revoked.is_some() {
             CertificateState::Revoked

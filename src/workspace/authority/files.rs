@@ -23,6 +23,7 @@ pub struct AuthorityFiles {
 /// What a CA is to be made of.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NewAuthority {
+    /// What the root certificate is made of.
     pub root: AuthorityRequest,
     /// A CA below the root that signs in its place, so that the root's key can be kept elsewhere.
     pub intermediate: Option<AuthorityRequest>,
@@ -33,7 +34,9 @@ pub struct NewAuthority {
 /// What everybody may know of the CA. Needs no passphrase.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AuthorityOverview {
+    /// The folder with the files of the CA.
     pub folder: PathBuf,
+    /// The certificate that signs others, and its CRL.
     pub signing: PublishedAuthority,
     /// The CA that signed it, if that is not itself.
     pub root: Option<PublishedAuthority>,
@@ -44,10 +47,13 @@ pub struct AuthorityOverview {
 /// A CA's certificate and the CRL it published last.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PublishedAuthority {
+    /// The certificate.
     pub certificate: Certificate,
+    /// Names and dates of the certificate.
     pub summary: CertificateSummary,
     /// After its `next_update` it proves nothing: certificates of the CA are refused until a newer one is installed.
     pub crl: Crl,
+    /// Number of the CRL that was published last.
     pub crl_number: u64,
 }
 
@@ -61,6 +67,7 @@ impl AuthorityFiles {
         &self.folder
     }
 
+    /// Whether the workspace has a CA.
     pub fn exist(&self) -> bool {
         self.database_path().exists()
     }

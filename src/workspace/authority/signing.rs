@@ -34,6 +34,7 @@ pub struct UnrecordedCertificate {
 }
 
 impl UnrecordedCertificate {
+    /// The certificate. It is not in the database yet.
     pub const fn certificate(&self) -> &Certificate {
         &self.certificate
     }
@@ -50,10 +51,12 @@ impl UnlockedAuthority {
         Self { files, _lock: lock, database, signing, passphrase }
     }
 
+    /// What the CA is like now. Reads its files.
     pub fn overview(&self) -> Result<AuthorityOverview, AuthorityError> {
         AuthorityOverview::of(self.files.folder(), self.database.clone())
     }
 
+    /// The files of the CA.
     pub const fn files(&self) -> &AuthorityFiles {
         &self.files
     }

@@ -44,6 +44,7 @@ impl VaultFiles {
         Self { folder: root.join(FOLDER) }
     }
 
+    /// The file of the vault, whether it exists or not.
     pub fn path(&self) -> PathBuf {
         self.folder.join(FILE)
     }
@@ -127,6 +128,7 @@ impl Vault {
         self.entries.len()
     }
 
+    /// Whether it holds no password.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
