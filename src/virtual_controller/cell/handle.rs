@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use parking_lot::Mutex;
 
-use super::command::{Setting, SettingRefusal};
+use super::command::{CellCommand, CommandRefusal, Setting, SettingRefusal};
 use super::simulation::Cell;
 use super::snapshot::{CellDescription, CellSnapshot};
 use super::spel_value::SpelDeclaration;
@@ -53,6 +53,11 @@ impl CellHandle {
     /// Takes a client's write, whole or not at all.
     pub fn write(&self, setting: Setting) -> Result<(), SettingRefusal> {
         self.change(|cell| cell.write(setting))
+    }
+
+    /// Does what is asked now, or nothing if it is refused.
+    pub fn command(&self, command: CellCommand) -> Result<(), CommandRefusal> {
+        self.change(|cell| cell.command(command))
     }
 
     /// Replaces the declared SPEL variables, as at a start of the OPC UA server. See [`Cell::declare_variables`].

@@ -5,9 +5,13 @@
 //! simulated time ([`CellTime`]) and of what was asked of it at which simulated time; a [`CellHandle`] shares it and drives
 //! it by a [`CellClock`], which may run faster than real time.
 //!
+//! # Files
+//! Each uses only those above it; the `impl` blocks of [`Cell`] at the end are one concern each.
+//!
 //! | file | idea |
 //! |---|---|
 //! | `time` | [`CellTime`], [`CellClock`], [`ClockRate`] |
+//! | `noise` | numbers that look random and follow from a seed |
 //! | `robot_model` | [`RobotModel`]: the figures of the robots |
 //! | `io` | [`IoPort`], [`IoValues`]: ports, bit numbers, bits |
 //! | `status` | states, modes and status texts of nodes |
@@ -16,25 +20,74 @@
 //! | `config` | [`CellConfig`]: what a cell is built from |
 //! | `command` | [`CellCommand`], [`Setting`] and why they are refused |
 //! | `settings` | the configuration nodes of both data acquisitions |
-//! | `simulation` | [`Cell`] |
+//! | `variables` | the declared SPEL variables with their values |
+//! | `kinematics` | joints to pose and back |
+//! | `dynamics` | joint torques |
+//! | `profile` | trapezoidal speed along a path |
+//! | `wear` | parts that wear |
+//! | `robot` | one robot over time: motions, overload rates, temperatures |
+//! | `force` | what a force sensor feels |
+//! | `program` | the statements of the tasks |
+//! | `task` | one task and where it is |
+//! | `io_history` | the standard I/O over time |
+//! | `force_channel`, `motion_channel` | the queues behind the nodes `Data` |
+//! | `samples` | records and blocks at one moment |
+//! | `record` | [`CellRecord`]: what was read, for tests |
+//! | `simulation` | [`Cell`]: its parts, and how time passes |
+//! | `execution` | … statements are executed |
+//! | `acceptance` | … commands are accepted or refused |
+//! | `acquisition` | … RecordStart, RecordEnd, reads and writes of clients |
+//! | `observation` | … the snapshot |
 //! | `handle` | [`CellHandle`] |
+//!
+//! # Decisions
+//! - State changes at events (a motion ends, a task goes on, a command comes); between two events every value is a formula
+//!   of the time since. A cell that nobody looks at costs nothing, and the values do not depend on who looks when.
+//! - The queues hold numbers of records, not records: these are calculated when they are read, from the robot's past, which
+//!   is kept as long as a reader may ask for it and at most 2048 segments long.
+//! - The motion log takes a sample every 0.5 ms at SamplingInterval 0 and keeps 500 blocks of eight; the force sensor keeps
+//!   2000 records. The manual states no such numbers. What is overwritten before a client's first read is not reported.
+//! - The program starts by itself two seconds after power-on, so that there is something to see. It is not the running task
+//!   of the fault switches, which makes the controller refuse changes.
 
+mod acceptance;
+mod acquisition;
 mod command;
 mod config;
+mod dynamics;
+mod execution;
+mod force;
+mod force_channel;
 mod handle;
 mod io;
+mod io_history;
+mod kinematics;
+mod motion_channel;
+mod noise;
+mod observation;
+mod profile;
+mod program;
+mod record;
+mod robot;
 mod robot_model;
+mod samples;
 mod settings;
 mod simulation;
 mod snapshot;
 mod spel_value;
 mod status;
+mod task;
+#[cfg(test)]
+mod tests;
 mod time;
+mod variables;
+mod wear;
 
 pub use command::{CellCommand, CommandRefusal, ForceRecording, RobotChoice, Setting, SettingRefusal};
 pub use config::{CellConfig, CellOptions, MAX_ROBOTS};
 pub use handle::CellHandle;
 pub use io::{IoDirection, IoGroup, IoPort, IoValues, io_ports};
+pub use record::{CellRecord, RecordedPacket};
 pub use robot_model::{AxisModel, MotionProfile, RobotKind, RobotModel, UnknownRobotModel};
 pub use simulation::Cell;
 pub use snapshot::{

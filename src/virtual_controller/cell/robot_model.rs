@@ -159,8 +159,8 @@ const C4_A601S: [AxisModel; 6] = [
 ];
 
 const GX4_A251S: [AxisModel; 4] = [
-    rotary((-50.0, 230.0), 470.0, 3900.0, pulses_per_degree(80.0), 51.0),
-    rotary((-141.0, 141.0), 660.0, 5500.0, pulses_per_degree(60.0), 29.0),
+    rotary((-50.0, 230.0), 470.0, 3900.0, pulses_per_degree(80.0), 30.0),
+    rotary((-141.0, 141.0), 660.0, 5500.0, pulses_per_degree(60.0), 10.0),
     AxisModel {
         profile: MotionProfile::Linear,
         min: -150.0,

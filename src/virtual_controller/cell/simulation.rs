@@ -1,52 +1,128 @@
 use std::sync::Arc;
+use std::time::Duration;
 
 use chrono::{DateTime, TimeDelta, Utc};
 
-use super::command::{Setting, SettingRefusal};
+use super::command::CellCommand;
 use super::config::{CellConfig, MAX_ROBOTS};
-use super::io::{IoDirection, IoValues, io_ports};
+use super::force_channel::ForceChannel;
+use super::io::{IoDirection, IoGroup, IoValues, io_ports};
+use super::io_history::IoHistory;
+use super::kinematics::Joints;
+use super::motion_channel::MotionChannel;
+use super::noise;
+use super::program::Program;
+use super::record::CellRecord;
+use super::robot::Robot;
 use super::robot_model::RobotModel;
 use super::settings::AcquisitionSettings;
-use super::snapshot::{
-    AxisValues, CellDescription, CellSnapshot, ChannelValues, ConsumableValues, ControllerDescription,
-    ControllerValues, ForceSensorValues, MotionLogValues, Pose, RobotDescription, RobotValues, SafetyValues,
-    TaskDescription, TaskValues,
-};
-use super::spel_value::{MAX_SPEL_VARIABLES, SpelDeclaration, SpelValue};
-use super::status::{ExecutionMode, OperatingMode, StatusFlag, StatusFlags, TaskKind, TaskState};
+use super::snapshot::{CellDescription, ControllerDescription, RobotDescription, TaskDescription};
+use super::spel_value::SpelDeclaration;
+use super::status::{OperatingMode, Part, StatusFlag, StatusFlags, TaskKind};
+use super::task::Task;
 use super::time::CellTime;
+use super::variables::Variables;
+use super::wear::{Wear, has_part};
+use crate::model::FirmwareGeneration;
 
 /// One simulated cell: the robots of a controller and what is around them.
 ///
 /// Values are functions of the configuration, of simulated time, and of what was asked of the cell at which simulated time.
-/// Reading them does not change them, however often it is done.
+/// They change every millisecond of simulated time. Looking at them changes nothing, however often it is done.
 #[derive(Debug)]
 pub struct Cell {
-    description: Arc<CellDescription>,
-    started: DateTime<Utc>,
-    now: CellTime,
-    io: IoValues,
-    variables: Arc<[SpelValue]>,
-    settings: AcquisitionSettings,
+    pub(super) description: Arc<CellDescription>,
+    pub(super) started: DateTime<Utc>,
+    pub(super) seed: u64,
+    pub(super) now: CellTime,
+    pub(super) program: Program,
+    pub(super) robots: Vec<RobotUnit>,
+    /// In the order of the description: main, one a robot, background.
+    pub(super) tasks: Vec<Task>,
+    pub(super) io: IoValues,
+    pub(super) io_history: IoHistory,
+    pub(super) variables: Variables,
+    pub(super) settings: AcquisitionSettings,
+    pub(super) monitors: [ForceChannel; 2],
+    /// Current firmware only.
+    pub(super) motion: Option<MotionChannel>,
+    /// OPCUACommonID of the last recording.
+    pub(super) recording_id: u16,
+    pub(super) safety: Safety,
+    /// What outputs and variables show: flags, status code, motors.
+    shown: Option<(StatusFlags, u16, bool)>,
+    pub(super) step_mode: bool,
+    /// Parts made since power-on, and how many of them are bad.
+    pub(super) made: u32,
+    pub(super) bad: u32,
+    /// When main starts by itself.
+    pub(super) autostart: Option<CellTime>,
+    /// On time before this power-on.
+    pub(super) power_on_before: Duration,
+    pub(super) battery: Wear,
+    pub(super) record: Option<CellRecord>,
+}
+
+/// A robot with what belongs to it.
+#[derive(Debug)]
+pub(super) struct RobotUnit {
+    pub robot: Robot,
+    /// The home position.
+    pub home: Joints,
+    /// Hofs, in pulses.
+    pub home_offsets: [i64; 6],
+    pub battery: Wear,
+    /// Of each axis, in the order of [`Part::OF_AXIS`].
+    pub parts: Vec<[Option<Wear>; 6]>,
+    /// SpeedFactor, in per cent.
+    pub speed_factor: u8,
+    /// The motors go off as soon as the robot stands.
+    pub motors_off_at_rest: bool,
+    /// The motors were on when the safeguard or the mode took them away; Continue switches them on again.
+    pub resumes_motors: bool,
+    /// How long the motors had been on before this power-on, in nanoseconds.
+    motors_on_before: u64,
+    pub seed: u64,
+}
+
+/// Modes, safety and errors.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Safety {
+    pub mode: OperatingMode,
+    /// The emergency stop switch is pressed.
+    pub switch_pressed: bool,
+    /// Emergency stop, until Reset.
+    pub emergency_stop: bool,
+    pub door_open: bool,
+    /// Number of the error that is shown, or 0.
+    pub error: u16,
+    /// Number of the warning that is shown, or 0.
+    pub warning: u16,
 }
 
 impl Cell {
-    /// A cell at the moment its controller is switched on: motors off, no task started.
+    /// A cell at the moment its controller is switched on: motors off, the background task running. The program starts by
+    /// itself two seconds later.
     pub fn new(config: CellConfig) -> Self {
         let CellConfig { name, serial, series, firmware, started, variables, options } = config;
-        let mut robots = options.robots;
-        if robots.is_empty() {
-            robots.push(RobotModel::C4A601S);
+        let mut models = options.robots;
+        if models.is_empty() {
+            models.push(RobotModel::C4A601S);
         }
-        robots.truncate(MAX_ROBOTS);
-        let numbered = (1..).zip(robots).map(|(number, model)| RobotDescription {
+        models.truncate(MAX_ROBOTS);
+        let seed = options.seed;
+        let program = Program::new(&models, noise::branch(seed, 1));
+        let numbered = (1..).zip(&models).map(|(number, model)| RobotDescription {
             number,
-            model,
+            model: *model,
             name: format!("Robot{number}"),
             serial: format!("{}{number:02}", serial.as_str()),
             manufacturer: MANUFACTURER,
         });
         let io = io_ports(firmware.generation());
+        let main = TaskDescription { number: 1, kind: TaskKind::Normal };
+        let background = TaskDescription { number: 65, kind: TaskKind::Background };
+        let cycles = (2..).take(models.len()).map(|number| TaskDescription { number, ..main });
         let description = CellDescription {
             robots: numbered.collect(),
             controller: ControllerDescription {
@@ -57,21 +133,53 @@ impl Cell {
                 software_model: SOFTWARE,
                 firmware,
             },
-            tasks: TASKS.to_vec(),
+            tasks: [main].into_iter().chain(cycles).chain([background]).collect(),
             io,
             project: PROJECT.to_owned(),
             variables: [].into(),
             virtual_io: options.virtual_io,
         };
+        let has_motion_log = firmware.generation() == FirmwareGeneration::Current;
+        let robots = models.iter().enumerate().map(|(robot, model)| {
+            RobotUnit::new(*model, program.homes[robot], noise::branch(seed, 100 + robot as u64), started)
+        });
         let mut cell = Self {
+            robots: robots.collect(),
+            tasks: description.tasks.iter().map(|_| Task::default()).collect(),
             description: Arc::new(description),
             started,
+            seed,
             now: CellTime::ZERO,
+            program,
             io: IoValues::off(io),
-            variables: [].into(),
+            io_history: IoHistory::new(),
+            variables: Variables::new(),
             settings: AcquisitionSettings::default(),
+            monitors: Default::default(),
+            motion: has_motion_log.then(|| MotionChannel::new(CellTime::ZERO, 0)),
+            recording_id: 0,
+            safety: Safety {
+                mode: OperatingMode::Auto,
+                switch_pressed: false,
+                emergency_stop: false,
+                door_open: false,
+                error: 0,
+                warning: 0,
+            },
+            shown: None,
+            step_mode: false,
+            made: 0,
+            bad: 0,
+            autostart: Some(START_DELAY),
+            power_on_before: Duration::from_secs(3600 * (500 + noise::bits(seed, 2) % 20_000)),
+            battery: Wear::new(Part::Battery, noise::branch(seed, 2), started),
+            record: None,
         };
         cell.declare_variables(variables);
+        if let Some(task) = cell.tasks.last_mut() {
+            task.start(cell.program.background.clone(), CellTime::ZERO);
+        }
+        cell.run_due();
         cell
     }
 
@@ -80,129 +188,231 @@ impl Cell {
         &self.description
     }
 
-    /// Replaces the declared SPEL variables, as at a start of the OPC UA server (manual 4.2.2). A variable with the same
-    /// name and type keeps its value, as a backup variable does. Those beyond 256 are not taken.
-    pub fn declare_variables(&mut self, mut declarations: Vec<SpelDeclaration>) {
-        declarations.truncate(MAX_SPEL_VARIABLES);
-        let kept = |wanted: &SpelDeclaration| {
-            let known = self.description.variables.iter().position(|known| known == wanted);
-            known.and_then(|at| self.variables.get(at).cloned()).unwrap_or_else(|| wanted.kind.zero())
-        };
-        self.variables = declarations.iter().map(kept).collect();
-        self.description =
-            Arc::new(CellDescription { variables: declarations.into(), ..CellDescription::clone(&self.description) });
-    }
-
-    /// Moves simulated time forward. A time in the past changes nothing.
-    pub fn advance_to(&mut self, time: CellTime) {
-        self.now = self.now.max(time);
-    }
-
-    /// Simulated time.
+    /// Simulated time, in whole milliseconds.
     pub const fn now(&self) -> CellTime {
         self.now
     }
 
-    /// The value of every node now.
-    pub fn snapshot(&self) -> CellSnapshot {
+    /// Replaces the declared SPEL variables, as at a start of the OPC UA server (manual 4.2.2). A variable with the same
+    /// name and type keeps its value, as a backup variable does. Those beyond 256 are not taken.
+    pub fn declare_variables(&mut self, declarations: Vec<SpelDeclaration>) {
+        self.variables.declare(declarations);
+        self.shown = None;
+        let variables = self.variables.declarations();
+        self.description = Arc::new(CellDescription { variables, ..CellDescription::clone(&self.description) });
+        self.show_status();
+    }
+
+    /// Moves simulated time forward, to the last whole millisecond of `time`. A time in the past changes nothing.
+    ///
+    /// The time this takes grows with the number of statements that the program executes in between: a day takes some tens of
+    /// milliseconds.
+    pub fn advance_to(&mut self, time: CellTime) {
+        let time = CellTime::from_millis(time.nanos() / 1_000_000);
+        while let Some(next) = self.next_event().filter(|next| *next <= time) {
+            self.now = self.now.max(next);
+            self.run_due();
+        }
+        self.now = self.now.max(time);
+    }
+
+    fn next_event(&self) -> Option<CellTime> {
+        let robots = self.robots.iter().filter_map(|unit| unit.robot.moving_until());
+        let tasks = self.tasks.iter().filter_map(Task::wakes_at);
+        robots.chain(tasks).chain(self.autostart).min()
+    }
+
+    /// Everything that happens now: motions that end, then tasks that go on.
+    pub(super) fn run_due(&mut self) {
+        let now = self.now;
+        let mut arrived = false;
+        for robot in 0..self.robots.len() {
+            if self.robots[robot].robot.moving_until().is_some_and(|end| end <= now) {
+                self.robots[robot].arrive(now);
+                arrived = true;
+            }
+        }
+        if self.autostart.is_some_and(|start| start <= now) {
+            self.autostart = None;
+            // An emergency stop or an open door since power-on keeps the program from starting.
+            let _refused = self.command(CellCommand::Start { function: 0 });
+        }
+        for task in 0..self.tasks.len() {
+            if self.tasks[task].wakes_at().is_some_and(|wake| wake <= now) {
+                self.run_task(task);
+            }
+        }
+        if arrived {
+            self.forget();
+        }
+        self.show_status();
+    }
+
+    /// Drops the past that nothing can ask for any more.
+    fn forget(&mut self) {
+        let now = self.now;
+        let monitors = self.monitors.iter().filter_map(|monitor| monitor.needed_from(now));
+        let motion = self.motion.as_ref().and_then(|motion| motion.needed_from(now));
+        let needed = monitors.chain(motion).min().unwrap_or(now).min(now);
+        let robots = self.robots.iter_mut().map(|unit| unit.robot.forget_before(needed));
+        let left = robots.max().unwrap_or(needed).max(self.io_history.forget_before(needed));
+        if left > needed {
+            // Too much was kept for a slow reader: it loses the oldest.
+            self.monitors.iter_mut().for_each(|monitor| monitor.skip_before(left));
+            if let Some(motion) = &mut self.motion {
+                motion.skip_before(left);
+            }
+        }
+    }
+
+    /// The state flags (manual 3.2.3.10).
+    pub(super) fn flags(&self) -> StatusFlags {
+        let Safety { mode, emergency_stop, door_open, error, warning, .. } = self.safety;
+        let is_paused = self.normal_tasks().any(Task::is_paused);
+        let is_loaded = self.normal_tasks().any(Task::is_loaded);
         let mut flags = StatusFlags::default();
-        flags.set(StatusFlag::Auto, true);
-        flags.set(StatusFlag::Ready, true);
-        let axis = AxisValues {
-            position: 0.0,
-            speed: 0.0,
-            acceleration: 0.0,
-            torque: 0.0,
-            overload_rate: 0.0,
-            home_offset: 0,
-            parts: [ConsumableValues::NONE; 6],
-        };
-        let robot = |robot: &RobotDescription| RobotValues {
-            motors_on: false,
-            power_high: false,
-            at_home: false,
-            speed_override: 100.0,
-            target: Pose::default(),
-            actual: Pose::default(),
-            motors_on_time: std::time::Duration::ZERO,
-            motors_on_count: 0,
-            battery: ConsumableValues::NONE,
-            axes: vec![axis; robot.model.axes().len()],
-        };
-        let task =
-            TaskValues { function: "", program: "", execution: ExecutionMode::Cycle, state: TaskState::Finished };
-        let settings = &self.settings;
-        CellSnapshot {
-            time: self.now,
-            clock: self.clock(),
-            controller: ControllerValues {
-                total_power_on: self.now.since_start(),
-                started: self.started,
-                temperature: 25.0,
-                cpu_load: 3.0,
-                flags,
-                status_code: 0,
-                battery: ConsumableValues::NONE,
-            },
-            robots: self.description.robots.iter().map(robot).collect(),
-            tasks: vec![task; self.description.tasks.len()],
-            safety: SafetyValues { mode: OperatingMode::Auto, emergency_stop: false, protective_stop: false },
-            io: self.io.clone(),
-            variables: Arc::clone(&self.variables),
-            force_sensor: ForceSensorValues {
-                port: settings.force_port,
-                option: Arc::clone(&settings.force_option),
-                data_type: settings.force_data_type,
-                data_num: settings.force_data_num,
-                monitors: [ChannelValues::default(); 2],
-            },
-            motion_log: MotionLogValues {
-                data_type: settings.motion_data_type,
-                data_num: settings.motion_data_num,
-                sampling_interval: settings.motion_interval,
-                channel: ChannelValues::default(),
-            },
+        for (flag, on) in [
+            (StatusFlag::Test, mode == OperatingMode::Test),
+            (StatusFlag::Teach, mode == OperatingMode::Teach),
+            (StatusFlag::Auto, mode == OperatingMode::Auto),
+            (StatusFlag::Warning, warning != 0),
+            (StatusFlag::Safeguard, door_open),
+            (StatusFlag::EStop, emergency_stop),
+            (StatusFlag::Error, error != 0),
+            (StatusFlag::Paused, is_paused),
+            (StatusFlag::Running, is_loaded && !is_paused),
+            (StatusFlag::Ready, !is_loaded),
+        ] {
+            flags.set(flag, on);
         }
+        flags
     }
 
-    /// Takes a client's write, whole or not at all.
-    pub fn write(&mut self, setting: Setting) -> Result<(), SettingRefusal> {
-        match setting {
-            Setting::InputBit { port, offset, on } => {
-                self.check_input(port, offset / 8)?;
-                self.io.set_bit(port, offset, on);
+    /// The number that the controller shows: of the error, else of the warning, else 0.
+    pub(super) const fn status_code(&self) -> u16 {
+        if self.safety.error != 0 { self.safety.error } else { self.safety.warning }
+    }
+
+    /// The tasks that Stop ends.
+    pub(super) fn normal_tasks(&self) -> impl Iterator<Item = &Task> {
+        let last = self.tasks.len().saturating_sub(1);
+        self.tasks[..last].iter()
+    }
+
+    /// Shows the state on the remote outputs 0–8 and in the project's variables, and notes the standard I/O for the motion
+    /// log.
+    pub(super) fn show_status(&mut self) {
+        let motors_on = self.robots.iter().any(|unit| unit.robot.state().motors_on);
+        let status = (self.flags(), self.status_code(), motors_on);
+        let inputs = self.port(IoGroup::Standard, IoDirection::Input);
+        let outputs = self.port(IoGroup::Standard, IoDirection::Output);
+        let (Some(inputs), Some(outputs)) = (inputs, outputs) else { return };
+        if self.shown != Some(status) {
+            self.shown = Some(status);
+            let (flags, code, motors_on) = status;
+            let remote = [
+                StatusFlag::Ready,
+                StatusFlag::Running,
+                StatusFlag::Paused,
+                StatusFlag::Error,
+                StatusFlag::EStop,
+                StatusFlag::Safeguard,
+                StatusFlag::SError,
+                StatusFlag::Warning,
+            ];
+            for (bit, on) in (0..).zip(remote.map(|flag| flags.contains(flag)).into_iter().chain([motors_on])) {
+                self.io.set_bit(outputs, bit, on);
             }
-            Setting::InputByte { port, offset, value } => {
-                self.check_input(port, offset)?;
-                self.io.set_byte(port, offset, value);
-            }
-            setting => self.settings.set(setting)?,
+            self.variables.set_number("OPCUA_ErrorCode", code.into());
+            self.variables.set_number("OPCUA_OperatingStatus", flags.bits().into());
         }
-        Ok(())
+        let word = |port: usize| {
+            let mut bytes = [0; 4];
+            bytes.iter_mut().zip(self.io.bytes(port)).for_each(|(to, from)| *to = *from);
+            u32::from_le_bytes(bytes)
+        };
+        self.io_history.note(self.now, word(inputs), word(outputs));
     }
 
-    /// See [`super::CellHandle::read_force_data`].
-    pub fn read_force_data(&mut self, _monitor: u8, _max_bytes: usize) -> Option<Vec<u8>> {
-        None
+    /// The index of a port.
+    pub(super) fn port(&self, group: IoGroup, direction: IoDirection) -> Option<usize> {
+        self.description.io.iter().position(|port| port.group == group && port.direction == direction)
     }
 
-    /// See [`super::CellHandle::read_motion_log`].
-    pub fn read_motion_log(&mut self, _max_bytes: usize) -> Option<Vec<u8>> {
-        None
-    }
-
-    fn check_input(&self, port: usize, byte: u16) -> Result<(), SettingRefusal> {
-        let port = self.description.io.get(port).ok_or(SettingRefusal::NotWritable)?;
-        if self.description.virtual_io && port.direction == IoDirection::Input && byte < port.bytes() {
-            Ok(())
-        } else {
-            Err(SettingRefusal::NotWritable)
-        }
-    }
-
-    fn clock(&self) -> DateTime<Utc> {
-        let since = TimeDelta::from_std(self.now.since_start()).unwrap_or(TimeDelta::MAX);
+    /// The controller's clock at a moment.
+    pub(super) fn clock(&self, time: CellTime) -> DateTime<Utc> {
+        let since = TimeDelta::from_std(time.since_start()).unwrap_or(TimeDelta::MAX);
         self.started.checked_add_signed(since).unwrap_or(DateTime::<Utc>::MAX_UTC)
+    }
+}
+
+impl RobotUnit {
+    fn new(model: RobotModel, home: Joints, seed: u64, started: DateTime<Utc>) -> Self {
+        let hours = 200 + noise::bits(seed, 0) % 15_000;
+        let count = 50 + noise::bits(seed, 1) % 3000;
+        let axes = 0..model.axes().len();
+        let part = |axis: usize, at: usize, part: Part| {
+            let place = if part == Part::Battery { 0 } else { (axis * 8 + at + 1) as u64 };
+            has_part(model, axis, part).then(|| Wear::new(part, noise::branch(seed, place), started))
+        };
+        let mut home_offsets = [0; 6];
+        for (axis, offset) in home_offsets.iter_mut().enumerate().take(model.axes().len()) {
+            *offset = (noise::signed(seed, 20 + axis as u64) * 65_536.0) as i64;
+        }
+        let motors_on_before = hours * 3_600_000_000_000;
+        Self {
+            // The count is below 3050.
+            robot: Robot::new(model, home, motors_on_before, count as u32),
+            motors_on_before,
+            home,
+            home_offsets,
+            battery: Wear::new(Part::Battery, noise::branch(seed, 0), started),
+            parts: axes
+                .map(|axis| {
+                    let mut parts = [None; 6];
+                    for (at, (slot, kind)) in parts.iter_mut().zip(Part::OF_AXIS).enumerate() {
+                        *slot = part(axis, at, kind);
+                    }
+                    parts
+                })
+                .collect(),
+            speed_factor: 100,
+            motors_off_at_rest: false,
+            resumes_motors: false,
+            seed,
+        }
+    }
+
+    /// How long the motors have been on since power-on.
+    pub(super) fn running_hours(&self, now: CellTime) -> f64 {
+        (self.robot.settled(now).motors_on_nanos - self.motors_on_before) as f64 / 3.6e12
+    }
+
+    /// The motion in progress is over.
+    fn arrive(&mut self, now: CellTime) {
+        self.robot.arrive(now);
+        if self.motors_off_at_rest {
+            self.motors_off_at_rest = false;
+            self.robot.set(now, |state| state.motors_on = false);
+        }
+    }
+
+    /// Switches the motors off, at once or as soon as the robot stands.
+    pub(super) fn switch_off(&mut self, now: CellTime) {
+        if self.robot.moving_until().is_some() {
+            self.motors_off_at_rest = true;
+        } else {
+            self.robot.set(now, |state| state.motors_on = false);
+        }
+    }
+
+    /// Switches the motors on, with power high or low.
+    pub(super) fn switch_on(&mut self, now: CellTime, power_high: bool) {
+        self.motors_off_at_rest = false;
+        self.robot.set(now, |state| {
+            state.motors_on = true;
+            state.power_high = power_high;
+        });
     }
 }
 
@@ -210,10 +420,5 @@ const MANUFACTURER: &str = "Seiko Epson Corporation";
 const SOFTWARE: &str = "Controller firmware";
 const PROJECT: &str = "VirtualCell";
 
-/// Task 1 runs the main function, tasks 2 and 3 are started by it, task 65 is a background task.
-const TASKS: [TaskDescription; 4] = [
-    TaskDescription { number: 1, kind: TaskKind::Normal },
-    TaskDescription { number: 2, kind: TaskKind::Normal },
-    TaskDescription { number: 3, kind: TaskKind::Normal },
-    TaskDescription { number: 65, kind: TaskKind::Background },
-];
+/// From power-on to the start of main.
+const START_DELAY: CellTime = CellTime::from_secs(2);

@@ -70,6 +70,11 @@ impl StatusFlags {
         self.0 >> flag as u16 & 1 == 1
     }
 
+    /// The flags as bits, as the vendor's remote clients number them: Ready is bit 0, Test is bit 10.
+    pub fn bits(self) -> u16 {
+        StatusFlag::ALL.into_iter().rev().zip(0..).map(|(flag, bit)| u16::from(self.contains(flag)) << bit).sum()
+    }
+
     /// Enters or leaves a state.
     pub const fn set(&mut self, flag: StatusFlag, on: bool) {
         let mask = 1 << flag as u16;
@@ -263,6 +268,10 @@ mod tests {
             flags.set(flag, true);
             assert!(flags.contains(flag));
         }
+        assert_eq!(flags.bits(), 0b111_1111_1111);
+        flags.set(StatusFlag::Ready, false);
+        assert_eq!(flags.bits(), 0b111_1111_1110);
+        flags.set(StatusFlag::Ready, true);
         flags.set(StatusFlag::Error, false);
         let left = StatusFlag::ALL.into_iter().filter(|flag| flags.contains(*flag)).count();
         assert_eq!((left, flags.contains(StatusFlag::Error)), (10, false));
