@@ -33,6 +33,7 @@
 //! | `log_share` | how much of it peers may fill that have proved nothing |
 //! | `opcua` | the OPC UA server |
 //! | `memory` | what stopped servers leave free, given back |
+//! | `project_file` | the file that declares SPEL variables |
 //! | `ports` | TCP ports nobody uses |
 //! | `file_limit` | room for a listener of each controller of a fleet |
 //! | `fleet` | [`Fleet`]: hundreds of controllers in one process |
@@ -88,6 +89,7 @@ pub mod opcua;
 mod password;
 mod peer;
 mod ports;
+mod project_file;
 mod rejected;
 mod request_heads;
 mod secret_bytes;

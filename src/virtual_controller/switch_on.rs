@@ -7,6 +7,7 @@ use tokio::task::JoinHandle;
 use tokio_util::sync::CancellationToken;
 
 use super::api::ManagementApi;
+use super::cell::CellHandle;
 use super::controller::{Controller, ControllerSpec, SwitchOnError};
 use super::faults::Faults;
 use super::state::ControllerState;
@@ -47,6 +48,7 @@ impl VirtualController {
         let off = CancellationToken::new();
         tokio::spawn(stop_when_log_is_full(Arc::clone(&controller), off.clone()));
         tokio::spawn(Arc::clone(controller.rejected()).keep(off.clone()));
+        tokio::spawn(keep_up(controller.cell().clone(), off.clone()));
         let api = tokio::spawn(listener::serve(
             listener,
             config,
@@ -84,6 +86,11 @@ impl VirtualController {
     /// The switches that make this controller misbehave.
     pub fn faults(&self) -> Faults {
         self.controller.faults().clone()
+    }
+
+    /// The simulated cell behind this controller.
+    pub fn cell(&self) -> &CellHandle {
+        self.controller.cell()
     }
 
     pub fn serial(&self) -> SerialNumber {
@@ -132,6 +139,16 @@ async fn stop_when_log_is_full(controller: Arc<Controller>, off: CancellationTok
         tokio::select! {
             () = off.cancelled() => return,
             () = controller.log().filled() => controller.stop_if_log_is_full().await,
+        }
+    }
+}
+
+/// Moves the cell on now and then, so that nobody who looks after a long time waits for its past.
+async fn keep_up(cell: CellHandle, off: CancellationToken) {
+    loop {
+        tokio::select! {
+            () = off.cancelled() => return,
+            () = tokio::time::sleep(cell.keep_up_period()) => cell.keep_up(),
         }
     }
 }

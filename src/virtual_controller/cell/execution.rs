@@ -20,6 +20,9 @@ const MAX_AT_ONCE: usize = 1000;
 /// Part of the highest speed with power low.
 const LOW_POWER_SPEED: f64 = 0.1;
 
+/// Seconds that a part should take.
+const TARGET_SECS: f64 = 3.0;
+
 /// Part of what is made that is bad.
 const BAD_PARTS: f64 = 0.025;
 
@@ -159,6 +162,9 @@ impl Cell {
         let worn = worn.map(|wear| wear.values(clock, hours).consumption_rate).fold(0.0, f64::max);
         // In kilowatt-hours.
         let energy = now.secs() / 3600.0 * 0.45 * self.robots.len() as f64;
+        // In micrometres.
+        let deviation = |axis: u64| noise::signed(noise::branch(self.seed, 5 + axis), made.into()) * 40.0;
+        let deviations = [deviation(0), deviation(1)];
         let variables = &mut self.variables;
         for (name, number) in [
             ("OPCUA_ItemCode", f64::from(1000 + made / 100 % 8)),
@@ -170,6 +176,15 @@ impl Cell {
             ("OPCUA_ConsumedStatus", worn),
             ("OPCUA_Load", load),
             ("OPCUA_CycleSeconds", cycle_secs),
+            ("OPCUA_Shift", f64::from(made / 500 % 3) - 1.0),
+            ("OPCUA_DeviationX", deviations[0]),
+            ("OPCUA_DeviationY", deviations[1]),
+            ("OPCUA_Pallet", f64::from(made / 48 % 1000)),
+            ("OPCUA_PalletPlace", f64::from(made % 48)),
+            ("OPCUA_TargetDifference", f64::from(made) - now.secs() / TARGET_SECS),
+            ("OPCUA_UptimeSeconds", now.secs().floor()),
+            ("OPCUA_UptimeMilliseconds", (now.nanos() / 1_000_000) as f64),
+            ("OPCUA_PartSerial", 4_000_000_000_000.0 + f64::from(made)),
             ("OPCUA_PartIsGood", f64::from(u8::from(!is_bad))),
         ] {
             variables.set_number(name, number);

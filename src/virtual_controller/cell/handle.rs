@@ -1,9 +1,11 @@
 use std::fmt;
 use std::sync::Arc;
+use std::time::Duration;
 
 use parking_lot::Mutex;
 
 use super::command::{CellCommand, CommandRefusal, Setting, SettingRefusal};
+use super::record::CellRecord;
 use super::simulation::Cell;
 use super::snapshot::{CellDescription, CellSnapshot};
 use super::spel_value::SpelDeclaration;
@@ -42,17 +44,11 @@ impl CellHandle {
     pub fn snapshot(&self) -> Arc<CellSnapshot> {
         let mut inner = self.0.inner.lock();
         let Inner { cell, snapshot } = &mut *inner;
-        let before = cell.now();
         cell.advance_to(self.0.clock.now());
         match snapshot {
-            Some(known) if cell.now() == before => Arc::clone(known),
+            Some(known) if known.time == cell.now() => Arc::clone(known),
             _ => Arc::clone(snapshot.insert(Arc::new(cell.snapshot()))),
         }
-    }
-
-    /// Takes a client's write, whole or not at all.
-    pub fn write(&self, setting: Setting) -> Result<(), SettingRefusal> {
-        self.change(|cell| cell.write(setting))
     }
 
     /// Does what is asked now, or nothing if it is refused.
@@ -77,6 +73,16 @@ impl CellHandle {
     /// least one if there is one; `None` if there is none. What is returned is taken out of the queue.
     pub fn read_motion_log(&self, max_bytes: usize) -> Option<Vec<u8>> {
         self.change(|cell| cell.read_motion_log(max_bytes))
+    }
+
+    /// From now on, keeps the newest `limit` packets that are read, for a comparison with what a client has decoded.
+    pub fn keep_record(&self, limit: usize) {
+        self.change(|cell| cell.keep_record(limit));
+    }
+
+    /// What was read since [`CellHandle::keep_record`].
+    pub fn record(&self) -> Option<CellRecord> {
+        self.0.inner.lock().cell.record().cloned()
     }
 
     fn change<T>(&self, act: impl FnOnce(&mut Cell) -> T) -> T {

@@ -16,6 +16,7 @@
 //! | `io` | [`IoPort`], [`IoValues`]: ports, bit numbers, bits |
 //! | `status` | states, modes and status texts of nodes |
 //! | `spel_value` | [`SpelType`], [`SpelValue`]: data types of variables |
+//! | `spel_declarations` | [`SpelDeclarations`]: the project file that declares them |
 //! | `snapshot` | [`CellDescription`] and [`CellSnapshot`]: everything that the address space shows |
 //! | `config` | [`CellConfig`]: what a cell is built from |
 //! | `command` | [`CellCommand`], [`Setting`] and why they are refused |
@@ -34,10 +35,10 @@
 //! | `samples` | records and blocks at one moment |
 //! | `record` | [`CellRecord`]: what was read, for tests |
 //! | `simulation` | [`Cell`]: its parts, and how time passes |
-//! | `execution` | … statements are executed |
-//! | `acceptance` | … commands are accepted or refused |
-//! | `acquisition` | … RecordStart, RecordEnd, reads and writes of clients |
-//! | `observation` | … the snapshot |
+//! | `execution` | of [`Cell`]: executing statements |
+//! | `acceptance` | of [`Cell`]: commands, accepted or refused |
+//! | `acquisition` | of [`Cell`]: RecordStart, RecordEnd, reads and writes of clients |
+//! | `observation` | of [`Cell`]: the snapshot |
 //! | `handle` | [`CellHandle`] |
 //!
 //! # Decisions
@@ -74,6 +75,7 @@ mod samples;
 mod settings;
 mod simulation;
 mod snapshot;
+mod spel_declarations;
 mod spel_value;
 mod status;
 mod task;
@@ -95,6 +97,7 @@ pub use snapshot::{
     ControllerValues, ForceSensorValues, MotionLogValues, Pose, RobotDescription, RobotValues, SafetyValues,
     TaskDescription, TaskValues,
 };
+pub use spel_declarations::{MAX_DECLARATION_BYTES, MAX_FINDINGS, SpelDeclarations, SpelFinding, SpelMistake};
 pub use spel_value::{MAX_SPEL_VARIABLES, SPEL_PREFIX, SpelDeclaration, SpelType, SpelValue};
 pub use status::{
     DataStatus, ExecutionMode, OperatingMode, Part, QueueStatus, RecordingStatus, StatusFlag, StatusFlags, TaskKind,

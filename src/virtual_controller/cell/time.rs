@@ -136,6 +136,14 @@ impl CellClock {
         }
     }
 
+    /// How long a running clock takes for so much simulated time. A manual clock: as long.
+    pub fn real_time(&self, simulated: Duration) -> Duration {
+        match &self.0 {
+            Source::Running { rate, .. } => simulated.saturating_mul(1000) / rate.thousandths.max(1),
+            Source::Manual(_) => simulated,
+        }
+    }
+
     /// Moves a manual clock forward. A running clock is not changed.
     pub fn advance(&self, by: Duration) {
         if let SourceNetwork::Manual(nanos) = &self.0 {
@@ -175,6 +183,7 @@ mod tests {
         clock.advance(Duration::from_millis(1500));
         assert_eq!(same.now(), CellTime::from_millis(1500));
         let running = CellClock::running(ClockRate::try_from(10_000.0).unwrap());
+        assert_eq!(running.real_time(Duration::from_secs(600)), Duration::from_millis(60));
         let first = running.now();
         while running.now() == first {}
         running.advance(Duration::from_secs(1_000_000));

@@ -6,11 +6,12 @@ use super::error::{ControllerError, ServerStartError};
 use super::server_slot::{ServerSlot, opcua_config, trust_lists};
 use super::{Controller, ServerState};
 use crate::model::{Changed, DisconnectedClient, RevisionToken};
+use crate::virtual_controller::cell::SpelDeclarations;
 use crate::virtual_controller::faults::DropPoint;
-use crate::virtual_controller::memory;
-use crate::virtual_controller::opcua::{CertificateClock, OpcUaConfig, OpcUaServer, ServerEvents};
+use crate::virtual_controller::opcua::{CertificateClock, OpcUaConfig, OpcUaServer, ServerEvent, ServerEvents};
 use crate::virtual_controller::server_log::ServerLog;
 use crate::virtual_controller::state::{ControllerState, OperatingContext};
+use crate::virtual_controller::{memory, project_file};
 
 /// What a change means for a running OPC UA server.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -324,7 +325,23 @@ impl Controller {
             let log = Arc::clone(&self.log);
             config.events = ServerEvents::new(move |event| log.write(event));
         }
+        self.declare_variables(&config.events).await;
         Ok(OpcUaServer::start(config).await?)
+    }
+
+    /// Takes the SPEL variables that the project declares now (manual 4.2.2). What cannot be shown is told.
+    async fn declare_variables(&self, events: &ServerEvents) {
+        let folder = self.folder.clone();
+        let loaded = spawn_blocking(move || project_file::load(&folder)).await.map_err(std::io::Error::other);
+        match loaded.flatten() {
+            Ok(SpelDeclarations { variables, findings }) => {
+                for finding in &findings {
+                    events.tell(ServerEvent::VariableNotShown { finding });
+                }
+                self.cell.declare_variables(variables);
+            }
+            Err(error) => events.tell(ServerEvent::VariablesUnreadable { reason: &error.to_string() }),
+        }
     }
 
     /// Parses what may be megabytes of CRLs: off the async threads.

@@ -30,10 +30,11 @@ pub(super) use change::{ChangeFailure, Effect};
 pub(super) use error::{ControllerError, ServerStartError};
 use server_slot::ServerSlot;
 
-use super::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
+use super::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions, SpelDeclaration};
 use super::faults::Faults;
 use super::new_controller::{NewController, NewControllerError};
 use super::opcua::AdmissionOptions;
+use super::project_file;
 use super::rejected::RejectedClients;
 use super::server_log::ServerLog;
 use super::state::{ControllerIdentity, ControllerState, OperatingContext};
@@ -109,7 +110,8 @@ impl Controller {
         let faults = Faults::default();
         let store = Store::open(&folder, faults.clone())?;
         let context = OperatingContext { now: faults.now(), bind, management_port };
-        let (store, state) = spawn_blocking(move || {
+        let project = folder.clone();
+        let (store, state, variables) = spawn_blocking(move || {
             let state = match store.load()? {
                 Some(state) => state,
                 None => {
@@ -118,10 +120,13 @@ impl Controller {
                     state
                 }
             };
-            Ok::<_, SwitchOnError>((store, state))
+            // A project that cannot be read is reported when the server starts.
+            let declared = project_file::provide(&project).and_then(|()| project_file::load(&project));
+            let variables = declared.map(|declared| declared.variables).unwrap_or_default();
+            Ok::<_, SwitchOnError>((store, state, variables))
         })
         .await??;
-        let cell = switch_on_cell(&state, context.now, cell);
+        let cell = switch_on_cell(&state, context.now, variables, cell);
         Ok(Self {
             cell,
             log: Arc::new(ServerLog::new(&folder, faults.clone())),
@@ -158,6 +163,10 @@ impl Controller {
         OperatingContext { now: self.faults.now(), bind: self.bind, management_port: self.management_port }
     }
 
+    pub(super) fn cell(&self) -> &CellHandle {
+        &self.cell
+    }
+
     fn failed(&self, code: ErrorCode) {
         *self.server_state.lock() = ServerState::Failed { code, revision: self.state().revision };
     }
@@ -172,10 +181,15 @@ impl Controller {
     }
 }
 
-/// The cell of a controller that is switched on `now`.
-fn switch_on_cell(state: &ControllerState, now: DateTime<Utc>, options: CellOptions) -> CellHandle {
+/// The cell of a controller that is switched on at `started`.
+fn switch_on_cell(
+    state: &ControllerState,
+    started: DateTime<Utc>,
+    variables: Vec<SpelDeclaration>,
+    options: CellOptions,
+) -> CellHandle {
     let ControllerIdentity { serial, series, firmware, name } = state.identity.clone();
     let clock = CellClock::running(options.rate);
-    let cell = Cell::new(CellConfig { name, serial, series, firmware, started: now, variables: Vec::new(), options });
+    let cell = Cell::new(CellConfig { name, serial, series, firmware, started, variables, options });
     CellHandle::new(cell, clock)
 }

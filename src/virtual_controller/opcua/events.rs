@@ -2,6 +2,7 @@ use std::fmt;
 use std::net::SocketAddr;
 use std::sync::Arc;
 
+use crate::virtual_controller::cell::SpelFinding;
 use crate::virtual_controller::connection_limits::SourceNetwork;
 
 /// Who is told what happens in a running server; nobody by default.
@@ -55,6 +56,14 @@ pub enum ServerEvent<'a> {
         source: SourceNetwork,
         count: u64,
     },
+    /// A line of the project's variables is not shown in the address space.
+    VariableNotShown {
+        finding: &'a SpelFinding,
+    },
+    /// The project's variables cannot be read.
+    VariablesUnreadable {
+        reason: &'a str,
+    },
     LoggedIn {
         user: Option<&'a str>,
         policy: &'a str,
@@ -72,7 +81,7 @@ impl ServerEvents {
         Self(Some(Arc::new(listener)))
     }
 
-    pub(super) fn tell(&self, event: ServerEvent<'_>) {
+    pub(in super::super) fn tell(&self, event: ServerEvent<'_>) {
         if let Some(listener) = &self.0 {
             listener(event);
         }
@@ -96,6 +105,8 @@ impl ServerEvent<'_> {
                 | Self::RefusalsQuiet { .. }
                 | Self::LinesLeftOut { .. }
                 | Self::LoginRefused { .. }
+                | Self::VariableNotShown { .. }
+                | Self::VariablesUnreadable { .. }
         )
     }
 
@@ -103,7 +114,11 @@ impl ServerEvent<'_> {
     /// certificate nor a password.
     pub fn is_open_to_strangers(&self) -> bool {
         match self {
-            Self::Started { .. } | Self::Stopped { .. } | Self::Cut { .. } => false,
+            Self::Started { .. }
+            | Self::Stopped { .. }
+            | Self::Cut { .. }
+            | Self::VariableNotShown { .. }
+            | Self::VariablesUnreadable { .. } => false,
             Self::LoggedIn { user, mode, .. } => user.is_none() && *mode == "None",
             Self::Connected { .. }
             | Self::Disconnected { .. }
@@ -132,6 +147,8 @@ impl fmt::Display for ServerEvent<'_> {
                 write!(f, "connections of {source} are too many; left out for a minute")
             }
             Self::LinesLeftOut { source, count } => write!(f, "{count} lines about {source} were left out"),
+            Self::VariableNotShown { finding } => write!(f, "variables: {finding}"),
+            Self::VariablesUnreadable { reason } => write!(f, "variables cannot be read: {reason}"),
             Self::LoggedIn { user, policy, mode } => {
                 write!(f, "session of {} activated: {policy}, {mode}", user.unwrap_or("an anonymous user"))
             }
