@@ -5,12 +5,11 @@ use std::time::Duration;
 use chrono::TimeDelta;
 use secrecy::SecretString;
 use tokio::task::spawn_blocking;
-use tokio_util::sync::DropGuard;
 
 use super::cell::{CellOptions, RobotModel};
 use super::controller::ControllerSpec;
 use super::fleet::{
-    FleetError, FleetFirmware, FolderLock, plausible_identity, serial_number, shutdown_all, start_all, switches,
+    FleetError, FleetFirmware, FolderLock, OutsideControl, plausible_identity, serial_number, shutdown_all, start_all,
 };
 use super::new_controller::{NewCertificate, NewController};
 use super::opcua::AdmissionOptions;
@@ -35,7 +34,7 @@ pub const DEMO_COUNT: usize = 8;
 pub struct DemoFleet {
     controllers: Vec<VirtualController>,
     entries: Vec<DemoEntry>,
-    _switches: DropGuard,
+    _outside: OutsideControl,
     _lock: FolderLock,
 }
 
@@ -101,8 +100,13 @@ pub async fn demo_fleet(data: &Path, bind: IpAddr, count: usize, seed: u64) -> R
             password: DEMO_PASSWORD.into(),
         });
     }
-    let switches = switches(data, &controllers);
-    Ok(DemoFleet { controllers, entries, _switches: switches, _lock: lock })
+    match OutsideControl::of(data, &controllers).await {
+        Ok(outside) => Ok(DemoFleet { controllers, entries, _outside: outside, _lock: lock }),
+        Err(error) => {
+            shutdown_all(controllers).await;
+            Err(error)
+        }
+    }
 }
 
 /// What a controller of the demo shows.

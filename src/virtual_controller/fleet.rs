@@ -18,7 +18,7 @@ use super::password::hash_connection_password;
 use super::ports::free_port;
 use super::state::ControllerIdentity;
 use super::switch_on::VirtualController;
-use super::switchboard;
+use super::{plant, switchboard};
 use crate::model::{
     AddressError, ControllerName, ControllerSeries, FirmwareVersion, NameError, PortError, SerialNumber, ServerPort,
 };
@@ -89,7 +89,7 @@ pub enum FleetError {
 #[derive(Debug)]
 pub struct Fleet {
     controllers: Vec<VirtualController>,
-    _switches: DropGuard,
+    _outside: OutsideControl,
     _lock: FolderLock,
 }
 
@@ -117,8 +117,13 @@ impl Fleet {
         let hash = spawn_blocking(move || hash_connection_password(&password)).await??;
         let specs = (0..config.count).map(|index| config.spec(index, &hash)).collect::<Result<Vec<_>, _>>()?;
         let controllers = start_all(specs).await?;
-        let switches = switches(&config.data, &controllers);
-        Ok(Self { controllers, _switches: switches, _lock: lock })
+        match OutsideControl::of(&config.data, &controllers).await {
+            Ok(outside) => Ok(Self { controllers, _outside: outside, _lock: lock }),
+            Err(error) => {
+                shutdown_all(controllers).await;
+                Err(error)
+            }
+        }
     }
 
     pub fn controllers(&self) -> &[VirtualController] {
@@ -180,10 +185,21 @@ impl VirtualController {
     }
 }
 
-/// Lets another process throw the switches of the controllers in this folder.
-pub(super) fn switches(data: &Path, controllers: &[VirtualController]) -> DropGuard {
-    let faults = controllers.iter().map(|controller| (controller.serial(), controller.faults()));
-    switchboard::watch(data, faults.collect())
+/// Lets other processes throw the switches of the controllers in a folder and act on their cells, as long as it lives.
+#[derive(Debug)]
+pub(super) struct OutsideControl {
+    _switches: DropGuard,
+    _plant: DropGuard,
+}
+
+impl OutsideControl {
+    pub(super) async fn of(data: &Path, controllers: &[VirtualController]) -> Result<Self, FleetError> {
+        let cells = controllers.iter().map(|controller| (controller.serial(), controller.cell().clone()));
+        let plant = plant::serve(data, cells.collect()).await;
+        let plant = plant.map_err(|source| FleetError::Data { path: data.to_owned(), source })?;
+        let faults = controllers.iter().map(|controller| (controller.serial(), controller.faults()));
+        Ok(Self { _switches: switchboard::watch(data, faults.collect()), _plant: plant })
+    }
 }
 
 /// Side by side; in the order of `specs`.

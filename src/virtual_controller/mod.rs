@@ -19,6 +19,7 @@
 //! | `activation_keys` | [`demo_keys`]: the keys a virtual controller accepts |
 //! | `faults` | [`Faults`]: the switches for what goes wrong |
 //! | `switchboard` | [`Switchboard`]: some of them, thrown by another process |
+//! | `plant` | [`ask_plant`]: commands to cells, given by another process |
 //! | `controller` | state, store and OPC UA server together; changes whole or not at all |
 //! | `switch_on` | [`VirtualController`]: a controller with its listener, switched on and off |
 //! | `password` | the connection password: Argon2id once, then a memory of this process |
@@ -88,6 +89,7 @@ mod new_controller;
 pub mod opcua;
 mod password;
 mod peer;
+mod plant;
 mod ports;
 mod project_file;
 mod rejected;
@@ -112,6 +114,7 @@ pub use fleet::{Fleet, FleetConfig, FleetError, FleetFirmware, MAX_FLEET, ReadyL
 pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
 pub use opcua::AdmissionOptions;
 pub use password::hash_connection_password;
+pub use plant::{PlantAnswer, PlantError, ask_plant};
 pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;
 pub use state::{

@@ -51,6 +51,22 @@ impl CellHandle {
         }
     }
 
+    /// Moves the cell to the time of its clock. The other functions do so too; the time they take grows with the time that
+    /// passed since, so this should be called every [`CellHandle::keep_up_period`].
+    pub fn keep_up(&self) {
+        self.0.inner.lock().cell.advance_to(self.0.clock.now());
+    }
+
+    /// Ten minutes of simulated time, but not less than a second of real time.
+    pub fn keep_up_period(&self) -> Duration {
+        self.0.clock.real_time(Duration::from_secs(600)).max(Duration::from_secs(1))
+    }
+
+    /// Takes a client's write, whole or not at all.
+    pub fn write(&self, setting: Setting) -> Result<(), SettingRefusal> {
+        self.change(|cell| cell.write(setting))
+    }
+
     /// Does what is asked now, or nothing if it is refused.
     pub fn command(&self, command: CellCommand) -> Result<(), CommandRefusal> {
         self.change(|cell| cell.command(command))

@@ -20,6 +20,7 @@
 //! | `snapshot` | [`CellDescription`] and [`CellSnapshot`]: everything that the address space shows |
 //! | `config` | [`CellConfig`]: what a cell is built from |
 //! | `command` | [`CellCommand`], [`Setting`] and why they are refused |
+//! | `command_text` | commands as text |
 //! | `settings` | the configuration nodes of both data acquisitions |
 //! | `variables` | the declared SPEL variables with their values |
 //! | `kinematics` | joints to pose and back |
@@ -54,6 +55,7 @@
 mod acceptance;
 mod acquisition;
 mod command;
+mod command_text;
 mod config;
 mod dynamics;
 mod execution;
@@ -86,6 +88,7 @@ mod variables;
 mod wear;
 
 pub use command::{CellCommand, CommandRefusal, ForceRecording, RobotChoice, Setting, SettingRefusal};
+pub use command_text::{COMMANDS, UnknownCommand};
 pub use config::{CellConfig, CellOptions, MAX_ROBOTS};
 pub use handle::CellHandle;
 pub use io::{IoDirection, IoGroup, IoPort, IoValues, io_ports};

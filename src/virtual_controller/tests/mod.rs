@@ -12,3 +12,5 @@ mod starvation;
 mod test_controller;
 mod trust;
 mod whole_or_nothing;
+
+pub(super) use test_controller::cell_handle;

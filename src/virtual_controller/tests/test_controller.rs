@@ -20,7 +20,7 @@ use crate::model::{
 };
 use crate::pki::{Fingerprint, PrivateKey, ServerNames, self_signed};
 use crate::protocol::{self, FailureBody, Hello, Request as _, SessionStarted};
-use crate::virtual_controller::cell::CellOptions;
+use crate::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
 use crate::virtual_controller::ports::free_port;
 use crate::virtual_controller::{
     AdmissionOptions, ControllerIdentity, ControllerSpec, ControllerState, NewCertificate, NewController,
@@ -61,6 +61,20 @@ pub fn with_certificate(mut initial: NewController) -> NewController {
     let validity = Validity::try_from(2).unwrap();
     initial.certificate = Some(NewCertificate { key_length: KeyLength::Rsa2048, made, validity });
     initial
+}
+
+/// A cell with a six-axis robot, whose time stands.
+pub fn cell_handle() -> CellHandle {
+    let config = CellConfig {
+        name: "Cell 1".parse().unwrap(),
+        serial: "SN0000123".parse().unwrap(),
+        series: ControllerSeries::Rc800,
+        firmware: FirmwareVersion::new(8, 1, 0),
+        started: chrono::DateTime::UNIX_EPOCH,
+        variables: Vec::new(),
+        options: CellOptions::default(),
+    };
+    CellHandle::new(Cell::new(config), CellClock::manual())
 }
 
 pub async fn switch_on(folder: &Path, initial: NewController) -> Result<VirtualController, SwitchOnError> {
