@@ -33,6 +33,7 @@ mod users;
 mod value_error;
 mod vault;
 mod verify;
+mod virtual_cell;
 mod virtual_fleet;
 mod virtual_fleet_host;
 mod virtual_problem;

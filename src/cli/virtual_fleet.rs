@@ -5,7 +5,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use secrecy::SecretString;
 
 use super::secret_file::read_secret;
-use super::{CommandOutcome, runtime, virtual_switch};
+use super::{CommandOutcome, runtime, virtual_cell, virtual_switch};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
 use crate::model::{ErrorCode, Problem, SerialNumber};
 use crate::platform::stop_signal::StopSignals;
@@ -32,6 +32,10 @@ enum VirtualCommand {
     /// teach pendant, a failing OPC UA server. In force within a second, until it is switched off; without a switch, shows
     /// them
     Switch(virtual_switch::SwitchArgs),
+    /// Act on the simulated cell of virtual controllers that run in another process with --data, as the plant around them
+    /// does: start and stop the program, press the emergency stop, open the safety door, raise errors, record. Shows the
+    /// state afterwards, and without --do only the state
+    Cell(virtual_cell::CellArgs),
 }
 
 #[derive(Debug, Args)]
@@ -103,6 +107,7 @@ pub fn run(args: &VirtualArgs) -> Result<CommandOutcome, Problem> {
     match &args.command {
         Some(VirtualCommand::Keys { serials }) => keys(serials),
         Some(VirtualCommand::Switch(args)) => virtual_switch::run(args),
+        Some(VirtualCommand::Cell(args)) => virtual_cell::run(args),
         None => fleet(&args.fleet),
     }
 }

@@ -24,6 +24,13 @@ pub struct SwitchArgs {
     /// The OPC UA server fails with error 580 when it is started
     #[arg(long, value_name = "on|off", value_parser = super::basic_settings::on_off)]
     server_error: Option<bool>,
+    #[command(flatten)]
+    chosen: Chosen,
+}
+
+/// Which of the controllers in a folder.
+#[derive(Debug, Args)]
+pub struct Chosen {
     /// Every controller in the folder
     #[arg(long, conflicts_with = "serials")]
     all: bool,
@@ -36,7 +43,7 @@ pub struct SwitchArgs {
 pub fn run(args: &SwitchArgs) -> Result<CommandOutcome, Problem> {
     let unreadable =
         |e: std::io::Error| Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {e}", args.data.display()));
-    let chosen = if args.all { controllers(&args.data).map_err(unreadable)? } else { args.chosen()? };
+    let chosen = args.chosen.serials(&args.data)?;
     let mut board = Switchboard::load(&args.data).map_err(unreadable)?;
     for serial in &chosen {
         let OutsideSwitches { task_running, teach_pendant, server_error } = board.0.entry(serial.clone()).or_default();
@@ -57,12 +64,17 @@ pub fn run(args: &SwitchArgs) -> Result<CommandOutcome, Problem> {
     Ok(CommandOutcome::AllDone)
 }
 
-impl SwitchArgs {
-    fn chosen(&self) -> Result<Vec<SerialNumber>, Problem> {
-        let unknown =
-            |serial: &str| Problem::with_detail(ErrorCode::UnknownController, self.data.join(serial).display());
+impl Chosen {
+    /// Their serial numbers. Errors: a controller that is not in the folder, or a folder that cannot be read.
+    pub fn serials(&self, data: &Path) -> Result<Vec<SerialNumber>, Problem> {
+        if self.all {
+            return controllers(data).map_err(|error| {
+                Problem::with_detail(ErrorCode::FileUnreadable, format!("{}: {error}", data.display()))
+            });
+        }
+        let unknown = |serial: &str| Problem::with_detail(ErrorCode::UnknownController, data.join(serial).display());
         let known = |text: &String| match text.parse::<SerialNumber>() {
-            Ok(serial) if self.data.join(serial.folder_name()).is_dir() => Ok(serial),
+            Ok(serial) if data.join(serial.folder_name()).is_dir() => Ok(serial),
             _ => Err(unknown(text)),
         };
         self.serials.iter().map(known).collect()

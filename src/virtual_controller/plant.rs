@@ -104,7 +104,7 @@ fn path(data: &Path) -> PathBuf {
 pub(super) async fn serve(data: &Path, cells: Vec<(SerialNumber, CellHandle)>) -> io::Result<DropGuard> {
     let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await?;
     let mut secret = [0; 32];
-    getrandom::fill(&mut secret).map_err(io::Error::other)?;
+    getrandom::fill(&mut secret).map_err(|error| io::Error::other(error.to_string()))?;
     let announcement = Announcement { address: listener.local_addr()?, token: hex::encode(secret) };
     let path = path(data);
     announce(&path, &announcement)?;
@@ -161,8 +161,8 @@ async fn talk(stream: tokio::net::TcpStream, plant: &Plant) -> io::Result<()> {
     let mut line = Vec::new();
     loop {
         line.clear();
-        let read = (&mut reader).take(MAX_LINE as u64).read_until(b'\n', &mut line);
-        if timeout(PATIENCE, read).await?? == 0 || !line.ends_with(b"\n") {
+        let mut bounded = (&mut reader).take(MAX_LINE as u64);
+        if timeout(PATIENCE, bounded.read_until(b'\n', &mut line)).await?? == 0 || !line.ends_with(b"\n") {
             return Ok(());
         }
         let mut answer = plant.answer(&line).to_string();

@@ -47,6 +47,10 @@ const COMMANDS: &[(&str, &str)] = &[
         "virtual switch",
         "別のプロセスで--dataを指定して実行中の仮想コントローラーに、異常 (タスク実行中、ティーチペンダント接続中、OPC UAサーバーの異常) を発生させます。1秒以内に反映され、オフにするまで続きます。スイッチを指定しない場合は、現在の状態を表示します",
     ),
+    (
+        "virtual cell",
+        "別のプロセスで--dataを指定して実行中の仮想コントローラーのシミュレーションセルを、周囲の設備として操作します (プログラムの開始と停止、非常停止、安全扉の開閉、エラーの発生、記録など)。操作後の状態を表示します。--doを指定しない場合は、状態だけを表示します",
+    ),
     ("controllers", "コントローラーを表示、追加、インポート、確認、削除します"),
     ("controllers list", "登録されているコントローラーの一覧を表示します"),
     ("controllers add", "コントローラーを登録します"),
@@ -230,6 +234,18 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     ("virtual", "robots", "各コントローラーのロボット (コンマ区切り): C4-A601S (6軸)、GX4-A251S (スカラ)"),
     ("virtual", "virtual_io", "OPC UAクライアントによる入力の書き込みを許可し、バイトとビットに加えてワードも表示"),
     ("virtual", "clock_rate", "1秒あたりのシミュレーション秒数 (0.001〜10000)"),
+    (
+        "virtual cell",
+        "data",
+        "virtual --dataに指定したフォルダー。ウィンドウの仮想コントローラーの場合は、ワークスペースのvirtualフォルダー",
+    ),
+    (
+        "virtual cell",
+        "commands",
+        "指定した順に実行するコマンド：start N、stop、pause、continue、reset、motors-on ROBOT、motors-off ROBOT、home ROBOT、power ROBOT high|low、speed PERCENT、step-mode on|off、step、emergency-stop on|off、door open|closed、mode auto|teach|test、error NUMBER、warning NUMBER、bit PORT OFFSET on|off、byte PORT OFFSET VALUE、record-start ROBOT SECONDS INTERVAL、record-end MONITOR、record-break MONITOR、motion-log on|off|break。ロボット番号0はすべてのロボットを表す",
+    ),
+    ("virtual cell", "all", "フォルダー内のすべてのコントローラー"),
+    ("virtual cell", "serials", "シリアル番号"),
     (
         "virtual switch",
         "data",

@@ -297,7 +297,7 @@ struct LoadMemory {
 }
 
 impl LoadMemory {
-    const ENTRIES: usize = 64;
+    const ENTRIES: usize = 16;
     /// Moments of a motion at which the torque is calculated.
     const MOMENTS: u32 = 24;
 

@@ -106,10 +106,10 @@ impl std::fmt::Display for ClockRate {
 
 /// Says what simulated time it is. Clones are the same clock. Monotonic.
 #[derive(Debug, Clone)]
-pub struct CellClock(SourceNetwork);
+pub struct CellClock(TimeSource);
 
 #[derive(Debug, Clone)]
-enum SourceNetwork {
+enum TimeSource {
     Running { started: Instant, rate: ClockRate },
     Manual(Arc<AtomicU64>),
 }
@@ -117,36 +117,36 @@ enum SourceNetwork {
 impl CellClock {
     /// A clock that starts at [`CellTime::ZERO`] now and runs by itself.
     pub fn running(rate: ClockRate) -> Self {
-        Self(SourceNetwork::Running { started: Instant::now(), rate })
+        Self(TimeSource::Running { started: Instant::now(), rate })
     }
 
     /// A clock that stands at [`CellTime::ZERO`] until [`CellClock::advance`].
     pub fn manual() -> Self {
-        Self(SourceNetwork::Manual(Arc::new(AtomicU64::new(0))))
+        Self(TimeSource::Manual(Arc::new(AtomicU64::new(0))))
     }
 
     /// Simulated time now.
     pub fn now(&self) -> CellTime {
         match &self.0 {
-            SourceNetwork::Running { started, rate } => {
+            TimeSource::Running { started, rate } => {
                 let nanos = started.elapsed().as_nanos() * u128::from(rate.thousandths) / 1000;
                 CellTime(u64::try_from(nanos).unwrap_or(u64::MAX))
             }
-            SourceNetwork::Manual(nanos) => CellTime(nanos.load(Ordering::Acquire)),
+            TimeSource::Manual(nanos) => CellTime(nanos.load(Ordering::Acquire)),
         }
     }
 
     /// How long a running clock takes for so much simulated time. A manual clock: as long.
     pub fn real_time(&self, simulated: Duration) -> Duration {
         match &self.0 {
-            Source::Running { rate, .. } => simulated.saturating_mul(1000) / rate.thousandths.max(1),
-            Source::Manual(_) => simulated,
+            TimeSource::Running { rate, .. } => simulated.saturating_mul(1000) / rate.thousandths.max(1),
+            TimeSource::Manual(_) => simulated,
         }
     }
 
     /// Moves a manual clock forward. A running clock is not changed.
     pub fn advance(&self, by: Duration) {
-        if let SourceNetwork::Manual(nanos) = &self.0 {
+        if let TimeSource::Manual(nanos) = &self.0 {
             nanos.fetch_add(u64::try_from(by.as_nanos()).unwrap_or(u64::MAX), Ordering::AcqRel);
         }
     }
