@@ -6,9 +6,9 @@ use opcua::client::transport::TransportPollResult;
 use opcua::client::{AsyncSecureChannel, UARequest};
 use opcua::core::handle::AtomicHandle;
 use opcua::types::{
-    AttributeId, BrowseDescription, BrowseDirection, BrowsePath, BrowsePathTarget, BrowseResultMask, ByteString, Error,
-    NodeId as UaNodeId, QualifiedName as UaQualifiedName, ReadValueId, ReferenceDescription, ReferenceTypeId,
-    RelativePath, RelativePathElement, StatusCode, TimestampsToReturn, WriteValue,
+    AttributeId, BrowseDescription, BrowseDirection, BrowsePath, BrowsePathTarget, BrowseResult, BrowseResultMask,
+    ByteString, Error, NodeId as UaNodeId, QualifiedName as UaQualifiedName, ReadValueId, ReferenceDescription,
+    ReferenceTypeId, RelativePath, RelativePathElement, StatusCode, TimestampsToReturn, WriteValue,
 };
 use parking_lot::Mutex;
 use tokio::task::AbortHandle;
@@ -92,8 +92,22 @@ impl ClientSession {
 
     /// All attributes of a node that it has, by name (OPC 10000-3 §5).
     pub async fn attributes(&self, node: &NodeId) -> Result<Vec<(&'static str, DataValue)>, ConnectFailure> {
-        let values = self.read_attributes(ATTRIBUTES.iter().map(|(attribute, _)| (node, *attribute))).await?;
-        let named = ATTRIBUTES.iter().map(|(_, name)| *name).zip(values);
+        self.attributes_where(node, |_| true).await
+    }
+
+    /// As [`ClientSession::attributes`], but without the value: reading it may have an effect.
+    pub async fn attributes_but_value(&self, node: &NodeId) -> Result<Vec<(&'static str, DataValue)>, ConnectFailure> {
+        self.attributes_where(node, |attribute| attribute != AttributeId::Value).await
+    }
+
+    async fn attributes_where(
+        &self,
+        node: &NodeId,
+        wanted: impl Fn(AttributeId) -> bool,
+    ) -> Result<Vec<(&'static str, DataValue)>, ConnectFailure> {
+        let wanted: Vec<_> = ATTRIBUTES.iter().filter(|(attribute, _)| wanted(*attribute)).collect();
+        let values = self.read_attributes(wanted.iter().map(|(attribute, _)| (node, *attribute))).await?;
+        let named = wanted.iter().map(|(_, name)| *name).zip(values);
         Ok(named.filter(|(_, value)| value.quality.name() != "BadAttributeIdInvalid").collect())
     }
 
@@ -152,7 +166,41 @@ impl ClientSession {
 
     /// The nodes that a node refers to by hierarchical references: what a tree shows below it. At most 10,000.
     pub async fn children(&self, node: &NodeId) -> Result<Vec<NodeReference>, ConnectFailure> {
-        self.browse(node, ReferenceTypeId::HierarchicalReferences, BrowseDirection::Forward).await
+        self.browse(node, CHILDREN, BrowseDirection::Forward).await
+    }
+
+    /// The children of each node, as [`ClientSession::children`] gives them, in the order of `nodes`; at most 100 nodes in
+    /// one request, more in several. A node that cannot be browsed has none.
+    pub async fn children_of(&self, nodes: &[NodeId]) -> Result<Vec<Vec<NodeReference>>, ConnectFailure> {
+        let mut children = Vec::with_capacity(nodes.len());
+        for some in nodes.chunks(MAX_BROWSED) {
+            let descriptions = some.iter().map(|node| description(node, CHILDREN, BrowseDirection::Forward)).collect();
+            let results = self.browse_first(descriptions).await?;
+            if results.len() != some.len() {
+                return Err(wrong_answer(ConnectStage::Browse));
+            }
+            for (node, page) in some.iter().zip(results) {
+                children.push(match page.status_code {
+                    // The server keeps its place in only so many nodes at once.
+                    StatusCode::BadNoContinuationPoints => self.children(node).await?,
+                    code if code.is_bad() => Vec::new(),
+                    _ => self.all_pages(page).await?,
+                });
+            }
+        }
+        Ok(children)
+    }
+
+    /// The BrowseName of each node, in the order of `nodes`; `None` where it cannot be read.
+    pub async fn browse_names(&self, nodes: &[NodeId]) -> Result<Vec<Option<QualifiedName>>, ConnectFailure> {
+        let names = self.read_attributes(nodes.iter().map(|node| (node, AttributeId::BrowseName))).await?;
+        Ok(names
+            .into_iter()
+            .map(|name| match name.value {
+                Value::QualifiedName(name) => Some(name),
+                _ => None,
+            })
+            .collect())
     }
 
     /// All references of a node, in both directions. At most 10,000.
@@ -166,25 +214,26 @@ impl ClientSession {
         references: ReferenceTypeId,
         direction: BrowseDirection,
     ) -> Result<Vec<NodeReference>, ConnectFailure> {
-        let description = BrowseDescription {
-            node_id: ua_node_id(node),
-            browse_direction: direction,
-            reference_type_id: references.into(),
-            include_subtypes: true,
-            node_class_mask: 0,
-            result_mask: BrowseResultMask::All as u32,
-        };
+        let mut results = self.browse_first(vec![description(node, references, direction)]).await?;
+        let page = results.pop().ok_or_else(|| wrong_answer(ConnectStage::Browse))?;
+        self.all_pages(page).await
+    }
+
+    /// The first references of nodes.
+    async fn browse_first(&self, nodes: Vec<BrowseDescription>) -> Result<Vec<BrowseResult>, ConnectFailure> {
         let request = self.shared.header(|shared, token, handle| {
             Browse::new_manual(0, REQUEST, token, handle)
                 .max_references_per_node(MAX_OPERATIONS as u32)
-                .browse_node(description)
+                .nodes_to_browse(nodes)
                 .send(&shared.secure)
         });
-        let mut results = self.shared.answered(ConnectStage::Browse, request).await?.results;
+        Ok(self.shared.answered(ConnectStage::Browse, request).await?.results.unwrap_or_default())
+    }
+
+    /// The references of the first page and of those after it.
+    async fn all_pages(&self, mut page: BrowseResult) -> Result<Vec<NodeReference>, ConnectFailure> {
         let mut found: Vec<ReferenceDescription> = Vec::new();
         loop {
-            let page =
-                results.and_then(|mut results| results.pop()).ok_or_else(|| wrong_answer(ConnectStage::Browse))?;
             if page.status_code.is_bad() {
                 return Err(ConnectFailure::of(ConnectStage::Browse, status(page.status_code, "")));
             }
@@ -194,21 +243,18 @@ impl ClientSession {
                 break;
             }
             let is_full = found.len() >= MAX_REFERENCES;
-            results = self.browse_on(point, is_full).await?;
+            let next = self.browse_on(point, is_full).await?;
             if is_full {
                 break;
             }
+            page = next.and_then(|mut results| results.pop()).ok_or_else(|| wrong_answer(ConnectStage::Browse))?;
         }
         found.truncate(MAX_REFERENCES);
         Ok(found.into_iter().map(reference).collect())
     }
 
     /// The next references, or else the continuation point is released.
-    async fn browse_on(
-        &self,
-        point: ByteString,
-        release: bool,
-    ) -> Result<Option<Vec<opcua::types::BrowseResult>>, ConnectFailure> {
+    async fn browse_on(&self, point: ByteString, release: bool) -> Result<Option<Vec<BrowseResult>>, ConnectFailure> {
         let request = self.shared.header(|shared, token, handle| {
             BrowseNext::new_manual(0, REQUEST, token, handle)
                 .release_continuation_points(release)
@@ -327,6 +373,17 @@ async fn serve(
     }
 }
 
+fn description(node: &NodeId, references: ReferenceTypeId, direction: BrowseDirection) -> BrowseDescription {
+    BrowseDescription {
+        node_id: ua_node_id(node),
+        browse_direction: direction,
+        reference_type_id: references.into(),
+        include_subtypes: true,
+        node_class_mask: 0,
+        result_mask: BrowseResultMask::All as u32,
+    }
+}
+
 pub(super) fn wrong_answer(stage: ConnectStage) -> ConnectFailure {
     ConnectFailure::of(stage, ConnectFailureCause::NotOpcUa("its answer is not what was asked for".to_owned()))
 }
@@ -359,3 +416,7 @@ pub(super) const SESSION_TIMEOUT_MS: f64 = 60_000.0;
 /// Values or references in one request.
 pub(super) const MAX_OPERATIONS: usize = 1_000;
 const MAX_REFERENCES: usize = 10_000;
+/// Nodes in one Browse request.
+const MAX_BROWSED: usize = 100;
+/// The references that lead to what a tree shows below a node.
+const CHILDREN: ReferenceTypeId = ReferenceTypeId::HierarchicalReferences;

@@ -2,11 +2,12 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use opcua::client::UARequest;
-use opcua::client::services::{CreateMonitoredItems, CreateSubscription, Publish};
+use opcua::client::services::{CreateMonitoredItems, CreateSubscription, DeleteMonitoredItems, Publish};
 use opcua::types::{
     AttributeId, DataChangeNotification, ExtensionObject, MonitoredItemCreateRequest, MonitoringMode,
     MonitoringParameters, NotificationMessage, ReadValueId, StatusChangeNotification, StatusCode, TimestampsToReturn,
 };
+use parking_lot::Mutex;
 use tokio::sync::mpsc;
 use tokio_util::sync::{CancellationToken, DropGuard};
 
@@ -39,12 +40,48 @@ pub type Changes = Vec<(usize, DataValue)>;
 
 /// Variables that a server watches. Ends when it is dropped; the subscription in the server ends with the session, or
 /// when its lifetime is over.
+///
+/// A session has one subscription at a time: a Publish response belongs to any of the session's subscriptions.
 #[derive(Debug)]
 pub struct Subscription {
-    changes: mpsc::Receiver<Result<Changes, ConnectFailure>>,
+    shared: Arc<Shared>,
+    id: u32,
+    intervals: SubscriptionIntervals,
+    changes: mpsc::Receiver<Result<Notified, ConnectFailure>>,
     /// In the order of the nodes: whether the server watches each.
     accepted: Vec<Quality>,
+    /// The server's ids of the monitored items.
+    items: Vec<u32>,
+    handles: Arc<Mutex<ClientHandles>>,
     _stop: DropGuard,
+}
+
+/// Changes, and the first client handle of the variables that they are of.
+type Notified = (u32, Changes);
+
+/// The client handles of the variables that are watched now. The node with index 0 has the handle `first`. Handles are
+/// not used again, so that a late notification of a removed variable is recognised. 0 stands for none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct ClientHandles {
+    first: u32,
+    count: u32,
+}
+
+impl ClientHandles {
+    /// The handles of so many other nodes.
+    const fn next(self, count: u32) -> Self {
+        Self { first: self.first.saturating_add(self.count), count }
+    }
+
+    /// The index of the node with this handle; `None` if its variable was removed.
+    fn index(self, handle: u32) -> Option<usize> {
+        handle.checked_sub(self.first).filter(|index| *index < self.count).map(|index| index as usize)
+    }
+
+    /// Whether no variable ever had this handle.
+    const fn is_unknown(self, handle: u32) -> bool {
+        handle == 0 || handle >= self.first.saturating_add(self.count)
+    }
 }
 
 impl Subscription {
@@ -62,18 +99,20 @@ impl Subscription {
                 .send(shared.channel())
         });
         let created = shared.answered(ConnectStage::Subscribe, request).await?;
-        let subscription = created.subscription_id;
-        let mut accepted = Vec::with_capacity(nodes.len());
-        for (page, some) in nodes.chunks(MAX_OPERATIONS).enumerate() {
-            accepted.extend(watch(&shared, subscription, page * MAX_OPERATIONS, some, intervals).await?);
-        }
+        let id = created.subscription_id;
+        let handles = Arc::new(Mutex::new(ClientHandles { first: 1, count: 0 }));
         let stop = CancellationToken::new();
         let (sender, changes) = mpsc::channel(WAITING_NOTIFICATIONS);
         // A server that has nothing to tell sends a keep-alive after so long.
         let silence = Duration::from_secs_f64(created.revised_publishing_interval.clamp(0.0, MAX_INTERVAL_MS) / 1000.0)
             * created.revised_max_keep_alive_count.clamp(1, 1_000);
-        let publishing =
-            Publishing { shared, subscription, timeout: silence + REQUEST, nodes: nodes.len(), changes: sender };
+        let publishing = Publishing {
+            shared: shared.clone(),
+            subscription: id,
+            timeout: silence + REQUEST,
+            handles: handles.clone(),
+            changes: sender,
+        };
         let stopped = stop.clone();
         tokio::spawn(async move {
             tokio::select! {
@@ -81,7 +120,52 @@ impl Subscription {
                 () = stopped.cancelled() => {}
             }
         });
-        Ok(Self { changes, accepted, _stop: stop.drop_guard() })
+        let mut subscription = Self {
+            shared,
+            id,
+            intervals,
+            changes,
+            accepted: Vec::new(),
+            items: Vec::new(),
+            handles,
+            _stop: stop.drop_guard(),
+        };
+        subscription.add(nodes).await?;
+        Ok(subscription)
+    }
+
+    /// Watches these variables from now on, and no longer those before. The indices of the changes are those of `nodes`;
+    /// changes of the former variables that have not been taken are dropped.
+    pub async fn replace(&mut self, nodes: &[NodeId]) -> Result<(), ConnectFailure> {
+        // From here on what is still under way for the former variables is ignored.
+        let next = self.handles.lock().next(0);
+        *self.handles.lock() = next;
+        let items = std::mem::take(&mut self.items);
+        for some in items.chunks(MAX_OPERATIONS) {
+            let request = self.shared.header(|shared, token, handle| {
+                DeleteMonitoredItems::new_manual(self.id, 0, REQUEST, token, handle)
+                    .items_to_delete(some.to_vec())
+                    .send(shared.channel())
+            });
+            self.shared.answered(ConnectStage::Subscribe, request).await?;
+        }
+        self.add(nodes).await
+    }
+
+    async fn add(&mut self, nodes: &[NodeId]) -> Result<(), ConnectFailure> {
+        let handles = self.handles.lock().next(u32::try_from(nodes.len()).unwrap_or(u32::MAX));
+        *self.handles.lock() = handles;
+        self.accepted.clear();
+        for (page, some) in nodes.chunks(MAX_OPERATIONS).enumerate() {
+            let first = handles.first.saturating_add((page * MAX_OPERATIONS) as u32);
+            for (quality, item) in watch(&self.shared, self.id, first, some, self.intervals).await? {
+                if !quality.is_bad() {
+                    self.items.push(item);
+                }
+                self.accepted.push(quality);
+            }
+        }
+        Ok(())
     }
 
     /// Whether the server watches each node, in the order of the nodes; a bad quality says why not.
@@ -93,21 +177,25 @@ impl Subscription {
     /// Cancel safe.
     pub async fn next(&mut self) -> Result<Changes, ConnectFailure> {
         match self.changes.recv().await {
-            Some(changes) => changes,
+            Some(Ok((first, changes))) if first == self.handles.lock().first => Ok(changes),
+            // Of variables that are no longer watched.
+            Some(Ok(_)) => Ok(Changes::new()),
+            Some(Err(failure)) => Err(failure),
             None => Err(ConnectFailure::of(ConnectStage::Subscribe, status(StatusCode::BadNoSubscription, ""))),
         }
     }
 }
 
-/// Adds variables to a subscription. Client handles are the indices of the nodes plus one, as 0 stands for none.
+/// Adds variables to a subscription, with client handles from `first` on; whether the server watches each, and its id of
+/// the monitored item.
 async fn watch(
     shared: &Shared,
     subscription: u32,
-    first: usize,
+    first: u32,
     nodes: &[NodeId],
     intervals: SubscriptionIntervals,
-) -> Result<Vec<Quality>, ConnectFailure> {
-    let items = nodes.iter().enumerate().map(|(at, node)| MonitoredItemCreateRequest {
+) -> Result<Vec<(Quality, u32)>, ConnectFailure> {
+    let items = nodes.iter().zip(first..).map(|(node, client_handle)| MonitoredItemCreateRequest {
         item_to_monitor: ReadValueId {
             node_id: ua_node_id(node),
             attribute_id: AttributeId::Value as u32,
@@ -115,7 +203,7 @@ async fn watch(
         },
         monitoring_mode: MonitoringMode::Reporting,
         requested_parameters: MonitoringParameters {
-            client_handle: (first + at + 1) as u32,
+            client_handle,
             sampling_interval: intervals.sampling.as_secs_f64() * 1000.0,
             queue_size: intervals.queue,
             discard_oldest: true,
@@ -130,7 +218,10 @@ async fn watch(
             .send(shared.channel())
     });
     let created = shared.answered(ConnectStage::Subscribe, request).await?.results;
-    Ok(created.into_iter().map(|item| quality(item.result.status_code)).collect())
+    if created.len() != nodes.len() {
+        return Err(wrong_answer(ConnectStage::Subscribe));
+    }
+    Ok(created.into_iter().map(|item| (quality(item.result.status_code), item.result.monitored_item_id)).collect())
 }
 
 /// Asks for notifications, one Publish request after the other.
@@ -138,8 +229,8 @@ struct Publishing {
     shared: Arc<Shared>,
     subscription: u32,
     timeout: Duration,
-    nodes: usize,
-    changes: mpsc::Sender<Result<Changes, ConnectFailure>>,
+    handles: Arc<Mutex<ClientHandles>>,
+    changes: mpsc::Sender<Result<Notified, ConnectFailure>>,
 }
 
 impl Publishing {
@@ -154,7 +245,7 @@ impl Publishing {
         }
     }
 
-    async fn publish(&self, acknowledged: &mut Option<u32>) -> Result<Changes, ConnectFailure> {
+    async fn publish(&self, acknowledged: &mut Option<u32>) -> Result<Notified, ConnectFailure> {
         let request = self.shared.header(|shared, token, handle| {
             let mut publish = Publish::new_manual(0, self.timeout, token, handle);
             if let Some(sequence_number) = acknowledged.take() {
@@ -168,28 +259,30 @@ impl Publishing {
         if !notifications.is_empty() {
             *acknowledged = Some(sequence_number);
         }
+        let handles = *self.handles.lock();
         let mut changes = Changes::new();
         for notification in notifications {
-            self.take_in(notification, &mut changes)?;
+            take_in(notification, handles, &mut changes)?;
         }
-        Ok(changes)
+        Ok((handles.first, changes))
     }
+}
 
-    fn take_in(&self, notification: ExtensionObject, changes: &mut Changes) -> Result<(), ConnectFailure> {
-        if let Some(change) = notification.inner_as::<StatusChangeNotification>() {
-            return Err(ConnectFailure::of(ConnectStage::Subscribe, status(change.status, "")));
+fn take_in(notification: ExtensionObject, handles: ClientHandles, changes: &mut Changes) -> Result<(), ConnectFailure> {
+    if let Some(change) = notification.inner_as::<StatusChangeNotification>() {
+        return Err(ConnectFailure::of(ConnectStage::Subscribe, status(change.status, "")));
+    }
+    // Events are not subscribed.
+    let Some(data) = notification.into_inner_as::<DataChangeNotification>() else { return Ok(()) };
+    for item in data.monitored_items.unwrap_or_default() {
+        if handles.is_unknown(item.client_handle) {
+            return Err(wrong_answer(ConnectStage::Subscribe));
         }
-        // Events are not subscribed.
-        let Some(data) = notification.into_inner_as::<DataChangeNotification>() else { return Ok(()) };
-        for item in data.monitored_items.unwrap_or_default() {
-            let index = (item.client_handle as usize).wrapping_sub(1);
-            if index >= self.nodes {
-                return Err(wrong_answer(ConnectStage::Subscribe));
-            }
+        if let Some(index) = handles.index(item.client_handle) {
             changes.push((index, data_value(item.value)));
         }
-        Ok(())
     }
+    Ok(())
 }
 
 const REQUEST: Duration = Duration::from_secs(20);
@@ -199,3 +292,18 @@ const MAX_NOTIFICATIONS: u32 = 2_000;
 /// Notifications that wait to be taken; the server keeps the next ones.
 const WAITING_NOTIFICATIONS: usize = 16;
 const MAX_INTERVAL_MS: f64 = 60_000.0;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_late_notification_of_a_removed_variable_is_recognised() {
+        let first = ClientHandles { first: 1, count: 0 }.next(3);
+        assert_eq!([1, 3].map(|handle| first.index(handle)), [Some(0), Some(2)]);
+        assert!(first.is_unknown(0) && first.is_unknown(4));
+        let second = first.next(0).next(2);
+        assert_eq!([3, 4, 5].map(|handle| second.index(handle)), [None, Some(0), Some(1)]);
+        assert!(!second.is_unknown(3) && second.is_unknown(6));
+    }
+}
