@@ -24,6 +24,7 @@
 //! | `activation` | activate legacy controllers by their keys |
 //! | `server_log` | read the server log, save it on the PC |
 //! | `settings_transfer` | export settings to the PC and import them again |
+//! | `live_values` | watch the values of one OPC UA server as they change |
 //! | `verify` | connect to the OPC UA server as a client does |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
@@ -36,6 +37,7 @@ mod enroll;
 mod export_self_signed;
 mod get_info;
 mod import_ca_signed;
+mod live_values;
 mod operation;
 mod overview;
 mod preflight;
@@ -65,6 +67,11 @@ pub use enroll::{Enrolled, enroll, probe};
 pub use export_self_signed::{CertificateExported, ExportSelfSigned};
 pub use get_info::GetInfo;
 pub use import_ca_signed::{CaSignedSource, CheckCaSigned, ImportCaSigned};
+pub use live_values::{
+    AxisPoints, ConsumablePoints, ControllerPoints, IoGroup, IoSignal, LiveEvent, LiveLayout, LiveLogin, LivePoint,
+    LiveRequest, NodeDetails, QueueKind, QueuePoints, QueueSystemPoints, RobotPoints, SafetyPoints, SpelProjectPoints,
+    StatusPoints, TaskPoints, is_consumed_by_reading, watch_values,
+};
 pub use operation::{
     Confirmation, JobStep, NoOutput, Operation, OperationOutput, OperationRun, OutputFacts, ServerEffect,
 };

@@ -101,6 +101,7 @@ pub mod cli;
 mod errors;
 mod files;
 mod help;
+mod live;
 mod sentences;
 mod trust;
 mod vault;
@@ -112,6 +113,7 @@ pub use certificates::explain_refusal;
 pub use errors::Explanation;
 pub use files::*;
 pub use help::{HelpTexts, UsageErrorTexts, help};
+pub use live::*;
 pub use sentences::*;
 pub use trust::*;
 pub use vault::*;
@@ -156,6 +158,7 @@ impl TextKey {
             en::common::FIXED_TEXTS,
             en::controllers::FIXED_TEXTS,
             en::files::FIXED_TEXTS,
+            en::live::FIXED_TEXTS,
             en::server::FIXED_TEXTS,
             en::server_certificates::FIXED_TEXTS,
             en::trust::FIXED_TEXTS,

@@ -150,6 +150,7 @@ impl Model {
                 self.trust_seen(job, event);
                 vec![]
             }
+            BackendEvent::LiveSeen { job, event } => self.live_seen(job, event),
             BackendEvent::Recognised { job, files } => self.recognised(job, files),
             BackendEvent::ExportSeen { job, result } => {
                 self.export_seen(job, result);

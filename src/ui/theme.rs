@@ -18,6 +18,8 @@ pub struct Palette {
     pub warning: Color32,
     pub error: Color32,
     pub off: Color32,
+    /// Lines of a plot, told apart by their hue; the first ones are used most.
+    pub plot: [Color32; 8],
     /// Fill of tick boxes and radio buttons: must stand out from the panel also when it is not ticked.
     tick_box: Color32,
     selection: f32,
@@ -43,6 +45,16 @@ const DARK: Palette = Palette {
     warning: rgb(0xe5a73b),
     error: rgb(0xee6160),
     off: rgb(0x8b94a4),
+    plot: [
+        rgb(0x5b9bff),
+        rgb(0xf2a33a),
+        rgb(0x4fc98c),
+        rgb(0xf06d8f),
+        rgb(0xb28dff),
+        rgb(0x3ec7d6),
+        rgb(0xd9d05a),
+        rgb(0xc8cedb),
+    ],
     tick_box: rgb(0x667085),
     selection: 0.28,
     shadow: 110,
@@ -62,6 +74,16 @@ const LIGHT: Palette = Palette {
     warning: rgb(0xb45309),
     error: rgb(0xc62828),
     off: rgb(0x6b7280),
+    plot: [
+        rgb(0x2563eb),
+        rgb(0xc2570c),
+        rgb(0x15803d),
+        rgb(0xbe185d),
+        rgb(0x7c3aed),
+        rgb(0x0e7490),
+        rgb(0x7a6a00),
+        rgb(0x475569),
+    ],
     tick_box: rgb(0xffffff),
     selection: 0.16,
     shadow: 45,
@@ -107,6 +129,17 @@ pub const TRUST_ROOM: Vec2 = vec2(72.0, 168.0);
 pub const TRUST_LOW_WINDOW: f32 = 640.0;
 pub const TRUST_MIN_HEIGHT: f32 = 140.0;
 pub const TRUST_SIDE_BY_SIDE: f32 = 1050.0;
+/// Live values: a lamp with its number, the bar that shows a value in its range, the tree beside the attributes, and the
+/// list beside the plot.
+pub const LAMP: Vec2 = vec2(46.0, 40.0);
+pub const LAMP_RADIUS: f32 = 7.0;
+pub const RANGE_BAR: Vec2 = vec2(90.0, 6.0);
+pub const NODE_TREE: f32 = 360.0;
+pub const NODE_INDENT: f32 = 16.0;
+pub const PLOT_LIST: f32 = 260.0;
+pub const LIVE_MIN_HEIGHT: f32 = 160.0;
+/// What the tree and the plot leave of the dialog's height to what is above them.
+pub const LIVE_ROOM: f32 = 262.0;
 /// Of the small CA's window, with its list of certificates.
 pub const DIALOG_AUTHORITY: f32 = 960.0;
 pub const LABEL_WIDTH: f32 = 150.0;

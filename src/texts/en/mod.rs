@@ -9,6 +9,7 @@ pub mod countries;
 pub mod errors;
 pub mod files;
 pub mod help;
+pub mod live;
 pub mod revocation_lists;
 pub mod sentences;
 pub mod server;

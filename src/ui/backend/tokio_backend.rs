@@ -7,12 +7,13 @@ use std::time::Duration;
 use parking_lot::Mutex;
 use secrecy::SecretString;
 use tokio::runtime::Runtime;
+use tokio::sync::mpsc::UnboundedSender;
 use tokio_util::sync::CancellationToken;
 
 use super::unfinished::{UnfinishedWork, WorkGuard};
 use super::vault::StoreReporter;
 use super::{Backend, VirtualFleetStarter, trust_files};
-use crate::jobs::{self, JobContext, JobController};
+use crate::jobs::{self, JobContext, JobController, LiveRequest};
 use crate::model::{ControllerInfo, Credentials, ErrorCode, Problem};
 use crate::platform::display;
 use crate::platform::stop_signal::StopSignals;
@@ -57,6 +58,8 @@ pub struct TokioBackend {
     store: Arc<StoreReporter>,
     events: mpsc::Receiver<BackendEvent>,
     running: HashMap<JobId, CancellationToken>,
+    /// Takes requests to the running watches of live values.
+    live: HashMap<JobId, UnboundedSender<LiveRequest>>,
     unfinished: UnfinishedWork,
     runtime: Option<Runtime>,
     saver: Option<Saver>,
@@ -107,6 +110,7 @@ impl TokioBackend {
             emit,
             events,
             running: HashMap::new(),
+            live: HashMap::new(),
             unfinished,
             runtime: Some(runtime),
             saver: Some(saver),
@@ -333,6 +337,20 @@ impl Backend for TokioBackend {
                     let on_event = move |event| emit(BackendEvent::TrustSeen { job, event });
                     jobs::watch_trust(*controller, context, cancel, on_event).await;
                 });
+            }
+            BackendCommand::WatchValues { job, controller, login } => {
+                let cancel = self.token(job);
+                let (sender, requests) = tokio::sync::mpsc::unbounded_channel();
+                self.live.retain(|_, watch| !watch.is_closed());
+                self.live.insert(job, sender);
+                self.spawn(async move {
+                    let on_event = move |event| emit(BackendEvent::LiveSeen { job, event });
+                    jobs::watch_values(*controller, *login, context, requests, cancel, on_event).await;
+                });
+            }
+            BackendCommand::AskValues { job, request } => {
+                // A watch that has ended has told so.
+                let _ended = self.live.get(&job).map(|watch| watch.send(request));
             }
             BackendCommand::Recognise { job, paths } => {
                 if let Some(runtime) = &self.runtime {

@@ -12,7 +12,7 @@
 //! | `basic_settings`, `users`, `server_log`, `activation`, `settings_transfer` | the server's settings |
 //! | `self_signed`, `certificate_import`, `export_self_signed`, `type_select` | the server's certificates |
 //! | [`client_certificates`] | client certificates and CRLs |
-//! | `certificate_authority`, `verify` | tools |
+//! | `certificate_authority`, `verify`, [`live_values`] | tools |
 //! | `backup`, `options`, [`vault`] | how this program works |
 //! | `licences`, `about` | help |
 //! | `dropped_files` | which dialog takes files dropped onto the window |
@@ -31,6 +31,7 @@ pub mod delete_controllers;
 mod dropped_files;
 pub mod export_self_signed;
 pub mod licences;
+pub mod live_values;
 mod options;
 pub mod self_signed;
 mod server_control;
@@ -72,6 +73,7 @@ pub const COMMANDS: &[C] = &[
     C::OPTIONS,
     C::CERTIFICATE_AUTHORITY,
     C::VERIFY,
+    C::LIVE_VALUES,
     C::SHORTCUTS,
     C::LICENCES,
     C::ABOUT,
@@ -100,7 +102,7 @@ pub const CERTIFICATE_MENU: MenuEntries =
 pub const SERVER_MENU: MenuEntries =
     &[&[C::BASIC_SETTINGS, C::USERS, C::SERVER_LOG, C::ACTIVATION], &[C::EXPORT_SETTINGS, C::IMPORT_SETTINGS]];
 /// The menu "Tools".
-pub const TOOLS_MENU: MenuEntries = &[&[C::CERTIFICATE_AUTHORITY, C::VERIFY]];
+pub const TOOLS_MENU: MenuEntries = &[&[C::CERTIFICATE_AUTHORITY, C::VERIFY], &[C::LIVE_VALUES]];
 /// The menu "Help".
 pub const HELP_MENU: MenuEntries = &[&[C::COMMAND_PALETTE], &[C::SHORTCUTS, C::LICENCES, C::ABOUT]];
 

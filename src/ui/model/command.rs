@@ -6,7 +6,7 @@ use chrono::{DateTime, Utc};
 use secrecy::SecretString;
 
 use super::{DroppedFile, JobId, Task, TaskEvent};
-use crate::jobs::{Enrolled, JobController, JobSummary, TrustFile, WatchEvent};
+use crate::jobs::{Enrolled, JobController, JobSummary, LiveEvent, LiveLogin, LiveRequest, TrustFile, WatchEvent};
 use crate::model::{Address, ConnectionKind, ControllerInfo, Credentials, FirmwareVersion, Problem};
 use crate::pki::{Csr, Fingerprint, IssueRequest, RevocationReason};
 use crate::ui::picker::FileKind;
@@ -91,6 +91,17 @@ pub enum BackendCommand {
         job: JobId,
         controller: Box<JobController>,
     },
+    /// Reports what the OPC UA server of a controller shows with [`BackendEvent::LiveSeen`] until it is cancelled.
+    WatchValues {
+        job: JobId,
+        controller: Box<JobController>,
+        login: Box<LiveLogin>,
+    },
+    /// Asks a running [`BackendCommand::WatchValues`] for something. One that has ended does not answer.
+    AskValues {
+        job: JobId,
+        request: LiveRequest,
+    },
     /// Finds out what files are, by their content; ends with [`BackendEvent::Recognised`].
     Recognise {
         job: JobId,
@@ -155,6 +166,10 @@ pub enum BackendEvent {
     TrustSeen {
         job: JobId,
         event: WatchEvent,
+    },
+    LiveSeen {
+        job: JobId,
+        event: LiveEvent,
     },
     AuthorityDone {
         job: JobId,

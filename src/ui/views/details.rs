@@ -172,6 +172,11 @@ fn lists(ui: &mut Ui, row: &Row, model: &Model, messages: &mut Vec<Message>) {
     if ui.add_enabled(can_read, Button::new(text(T::DetailsRead))).clicked() {
         messages.push(Message::ReadOverview(row.id));
     }
+    let live = Button::new(text(T::LiveValues));
+    if ui.add_enabled(can_read, live).on_hover_text(text(T::LiveValuesTip)).clicked() {
+        let row = row.id;
+        messages.push(Message::act(move |model| model.open_live_values(row)));
+    }
 }
 
 const fn token_name(token: UserTokenPolicy) -> T {
