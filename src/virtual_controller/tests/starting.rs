@@ -108,3 +108,39 @@ async fn startup_auto_starts_with_the_controller_or_says_why_not() {
     })
     .await;
 }
+
+/// Manual 4.2.2: a change of the variables takes effect when the server is started again.
+#[tokio::test]
+async fn the_variables_of_the_project_are_taken_at_each_start_and_mistakes_are_named_in_the_log() {
+    bounded(async {
+        let mut new = with_certificate(initial(CURRENT));
+        new.settings.server_log = true;
+        let test_controller = TestController::new(new).await;
+        let client = test_controller.client().await;
+        let file = test_controller.folder.path().join("project").join("Variables.inc");
+        let names = || {
+            let variables = test_controller.controller.cell().description().variables.clone();
+            variables.iter().map(|variable| variable.name.clone()).collect::<Vec<_>>()
+        };
+        assert!(
+            names().contains(&"OPCUA_ItemCode".to_owned()),
+            "the example of the manual is there from the beginning"
+        );
+        std::fs::write(&file, "Global Preserve Long OPCUA_Own\nGlobal Preserve Long OPCUA_List(5)\n").unwrap();
+        let _started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
+        assert_eq!(names(), ["OPCUA_Own"]);
+        let log = client.get::<crate::model::LogChunk>(protocol::GetLog::PATH).await.unwrap().text;
+        assert!(log.contains("WARN variables: line 2: OPCUA_List is an array"), "{log}");
+
+        std::fs::write(&file, "Global Preserve Long OPCUA_Other\n").unwrap();
+        assert_eq!(names(), ["OPCUA_Own"], "while the server runs");
+        let _stopped: Changed = client.post(protocol::StopServer::PATH, &()).await.unwrap();
+        std::fs::remove_file(&file).unwrap();
+        std::fs::create_dir(&file).unwrap();
+        let _started: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
+        assert_eq!(names(), ["OPCUA_Own"], "a file that cannot be read changes nothing");
+        let log = client.get::<crate::model::LogChunk>(protocol::GetLog::PATH).await.unwrap().text;
+        assert!(log.contains("WARN variables cannot be read: "), "{log}");
+    })
+    .await;
+}

@@ -63,6 +63,62 @@ fn faults_are_switched_from_another_process() {
     assert_eq!(unknown.code, Some(2), "{}", unknown.stderr);
 }
 
+/// Gives commands to the cell of the only controller: the exit code and the state.
+fn act(data: &str, arguments: &[&str]) -> (Option<i32>, Value) {
+    let mut command = program();
+    command.args(["virtual", "cell", "--data", data, "--all"]).args(arguments);
+    let finished = Running::start(&mut command).unwrap().finish(DONE);
+    (finished.code, serde_json::from_str(&finished.stdout).unwrap_or_else(|_| panic!("{}", finished.stderr)))
+}
+
+#[test]
+fn the_plant_around_a_virtual_controller_acts_from_another_process() {
+    let folder = tempfile::tempdir().unwrap();
+    let data = folder.path().join("fleet").display().to_string();
+    let robots = ["--robots", "C4-A601S,gx4-a251s", "--clock-rate", "50"];
+    let cli = CommandLineTest::with(1, &[&["--firmware", "current", "--data", &data][..], &robots].concat());
+    let until_flags = |flags: &[&str]| {
+        let end = Instant::now() + Duration::from_secs(60);
+        loop {
+            let (code, state) = act(&data, &[]);
+            assert_eq!((code, &state["refused"]), (Some(0), &Value::Null));
+            if state["flags"] == serde_json::json!(flags) {
+                return state;
+            }
+            assert!(Instant::now() < end, "{state}");
+        }
+    };
+    let running = until_flags(&["Auto", "Running"]);
+    assert_eq!(running["serial"], cli.ready[0]["serial"]);
+    assert_eq!(running["robots"][1]["model"], "GX4-A251S");
+
+    let (code, refused) = act(&data, &["--do", "start 0", "--do", "emergency-stop on"]);
+    assert_eq!(
+        (code, refused["refused"].as_str()),
+        (Some(1), Some("the controller is not ready: a task runs or is paused"))
+    );
+    assert_eq!(refused["emergency_stop"], false, "commands after a refused one are not given");
+    let (code, stopped) = act(&data, &["--do", "emergency-stop on", "--do", "door open"]);
+    assert_eq!((code, &stopped["emergency_stop"], &stopped["door_open"]), (Some(0), &true.into(), &true.into()));
+    until_flags(&["Auto", "Safeguard", "EStop", "Ready"]);
+    let again = ["emergency-stop off", "door closed", "reset", "start 1"];
+    let again: Vec<&str> = again.into_iter().flat_map(|command| ["--do", command]).collect();
+    assert_eq!(act(&data, &again).0, Some(0));
+    let home = until_flags(&["Auto", "Ready"]);
+    assert_eq!((&home["robots"][0]["at_home"], &home["robots"][1]["at_home"]), (&true.into(), &true.into()));
+
+    let mut unknown = program();
+    unknown.args(["virtual", "cell", "--data", &data, "--all", "--do", "dance"]);
+    let unknown = Running::start(&mut unknown).unwrap().finish(DONE);
+    assert_eq!(unknown.code, Some(2), "{}", unknown.stderr);
+    assert!(unknown.stderr.contains("emergency-stop on|off"), "the commands are listed: {}", unknown.stderr);
+    drop(cli);
+    let mut gone = program();
+    gone.args(["--json", "virtual", "cell", "--data", &data, "--all"]);
+    let gone = Running::start(&mut gone).unwrap().finish(DONE);
+    assert_eq!(gone.code, Some(2), "{}{}", gone.stdout, gone.stderr);
+}
+
 #[test]
 fn a_busy_management_port_is_named_as_such() {
     let busy = std::net::TcpListener::bind("127.0.0.1:0").unwrap();

@@ -284,7 +284,7 @@ fn a_day_passes_in_bounded_memory_without_a_loss_for_a_reader_that_keeps_up() {
                 }
             }
         };
-        for _ in 0..100 {
+        for _ in 0..40 {
             let now = pass(&mut cell, 500).motion_log.channel;
             assert_eq!(now.error, QueueStatus::None);
             look(&mut cell, false);
@@ -307,8 +307,8 @@ fn a_day_passes_in_bounded_memory_without_a_loss_for_a_reader_that_keeps_up() {
         }
     }
     assert_eq!(warnings, 12);
-    assert!(read > 24 * 750, "{read}");
-    assert!(most < 2 * MAX_SEGMENTS / 2, "{most} segments");
+    assert!(read > 24 * 300, "{read}");
+    assert!(most < MAX_SEGMENTS, "{most} segments");
     let SpelValue::UInt32(made) = cell.snapshot().variables[0] else { panic!() };
     assert!(made > 10_000, "{made}");
     let robot = &cell.snapshot().robots[0];
