@@ -8,8 +8,9 @@ use super::untrusted_text::one_line;
 
 /// One failure, as it is shown, logged and sent: a code and, where it helps, one technical detail.
 ///
-/// The detail is free text in English and never holds a secret. It is one line of at most 500 characters, without those
-/// that a terminal obeys ([`super::untrusted_text`]).
+/// The detail never holds a secret. It is the text of an error with those of its sources ([`super::with_sources`]) or a
+/// value, in English; only remarks about the arguments of a command are in the chosen language. It is one line of at most
+/// 500 characters, without those that a terminal obeys ([`super::untrusted_text`]).
 #[derive(Debug, Clone, PartialEq, Eq, Error, Serialize, Deserialize)]
 pub struct Problem {
     /// What went wrong.
