@@ -26,8 +26,10 @@
 //! | `kinematics` | joints to pose and back |
 //! | `dynamics` | joint torques |
 //! | `profile` | trapezoidal speed along a path |
+//! | `motion` | one motion, and the load it puts on the joints |
 //! | `wear` | parts that wear |
 //! | `robot` | one robot over time: motions, overload rates, temperatures |
+//! | `robot_unit` | a robot with its wear and settings |
 //! | `force` | what a force sensor feels |
 //! | `program` | the statements of the tasks |
 //! | `task` | one task and where it is |
@@ -65,6 +67,7 @@ mod handle;
 mod io;
 mod io_history;
 mod kinematics;
+mod motion;
 mod motion_channel;
 mod noise;
 mod observation;
@@ -73,6 +76,7 @@ mod program;
 mod record;
 mod robot;
 mod robot_model;
+mod robot_unit;
 mod samples;
 mod settings;
 mod simulation;

@@ -6,7 +6,8 @@ use std::time::Duration;
 use super::kinematics::forward;
 use super::noise;
 use super::robot::ROOM_TEMPERATURE;
-use super::simulation::{Cell, RobotUnit};
+use super::robot_unit::RobotUnit;
+use super::simulation::Cell;
 use super::snapshot::{
     AxisValues, CellSnapshot, ConsumableValues, ControllerValues, ForceSensorValues, MotionLogValues, RobotValues,
     SafetyValues, TaskValues,
