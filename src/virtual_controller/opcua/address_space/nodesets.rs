@@ -270,6 +270,8 @@ impl Scalar<'_> {
                     name: (*name).into(),
                     data_type: data_type.0.into(),
                     value_rank: *rank,
+                    // Of any length in each dimension.
+                    array_dimensions: usize::try_from(*rank).ok().filter(|rank| *rank > 0).map(|rank| vec![0; rank]),
                     ..Default::default()
                 };
                 Variant::ExtensionObject(ExtensionObject::from_message(argument))

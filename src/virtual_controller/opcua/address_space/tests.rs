@@ -2,8 +2,8 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 use opcua::server::node_manager::{ParsedReadValueId, ParsedWriteValue};
 use opcua::types::{
-    AttributeId, DataEncoding, DataValue, DateTime, NodeClass, NodeId, NumericRange, StatusCode, TimestampsToReturn,
-    Variant,
+    AttributeId, BinaryEncodable as _, ContextOwned, DataEncoding, DataValue, DateTime, NodeClass, NodeId,
+    NumericRange, StatusCode, TimestampsToReturn, Variant,
 };
 
 use super::id::{Id, OWN, STANDARD, standard};
@@ -193,6 +193,23 @@ fn the_published_models_are_complete() {
     assert_eq!((&*device_set.name.text, device_set.name.namespace), ("DeviceSet", 2));
     let mode = types.0.node(Id::robotics(3006)).unwrap();
     assert!(matches!(&mode.class, Class::DataType { definition: Some(_), .. }));
+}
+
+/// The OPC UA crate refuses to send some values, and with them the whole response.
+#[test]
+fn every_attribute_can_be_sent() {
+    let context = ContextOwned::default();
+    for controller in every_controller() {
+        let nodes = controller.space.types.nodes().chain(controller.space.instances.nodes());
+        let ids: Vec<Id> = nodes.map(|(id, _)| id).collect();
+        for id in ids {
+            for attribute in (1..=27).filter_map(|number| AttributeId::from_u32(number).ok()) {
+                let value = controller.read_id(id, attribute);
+                let sent = value.encode(&mut Vec::new(), &context.context());
+                assert!(sent.is_ok(), "{id:?} {attribute:?}: {sent:?}");
+            }
+        }
+    }
 }
 
 #[test]

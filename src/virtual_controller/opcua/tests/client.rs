@@ -27,6 +27,8 @@ pub(super) struct ClientOptions<'a> {
     pub through: Option<String>,
     /// Of the secure channel, in milliseconds; renewed after three quarters of it.
     pub lifetime: u32,
+    /// The longest message the client takes, in bytes.
+    pub max_message_size: Option<usize>,
     /// Send passwords as they are.
     pub clear_password: bool,
 }
@@ -43,6 +45,7 @@ impl<'a> ClientOptions<'a> {
             application_uri: format!("urn:{}", CLIENT.name),
             through: None,
             lifetime: 60_000,
+            max_message_size: None,
             clear_password: false,
         }
     }
@@ -61,7 +64,11 @@ impl<'a> ClientOptions<'a> {
         fs::create_dir_all(folder.path().join("private")).unwrap();
         fs::write(folder.path().join("own/cert.der"), &self.identity.der).unwrap();
         fs::write(folder.path().join("private/private.pem"), self.identity.key.serialize_pem()).unwrap();
-        let mut client = ClientBuilder::new()
+        let mut builder = ClientBuilder::new();
+        if let Some(size) = self.max_message_size {
+            builder = builder.max_message_size(size);
+        }
+        let mut client = builder
             .application_name("client")
             .application_uri(&self.application_uri)
             .product_uri("urn:client")

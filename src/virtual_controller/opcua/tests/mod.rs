@@ -9,6 +9,7 @@ mod resource_exhaustion;
 mod server;
 mod sessions;
 pub(super) mod test_application;
+mod values;
 
 use std::net::{IpAddr, Ipv4Addr};
 use std::sync::{Arc, LazyLock};
