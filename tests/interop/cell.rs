@@ -39,6 +39,11 @@ struct Ready {
 impl Cell {
     /// `firmware` is `current` or `legacy`.
     pub fn start(firmware: &str) -> Self {
+        Self::start_with(firmware, &[])
+    }
+
+    /// With more arguments of the command `virtual`.
+    pub fn start_with(firmware: &str, more: &[&str]) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let password_file = connection_password_file(folder.path());
         fs::write(&password_file, CONNECTION_PASSWORD).expect("the connection password's file");
@@ -46,6 +51,7 @@ impl Cell {
         let mut controller = Running::start(
             configurator(folder.path())
                 .args(["virtual", "--count", "1", "--management-port", "0", "--opcua-port", "0", "--seed", "1"])
+                .args(more)
                 .args(["--firmware", firmware, "--password-file"])
                 .arg(&password_file)
                 .arg("--data")

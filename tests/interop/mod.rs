@@ -2,11 +2,13 @@
 //!
 //! A peer that is not installed skips its story and says so. With `OPCUA_INTEROP_REQUIRED=1` a missing peer is a
 //! failure. `OPCUA_INTEROP_PYTHON` names a Python with asyncua (default `python3`), `OPCUA_INTEROP_NODE_MODULES` the
-//! `node_modules` folder with node-opcua-client.
+//! `node_modules` folder with node-opcua-client and node-opcua-nodesets.
 
+mod address_space;
 mod authority;
 mod cell;
 mod connections;
 pub mod peers;
+mod sample_programs;
 mod trust;
 mod trust_peers;

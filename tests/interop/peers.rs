@@ -203,19 +203,24 @@ impl OpenSsl {
     }
 }
 
-/// Whether a peer answers its probe. If not, says so where the test harness does not swallow it.
+/// Whether a peer answers its probe.
 fn found(probe: &mut Command, peer: &str, install: &str) -> bool {
     if Running::start(probe).is_ok_and(|running| running.finish(ANSWER).code == Some(0)) {
         return true;
     }
-    let missing = format!("{peer} not found; install with {install}");
-    assert!(env::var_os("OPCUA_INTEROP_REQUIRED").is_none(), "{missing}");
-    let _ = writeln!(stderr(), "SKIPPED: {missing}");
+    skip(peer, install);
     false
 }
 
+/// Says that something a story needs is missing, where the test harness does not swallow it.
+pub fn skip(peer: &str, install: &str) {
+    let missing = format!("{peer} not found; install with {install}");
+    assert!(env::var_os("OPCUA_INTEROP_REQUIRED").is_none(), "{missing}");
+    let _ = writeln!(stderr(), "SKIPPED: {missing}");
+}
+
 /// The one line of JSON a peer prints.
-fn answer(command: &mut Command) -> Value {
+pub fn answer(command: &mut Command) -> Value {
     let Finished { code, stdout, stderr } = Running::start(command).expect("the peer was found").finish(ANSWER);
     let last = stdout.lines().last().unwrap_or_default();
     match serde_json::from_str(last) {
