@@ -86,8 +86,9 @@ impl Space {
             let references = here.iter().flat_map(|id| self.references(*id));
             for reference in references.filter(|reference| follows(reference, element, tree)) {
                 match self.node(reference.other) {
-                    Some(node) if element.target_name.is_null() || node.name.is(&element.target_name) => {
-                        if !next.contains(&reference.other) {
+                    Some(node) => {
+                        let is_named = element.target_name.is_null() || node.name.is(&element.target_name);
+                        if is_named && !next.contains(&reference.other) {
                             next.push(reference.other);
                             found.push((reference.other, depth, None));
                         }
@@ -96,7 +97,7 @@ impl Space {
                     None if reference.other.namespace == STANDARD => {
                         found.push((reference.other, depth, Some(element.target_name.clone())));
                     }
-                    _ => {}
+                    None => {}
                 }
             }
             here = next;
