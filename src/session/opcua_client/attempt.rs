@@ -2,10 +2,16 @@ use opcua::client::UARequest;
 use opcua::client::services::Read;
 use opcua::types::{NodeId, ReadValueId, StatusCode, VariableId, Variant};
 
-use super::ReadServerState;
 use super::connection::REQUEST;
 use super::failure::{ConnectFailure, ConnectFailureCause, ConnectStage, status};
 use super::open_session::{OpenSession, SessionRequest};
+
+/// What a client that was let in has read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ReadServerState {
+    /// `ServerStatus.State`; 0 is Running (OPC 10000-5 §12.6).
+    pub state: i32,
+}
 
 /// Opens a session, reads the server's state and says goodbye.
 pub(super) async fn attempt(request: SessionRequest) -> Result<ReadServerState, ConnectFailure> {

@@ -1,25 +1,19 @@
 use std::sync::Arc;
 use std::time::Duration;
 
+use opcua::client::UARequest;
 use opcua::client::services::{Browse, BrowseNext, Read, TranslateBrowsePaths, Write};
-use opcua::client::transport::TransportPollResult;
-use opcua::client::{AsyncSecureChannel, UARequest};
-use opcua::core::handle::AtomicHandle;
 use opcua::types::{
     AttributeId, BrowseDescription, BrowseDirection, BrowsePath, BrowsePathTarget, BrowseResult, BrowseResultMask,
-    ByteString, Error, NodeId as UaNodeId, QualifiedName as UaQualifiedName, ReadValueId, ReferenceDescription,
-    ReferenceTypeId, RelativePath, RelativePathElement, StatusCode, TimestampsToReturn, WriteValue,
+    ByteString, QualifiedName as UaQualifiedName, ReadValueId, ReferenceDescription, ReferenceTypeId, RelativePath,
+    RelativePathElement, StatusCode, TimestampsToReturn, WriteValue,
 };
-use parking_lot::Mutex;
-use tokio::task::AbortHandle;
-use tokio_util::sync::CancellationToken;
 
-use super::connection::{ChannelEvents, ClientChannel};
 use super::convert::{data_value, quality, reference, ua_node_id, ua_variant};
-use super::failure::{ConnectFailure, ConnectFailureCause, ConnectStage, status};
-use super::open_session::{CLOSE, OpenSession};
+use super::failure::{ConnectFailure, ConnectStage, status};
+use super::open_session::OpenSession;
+use super::session_channel::{MAX_OPERATIONS, SessionChannel, wrong_answer};
 use super::subscription::{Subscription, SubscriptionIntervals};
-use super::watched_stream::StreamObservations;
 use crate::model::opcua::{DataValue, NodeId, NodeReference, QualifiedName, Quality, Value};
 
 /// A session with an OPC UA server that stays open until it is closed or dropped, or the connection ends.
@@ -29,54 +23,12 @@ use crate::model::opcua::{DataValue, NodeId, NodeReference, QualifiedName, Quali
 /// is asked and nothing is subscribed ends by then.
 #[derive(Debug, Clone)]
 pub struct ClientSession {
-    shared: Arc<Shared>,
-}
-
-/// What the session and its subscriptions have in common.
-pub(super) struct Shared {
-    secure: AsyncSecureChannel,
-    token: UaNodeId,
-    heard: Arc<Mutex<StreamObservations>>,
-    /// Cancelled when the connection has ended.
-    ended: CancellationToken,
-    end_status: Arc<Mutex<Option<StatusCode>>>,
-    /// Serves the connection.
-    events: AbortHandle,
-    pub(super) monitored_items: AtomicHandle,
-}
-
-impl std::fmt::Debug for Shared {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Shared").field("ended", &self.ended.is_cancelled()).finish_non_exhaustive()
-    }
-}
-
-/// Disconnects. A session that was not closed expires in the server.
-impl Drop for Shared {
-    fn drop(&mut self) {
-        self.events.abort();
-    }
+    channel: Arc<SessionChannel>,
 }
 
 impl ClientSession {
     pub(super) fn new(session: OpenSession) -> Self {
-        let OpenSession { channel, token } = session;
-        let ClientChannel { secure, events, heard, .. } = channel;
-        let ended = CancellationToken::new();
-        let end_status = Arc::new(Mutex::new(None));
-        // The guard also reports the end if the library panics over what the server sent.
-        let task = tokio::spawn(serve(events, end_status.clone(), ended.clone().drop_guard()));
-        Self {
-            shared: Arc::new(Shared {
-                secure,
-                token,
-                heard,
-                ended,
-                end_status,
-                events: task.abort_handle(),
-                monitored_items: AtomicHandle::new(1),
-            }),
-        }
+        Self { channel: Arc::new(SessionChannel::new(session)) }
     }
 
     /// Values of variables, in the order of `nodes`; at most 1,000 in one request, more in several. A node that cannot be
@@ -124,13 +76,13 @@ impl ClientSession {
             .collect();
         let mut values = Vec::with_capacity(attributes.len());
         for some in attributes.chunks(MAX_OPERATIONS) {
-            let request = self.shared.header(|shared, token, handle| {
+            let request = self.channel.request(|channel, token, handle| {
                 Read::new_manual(0, REQUEST, token, handle)
                     .timestamps_to_return(TimestampsToReturn::Both)
                     .nodes_to_read(some.to_vec())
-                    .send(&shared.secure)
+                    .send(channel.secure())
             });
-            let results = self.shared.answered(ConnectStage::Read, request).await?.results.unwrap_or_default();
+            let results = self.channel.answered(ConnectStage::Read, request).await?.results.unwrap_or_default();
             if results.len() != some.len() {
                 return Err(wrong_answer(ConnectStage::Read));
             }
@@ -154,10 +106,10 @@ impl ClientSession {
             .collect();
         let nodes_to_write = nodes_to_write
             .ok_or_else(|| ConnectFailure::of(ConnectStage::Write, status(StatusCode::BadTypeMismatch, "")))?;
-        let request = self.shared.header(|shared, token, handle| {
-            Write::new_manual(0, REQUEST, token, handle).nodes_to_write(nodes_to_write).send(&shared.secure)
+        let request = self.channel.request(|channel, token, handle| {
+            Write::new_manual(0, REQUEST, token, handle).nodes_to_write(nodes_to_write).send(channel.secure())
         });
-        let results = self.shared.answered(ConnectStage::Write, request).await?.results.unwrap_or_default();
+        let results = self.channel.answered(ConnectStage::Write, request).await?.results.unwrap_or_default();
         if results.len() != values.len() {
             return Err(wrong_answer(ConnectStage::Write));
         }
@@ -221,13 +173,13 @@ impl ClientSession {
 
     /// The first references of nodes.
     async fn browse_first(&self, nodes: Vec<BrowseDescription>) -> Result<Vec<BrowseResult>, ConnectFailure> {
-        let request = self.shared.header(|shared, token, handle| {
+        let request = self.channel.request(|channel, token, handle| {
             Browse::new_manual(0, REQUEST, token, handle)
                 .max_references_per_node(MAX_OPERATIONS as u32)
                 .nodes_to_browse(nodes)
-                .send(&shared.secure)
+                .send(channel.secure())
         });
-        Ok(self.shared.answered(ConnectStage::Browse, request).await?.results.unwrap_or_default())
+        Ok(self.channel.answered(ConnectStage::Browse, request).await?.results.unwrap_or_default())
     }
 
     /// The references of the first page and of those after it.
@@ -255,13 +207,13 @@ impl ClientSession {
 
     /// The next references, or else the continuation point is released.
     async fn browse_on(&self, point: ByteString, release: bool) -> Result<Option<Vec<BrowseResult>>, ConnectFailure> {
-        let request = self.shared.header(|shared, token, handle| {
+        let request = self.channel.request(|channel, token, handle| {
             BrowseNext::new_manual(0, REQUEST, token, handle)
                 .release_continuation_points(release)
                 .continuation_point(point)
-                .send(&shared.secure)
+                .send(channel.secure())
         });
-        Ok(self.shared.answered(ConnectStage::Browse, request).await?.results)
+        Ok(self.channel.answered(ConnectStage::Browse, request).await?.results)
     }
 
     /// The node at the end of a path of browse names from `start`, along hierarchical references (OPC 10000-4 §5.9.4).
@@ -277,10 +229,10 @@ impl ClientSession {
             starting_node: ua_node_id(start),
             relative_path: RelativePath { elements: Some(elements.collect()) },
         };
-        let request = self.shared.header(|shared, token, handle| {
-            TranslateBrowsePaths::new_manual(0, REQUEST, token, handle).browse_path(path).send(&shared.secure)
+        let request = self.channel.request(|channel, token, handle| {
+            TranslateBrowsePaths::new_manual(0, REQUEST, token, handle).browse_path(path).send(channel.secure())
         });
-        let results = self.shared.answered(ConnectStage::Browse, request).await?.results.unwrap_or_default();
+        let results = self.channel.answered(ConnectStage::Browse, request).await?.results.unwrap_or_default();
         let [result] = &results[..] else { return Err(wrong_answer(ConnectStage::Browse)) };
         match (result.status_code, result.targets.as_deref().unwrap_or_default()) {
             (StatusCode::BadNoMatch, _) => Ok(None),
@@ -303,73 +255,17 @@ impl ClientSession {
         nodes: &[NodeId],
         intervals: SubscriptionIntervals,
     ) -> Result<Subscription, ConnectFailure> {
-        Subscription::create(self.shared.clone(), nodes, intervals).await
+        Subscription::create(self.channel.clone(), nodes, intervals).await
     }
 
     /// Returns when the connection has ended, with the reason.
     pub async fn ended(&self) -> ConnectFailure {
-        self.shared.ended.cancelled().await;
-        self.shared.end(ConnectStage::Read)
+        self.channel.ended().await
     }
 
     /// Closes session and channel. A server that does not answer within 2 s is disconnected.
     pub async fn close(self) {
-        let request = self.shared.header(|shared, token, handle| {
-            opcua::client::services::CloseSession::new_manual(0, CLOSE, token, handle)
-                .delete_subscriptions(true)
-                .send(&shared.secure)
-        });
-        let closed = async {
-            if let Err(failure) = self.shared.answered(ConnectStage::CreateSession, request).await {
-                tracing::debug!(cause = %failure.cause, "session not closed");
-            }
-            self.shared.secure.close_channel().await;
-            self.shared.ended.cancelled().await;
-        };
-        let _late = tokio::time::timeout(CLOSE, closed).await;
-    }
-}
-
-impl Shared {
-    /// A request of this session.
-    pub(super) fn header<'a, R>(&'a self, request: impl FnOnce(&'a Self, UaNodeId, u32) -> R) -> R {
-        request(self, self.token.clone(), self.secure.request_handle())
-    }
-
-    pub(super) fn channel(&self) -> &AsyncSecureChannel {
-        &self.secure
-    }
-
-    /// The answer to a request, unless the connection ends first.
-    pub(super) async fn answered<R>(
-        &self,
-        stage: ConnectStage,
-        request: impl Future<Output = Result<R, Error>>,
-    ) -> Result<R, ConnectFailure> {
-        tokio::select! {
-            biased;
-            answer = request => answer.map_err(|error| ConnectFailure::from_library(stage, &error, &self.heard.lock())),
-            () = self.ended.cancelled() => Err(self.end(stage)),
-        }
-    }
-
-    fn end(&self, stage: ConnectStage) -> ConnectFailure {
-        let code = self.end_status.lock().unwrap_or(StatusCode::BadConnectionClosed);
-        ConnectFailure::from_library(stage, &Error::new(code, "closed"), &self.heard.lock())
-    }
-}
-
-/// Serves the connection until it ends.
-async fn serve(
-    mut events: ChannelEvents,
-    end_status: Arc<Mutex<Option<StatusCode>>>,
-    _ended: tokio_util::sync::DropGuard,
-) {
-    loop {
-        if let TransportPollResult::Closed(status) = events.poll().await {
-            *end_status.lock() = Some(status);
-            return;
-        }
+        self.channel.close().await;
     }
 }
 
@@ -382,10 +278,6 @@ fn description(node: &NodeId, references: ReferenceTypeId, direction: BrowseDire
         node_class_mask: 0,
         result_mask: BrowseResultMask::All as u32,
     }
-}
-
-pub(super) fn wrong_answer(stage: ConnectStage) -> ConnectFailure {
-    ConnectFailure::of(stage, ConnectFailureCause::NotOpcUa("its answer is not what was asked for".to_owned()))
 }
 
 /// The attributes of a node that are worth showing, and their names.
@@ -412,9 +304,6 @@ const ATTRIBUTES: [(AttributeId, &str); 18] = [
 /// `Server_NamespaceArray` (OPC 10000-6 §A.3).
 const NAMESPACE_ARRAY: u32 = 2255;
 const REQUEST: Duration = Duration::from_secs(20);
-pub(super) const SESSION_TIMEOUT_MS: f64 = 60_000.0;
-/// Values or references in one request.
-pub(super) const MAX_OPERATIONS: usize = 1_000;
 const MAX_REFERENCES: usize = 10_000;
 /// Nodes in one Browse request.
 const MAX_BROWSED: usize = 100;

@@ -19,9 +19,10 @@ use tokio::io::{ReadHalf, WriteHalf};
 use tokio::net::TcpStream;
 use tokio_util::codec::FramedRead;
 
+use super::endpoint::Endpoint;
 use super::failure::{ConnectFailure, ConnectFailureCause, ConnectStage};
+use super::server_location::ServerLocation;
 use super::watched_stream::{MAX_BYTES, MAX_FRAME, StreamObservations, WatchedStream};
-use super::{Endpoint, ServerLocation};
 
 /// How one connection is made.
 pub(super) struct ConnectionSetup {

@@ -2,8 +2,8 @@ use opcua::types::{EndpointDescription, MessageSecurityMode, UserTokenType};
 use serde::Serialize;
 use x509_parser::prelude::{FromDer as _, X509Certificate};
 
-use super::ServerLocation;
 use super::failure::printable;
+use super::server_location::ServerLocation;
 use crate::model::{SecurityPolicy, UserTokenPolicy, with_cause};
 use crate::pki::{Certificate, PkiError};
 

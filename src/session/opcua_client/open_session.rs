@@ -5,8 +5,9 @@ use opcua::types::{ApplicationDescription, ApplicationType, NodeId};
 use secrecy::ExposeSecret as _;
 
 use super::connection::{ClientChannel, ConnectionSetup, REQUEST};
+use super::endpoint::Endpoint;
 use super::failure::{ConnectFailure, ConnectFailureCause, ConnectStage};
-use super::{Endpoint, UserLogin};
+use super::user_login::UserLogin;
 use crate::model::SecurityPolicy;
 
 /// What is needed to open a session: the server, the endpoint, who logs in.

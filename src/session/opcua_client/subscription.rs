@@ -11,9 +11,9 @@ use parking_lot::Mutex;
 use tokio::sync::mpsc;
 use tokio_util::sync::{CancellationToken, DropGuard};
 
-use super::client_session::{MAX_OPERATIONS, Shared, wrong_answer};
 use super::convert::{data_value, quality, ua_node_id};
 use super::failure::{ConnectFailure, ConnectStage, status};
+use super::session_channel::{MAX_OPERATIONS, SessionChannel, wrong_answer};
 use crate::model::opcua::{DataValue, NodeId, Quality};
 
 /// How often a server looks at variables, and how often it tells what has changed.
@@ -44,7 +44,7 @@ pub type Changes = Vec<(usize, DataValue)>;
 /// A session has one subscription at a time: a Publish response belongs to any of the session's subscriptions.
 #[derive(Debug)]
 pub struct Subscription {
-    shared: Arc<Shared>,
+    channel: Arc<SessionChannel>,
     id: u32,
     intervals: SubscriptionIntervals,
     changes: mpsc::Receiver<Result<Notified, ConnectFailure>>,
@@ -86,19 +86,19 @@ impl ClientHandles {
 
 impl Subscription {
     pub(super) async fn create(
-        shared: Arc<Shared>,
+        channel: Arc<SessionChannel>,
         nodes: &[NodeId],
         intervals: SubscriptionIntervals,
     ) -> Result<Self, ConnectFailure> {
-        let request = shared.header(|shared, token, handle| {
+        let request = channel.request(|channel, token, handle| {
             CreateSubscription::new_manual(0, REQUEST, token, handle)
                 .publishing_interval(intervals.publishing)
                 .max_keep_alive_count(KEEP_ALIVE_COUNT)
                 .max_lifetime_count(KEEP_ALIVE_COUNT * 10)
                 .max_notifications_per_publish(MAX_NOTIFICATIONS)
-                .send(shared.channel())
+                .send(channel.secure())
         });
-        let created = shared.answered(ConnectStage::Subscribe, request).await?;
+        let created = channel.answered(ConnectStage::Subscribe, request).await?;
         let id = created.subscription_id;
         let handles = Arc::new(Mutex::new(ClientHandles { first: 1, count: 0 }));
         let stop = CancellationToken::new();
@@ -107,7 +107,7 @@ impl Subscription {
         let silence = Duration::from_secs_f64(created.revised_publishing_interval.clamp(0.0, MAX_INTERVAL_MS) / 1000.0)
             * created.revised_max_keep_alive_count.clamp(1, 1_000);
         let publishing = Publishing {
-            shared: shared.clone(),
+            channel: channel.clone(),
             subscription: id,
             timeout: silence + REQUEST,
             handles: handles.clone(),
@@ -121,7 +121,7 @@ impl Subscription {
             }
         });
         let mut subscription = Self {
-            shared,
+            channel,
             id,
             intervals,
             changes,
@@ -142,12 +142,12 @@ impl Subscription {
         *self.handles.lock() = next;
         let items = std::mem::take(&mut self.items);
         for some in items.chunks(MAX_OPERATIONS) {
-            let request = self.shared.header(|shared, token, handle| {
+            let request = self.channel.request(|channel, token, handle| {
                 DeleteMonitoredItems::new_manual(self.id, 0, REQUEST, token, handle)
                     .items_to_delete(some.to_vec())
-                    .send(shared.channel())
+                    .send(channel.secure())
             });
-            self.shared.answered(ConnectStage::Subscribe, request).await?;
+            self.channel.answered(ConnectStage::Subscribe, request).await?;
         }
         self.add(nodes).await
     }
@@ -158,7 +158,7 @@ impl Subscription {
         self.accepted.clear();
         for (page, some) in nodes.chunks(MAX_OPERATIONS).enumerate() {
             let first = handles.first.saturating_add((page * MAX_OPERATIONS) as u32);
-            for (quality, item) in watch(&self.shared, self.id, first, some, self.intervals).await? {
+            for (quality, item) in watch(&self.channel, self.id, first, some, self.intervals).await? {
                 if !quality.is_bad() {
                     self.items.push(item);
                 }
@@ -189,7 +189,7 @@ impl Subscription {
 /// Adds variables to a subscription, with client handles from `first` on; whether the server watches each, and its id of
 /// the monitored item.
 async fn watch(
-    shared: &Shared,
+    channel: &SessionChannel,
     subscription: u32,
     first: u32,
     nodes: &[NodeId],
@@ -211,13 +211,13 @@ async fn watch(
         },
     });
     let items: Vec<_> = items.collect();
-    let request = shared.header(|shared, token, handle| {
-        CreateMonitoredItems::new_manual(subscription, &shared.monitored_items, 0, REQUEST, token, handle)
+    let request = channel.request(|channel, token, handle| {
+        CreateMonitoredItems::new_manual(subscription, &channel.monitored_items, 0, REQUEST, token, handle)
             .timestamps_to_return(TimestampsToReturn::Both)
             .items_to_create(items)
-            .send(shared.channel())
+            .send(channel.secure())
     });
-    let created = shared.answered(ConnectStage::Subscribe, request).await?.results;
+    let created = channel.answered(ConnectStage::Subscribe, request).await?.results;
     if created.len() != nodes.len() {
         return Err(wrong_answer(ConnectStage::Subscribe));
     }
@@ -226,7 +226,7 @@ async fn watch(
 
 /// Asks for notifications, one Publish request after the other.
 struct Publishing {
-    shared: Arc<Shared>,
+    channel: Arc<SessionChannel>,
     subscription: u32,
     timeout: Duration,
     handles: Arc<Mutex<ClientHandles>>,
@@ -246,14 +246,14 @@ impl Publishing {
     }
 
     async fn publish(&self, acknowledged: &mut Option<u32>) -> Result<Notified, ConnectFailure> {
-        let request = self.shared.header(|shared, token, handle| {
+        let request = self.channel.request(|channel, token, handle| {
             let mut publish = Publish::new_manual(0, self.timeout, token, handle);
             if let Some(sequence_number) = acknowledged.take() {
                 publish = publish.ack(self.subscription, sequence_number);
             }
-            publish.send(shared.channel())
+            publish.send(channel.secure())
         });
-        let response = self.shared.answered(ConnectStage::Subscribe, request).await?;
+        let response = self.channel.answered(ConnectStage::Subscribe, request).await?;
         let NotificationMessage { sequence_number, notification_data, .. } = response.notification_message;
         let notifications = notification_data.unwrap_or_default();
         if !notifications.is_empty() {
