@@ -54,7 +54,7 @@ impl Default for NodeBrowser {
 
 impl NodeBrowser {
     /// How many lines the tree has.
-    pub fn len(&self) -> usize {
+    pub fn line_count(&self) -> usize {
         self.lines.len()
     }
 
@@ -217,7 +217,7 @@ mod tests {
 
     fn names(browser: &NodeBrowser) -> Vec<String> {
         let line = |at: usize| browser.line(at).map(|node| format!("{}{}", " ".repeat(node.depth), node.name));
-        (0..browser.len()).filter_map(line).collect()
+        (0..browser.line_count()).filter_map(line).collect()
     }
 
     #[test]

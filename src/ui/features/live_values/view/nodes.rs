@@ -47,7 +47,7 @@ fn tree(ui: &mut Ui, form: &mut LiveForm, height: f32, model: &Model, messages: 
         area = area.vertical_scroll_offset((theme::DENSE_HEIGHT * (line as f32 + 0.5) - height / 2.0).max(0.0));
     }
     let selected = form.browser.selected_line();
-    area.show_rows(ui, theme::DENSE_HEIGHT, form.browser.len(), |ui, range| {
+    area.show_rows(ui, theme::DENSE_HEIGHT, form.browser.line_count(), |ui, range| {
         for line in range {
             if let Some(node) = form.browser.line(line) {
                 row(ui, node, line, selected == Some(line), model, messages);

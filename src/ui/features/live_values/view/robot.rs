@@ -41,9 +41,9 @@ fn facts(ui: &mut Ui, cells: &ValueCells<'_>, index: usize, robot: &RobotPoints,
     let motors = switch(T::LiveOn, T::LiveOff, palette.ok);
     let power = switch(T::LivePowerHigh, T::LivePowerLow, palette.warning);
     let home = switch(T::LiveAtHome, T::LiveNotAtHome, palette.ok);
-    let draw_motors = |ui: &mut Ui, messages: &mut Vec<Message>| cells.word(ui, &robot.in_control, &motors, messages);
-    let draw_power = |ui: &mut Ui, messages: &mut Vec<Message>| cells.word(ui, &robot.power, &power, messages);
-    let draw_home = |ui: &mut Ui, messages: &mut Vec<Message>| cells.word(ui, &robot.home, &home, messages);
+    let draw_motors = |ui: &mut Ui, messages: &mut Vec<Message>| cells.word(ui, &robot.in_control, motors, messages);
+    let draw_power = |ui: &mut Ui, messages: &mut Vec<Message>| cells.word(ui, &robot.power, power, messages);
+    let draw_home = |ui: &mut Ui, messages: &mut Vec<Message>| cells.word(ui, &robot.home, home, messages);
     let draw_speed = |ui: &mut Ui, messages: &mut Vec<Message>| cells.value(ui, &robot.speed_override, messages);
     let draw_kind = |ui: &mut Ui, messages: &mut Vec<Message>| cells.enumeration(ui, &robot.category, &KINDS, messages);
     let draw_number = |ui: &mut Ui, messages: &mut Vec<Message>| cells.value(ui, &robot.number, messages);

@@ -49,12 +49,9 @@ fn is_alarming(flag: &str) -> bool {
 
 fn points(ui: &mut Ui, cells: &ValueCells<'_>, id: &str, points: &[LivePoint], messages: &mut Vec<Message>) {
     let points: Vec<Option<LivePoint>> = points.iter().cloned().map(Some).collect();
-    let draw: Vec<Box<dyn Fn(&mut Ui, &mut Vec<Message>)>> = points
-        .iter()
-        .map(|point| -> Box<dyn Fn(&mut Ui, &mut Vec<Message>)> {
-            Box::new(move |ui, messages| cells.value(ui, point, messages))
-        })
-        .collect();
+    type DrawPoint<'a> = Box<dyn Fn(&mut Ui, &mut Vec<Message>) + 'a>;
+    let draw_point = |point| -> DrawPoint<'_> { Box::new(move |ui, messages| cells.value(ui, point, messages)) };
+    let draw: Vec<DrawPoint<'_>> = points.iter().map(draw_point).collect();
     let name = |point: &Option<LivePoint>| point.as_ref().map_or(String::new(), |point| point.name.clone());
     let names: Vec<String> = points.iter().map(name).collect();
     let rows: Vec<(&str, Drawn<'_>)> =
