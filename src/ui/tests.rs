@@ -292,7 +292,7 @@ fn a_change_is_confirmed_and_cancel_leads_back_to_the_form() {
     tick(&mut model, &["Paint", "Weld 2"]);
     assert!(reduce(&mut model, Message::Invoke(UiCommand::BASIC_SETTINGS)).is_empty(), "nothing is read for many");
     assert!(reduce(&mut model, Message::Submit).is_empty());
-    assert_eq!(open(&model), ["SettingsForm", "ConfirmDialog"]);
+    assert_eq!(open(&model), ["BasicSettingsForm", "ConfirmDialog"]);
     reduce(&mut model, Message::Close);
     assert!(model.is_only::<BasicSettingsForm>());
     reduce(&mut model, Message::Submit);
@@ -424,7 +424,7 @@ fn a_form_is_filled_also_under_a_notice() {
     reduce(&mut model, Message::Event(BackendEvent::SaveFailed(ErrorCode::WorkspaceFull.into())));
     let settings = Revisioned { revision: RevisionToken::new(9), value: ServerSettings::default() };
     done(&mut model, id, 0, settings);
-    assert_eq!(open(&model), ["SettingsForm", "ErrorDialog"]);
+    assert_eq!(open(&model), ["BasicSettingsForm", "ErrorDialog"]);
     assert!(!model.dialog::<BasicSettingsForm>().unwrap().reading);
 }
 
