@@ -16,6 +16,7 @@ pub struct Licences {
 /// Something that is linked in.
 #[derive(Debug, Deserialize)]
 pub struct Component {
+    /// Name of the crate, font or data set.
     pub name: String,
     /// Empty where the version is that of the compiler.
     pub version: String,

@@ -28,7 +28,8 @@ pub enum ControllersCommand {
     },
     /// Add the controllers of a connection list; each has to be trusted before anything is sent to it
     Import {
-        /// CSV with the columns Name, Type and Address, as a spreadsheet saves it [default: connections.csv in the workspace]
+        /// CSV with the columns Name, Type and Address, as a spreadsheet saves it [default: connections.csv in the
+        /// workspace]
         #[arg(value_name = "FILE.csv")]
         file: Option<PathBuf>,
         /// Series to show until a controller was reached: RC90, RC700, T/VT or RC800
@@ -52,7 +53,7 @@ pub struct AddArgs {
     /// SHA-256 of the controller's management identity, as the controller shows it
     #[arg(long, value_name = "HEX", required_unless_present_any = ["trust_on_first_use", "unconfirmed"])]
     fingerprint: Option<String>,
-    /// Accept whatever fingerprint the controller presents now: safe only on a network where nobody can pretend to be it
+    /// Accept the fingerprint that the controller presents now, unchecked: safe only on a network without impostors
     #[arg(long, conflicts_with = "fingerprint")]
     trust_on_first_use: bool,
     /// Add it without confirming its identity, as while it is switched off: nothing is sent to it, now or later, before
@@ -72,7 +73,7 @@ pub struct TrustArgs {
     /// SHA-256 of the controller's management identity, as the controller shows it
     #[arg(long, value_name = "HEX", required_unless_present = "trust_on_first_use")]
     fingerprint: Option<String>,
-    /// Accept whatever fingerprint the controller presents now: safe only on a network where nobody can pretend to be it
+    /// Accept the fingerprint that the controller presents now, unchecked: safe only on a network without impostors
     #[arg(long, conflicts_with = "fingerprint")]
     trust_on_first_use: bool,
     /// File with the connection password, "-" for standard input; kept in the operating system's keyring, or in the

@@ -41,8 +41,8 @@ pub fn read_trust_files<'a>(
 
 /// Says what goes where, and asks if there is anything a person should think about.
 ///
-/// One plan for the chosen controllers with an issuers list and one for those without; what the controllers already hold is
-/// found out later.
+/// One plan for the chosen controllers with an issuers list and one for those without; what the controllers already
+/// hold is found out later.
 pub fn show_plan(
     cli: &CommandContext,
     files: &[TrustFile],
@@ -76,7 +76,7 @@ pub fn show_plan(
     if unclear { agreed(cli) } else { Ok(()) }
 }
 
-/// Whether somebody agrees to what was just said: with `--yes`, or at the terminal.
+/// Whether the printed plan is agreed to: with `--yes`, or by a person at the terminal.
 fn agreed(cli: &CommandContext) -> Result<(), Problem> {
     if cli.yes {
         return Ok(());

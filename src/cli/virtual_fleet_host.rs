@@ -56,7 +56,7 @@ impl VirtualFleetHost {
     pub fn enter(&self, configuration: &mut Configuration, passwords: &dyn Passwords) -> Result<(), Problem> {
         for NewVirtualController { entry, password } in self.runtime.block_on(self.shared.start())? {
             if let Some(fingerprint) = entry.fingerprint {
-                // Worth nothing to anybody but this process: not for the keyring's failures to be reported.
+                // The password is of use to this process only, so a failure of the keyring is not reported.
                 let _kept = passwords.set(fingerprint, password.into());
             }
             match configuration.controllers.iter_mut().find(|known| known.fingerprint == entry.fingerprint) {

@@ -12,8 +12,8 @@
 //! | `users` | list, add, remove users |
 //! | `self_signed` | make and install a self-signed certificate |
 //! | `create_csr` | make a key and its certificate signing request |
-//! | `import_ca_signed` | check and import what a CA issued for that |
-//! | `sign_csrs` | have the small CA sign what controllers ask for, and import it |
+//! | `import_ca_signed` | check and import the certificate that a CA issued for the controller's signing request |
+//! | `sign_csrs` | sign the controllers' signing requests with the small CA, import the certificates |
 //! | `push_authority` | give controllers the CRL and certificate of the small CA |
 //! | `user_specified` | check and import key and certificate made with another tool |
 //! | `restore_backup` | check and put back a backup of a key |
@@ -23,7 +23,7 @@
 //! | `client_certificates` | client certificate lists and CRLs: list, watch, add, move, remove, undo |
 //! | `activation` | activate legacy controllers by their keys |
 //! | `server_log` | read the server log, save it on the PC |
-//! | `settings_transfer` | export settings to the PC and import them again |
+//! | `settings_transfer` | export settings to the PC, import exports |
 //! | `live_values` | watch the values of one OPC UA server as they change |
 //! | `verify` | connect to the OPC UA server as a client does |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |

@@ -42,8 +42,8 @@ impl JobContext {
         }
     }
 
-    /// The credentials of a controller; [`ErrorCode::PasswordMissing`] if none are known. They may come from a keyring that
-    /// asks the user: read off the async threads.
+    /// The credentials of a controller; [`ErrorCode::PasswordMissing`] if none are known. They may come from a keyring
+    /// that asks the user: read off the async threads.
     pub(super) async fn credentials(&self, fingerprint: Fingerprint) -> Result<Credentials, Problem> {
         let passwords = self.passwords.clone();
         tokio::task::spawn_blocking(move || passwords.get(fingerprint))
@@ -271,10 +271,10 @@ impl Rereading<'_> {
 
     /// A change was sent and nothing came back. The controller is read again, a few times at most:
     ///
-    /// - Its revision is another than the one the change was based on: [`ErrorCode::AnswerLost`]. Not a success, because
-    ///   what the answer carried is lost (a certificate to be backed up, a request to be saved), and because in rare
-    ///   cases it was somebody else's change; the row shows how it is.
-    /// - It is where a start or a stop should bring it: done, whoever did it.
+    /// - Its revision is another than the one the change was based on: [`ErrorCode::AnswerLost`]. Not a success,
+    ///   because what the answer carried is lost (a certificate to be backed up, a request to be saved), and because in
+    ///   rare cases another program made the change; the row shows the state.
+    /// - It is in the state that the start or stop should bring: done, also if another program did it.
     /// - Neither: what went wrong, saying that the change was not seen. The controller may still be at work on it.
     async fn determine_outcome<O: OperationOutput>(
         &self,

@@ -126,7 +126,7 @@ impl Operation for SelfSigned {
         let saved = match &self.backup {
             None => None,
             Some(files) => {
-                // Saved also after a cancel: a certificate that is in use without its backup is what nobody wants.
+                // Saved also after a cancel: no certificate is in use without its backup.
                 (run.on_step)(JobStep::SaveBackup);
                 let (files, serial, password) = (files.clone(), info.serial.clone(), run.password.clone());
                 let certificate = certificate.clone();
@@ -181,7 +181,7 @@ pub(super) fn server_names(info: &ControllerInfo, controller: &JobController) ->
     names
 }
 
-/// A password for one transfer, known to nobody but the two ends.
+/// A random password for one transfer, known to the two ends only.
 pub(super) fn transfer_password() -> Result<SecretString, Problem> {
     let mut bytes = [0u8; 24];
     getrandom::fill(&mut bytes).map_err(|e| Problem::with_detail(ErrorCode::Internal, e))?;

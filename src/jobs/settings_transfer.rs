@@ -105,7 +105,7 @@ impl Operation for ImportSettings {
         let (files, revision) = (self.files.clone(), info.revision);
         let passphrase = self.passphrase.as_ref().unwrap_or(run.password).clone();
         let tried = passphrase.clone();
-        // Whatever is wrong with the file is found before anything is sent.
+        // Mistakes in the file are found before anything is sent.
         let (export, path) = run
             .on_a_core(move || -> Result<_, Problem> {
                 let (export, path) = files.load(&info.serial)?;

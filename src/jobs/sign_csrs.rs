@@ -36,8 +36,8 @@ impl SharedAuthority {
     }
 }
 
-/// Has the small CA sign what each controller asks for, and imports and selects the certificate: from whatever a
-/// controller has to a CA-signed server certificate in one operation.
+/// Has the small CA sign what each controller asks for, and imports and selects the certificate, in
+/// one operation.
 ///
 /// The signing request is the one the controller holds; one is made where there is none. What is signed is looked at
 /// as [`ImportCaSigned`](super::ImportCaSigned) does before the CA writes it down or anything is sent. A
@@ -141,7 +141,7 @@ impl SignCsrs {
             authority.with(|authority| {
                 let now = clock::now();
                 let before = if renew { None } else { authority.valid_for(&csr, now) };
-                // One whose file is missing was never given to anybody.
+                // A certificate whose file is missing was never handed out.
                 match before.and_then(|issued| authority.files().issued(&issued.serial_number).ok()) {
                     Some(certificate) => Ok(CertificateOrigin::Before(certificate)),
                     None => Ok(CertificateOrigin::Now(authority.draft(&csr, &request, now)?)),

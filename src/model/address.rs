@@ -11,7 +11,7 @@ pub const DEFAULT_MANAGEMENT_PORT: u16 = 7943;
 /// Where a controller's management protocol answers: `host[:port]`.
 ///
 /// The host is an IPv4 address, an IPv6 address in brackets, or a host name. Two addresses are the same when they lead
-/// to the same place without asking anybody: neither case nor the spelling of an IPv6 address matters.
+/// to the same place without a name lookup: neither case nor the spelling of an IPv6 address matters.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Address {
@@ -102,7 +102,7 @@ impl FromStr for Address {
             Some(port) => port.parse().ok().filter(|p| *p != 0).ok_or_else(|| AddressError::Port(port.to_owned()))?,
         };
         match host.parse::<IpAddr>() {
-            // An IPv6 address has many spellings, and is to be found in a list whichever was typed.
+            // An IPv6 address has many spellings; stored in one of them, it is found in a list under all.
             Ok(ip) => Ok(Self { host: ip.to_string(), port }),
             Err(_) if is_host_name(host) => Ok(Self { host: host.to_ascii_lowercase(), port }),
             Err(_) => Err(AddressError::Host(host.to_owned())),

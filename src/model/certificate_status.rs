@@ -14,7 +14,7 @@ pub enum CertificateStatus {
     CertificateInvalid,
     /// `BadCertificateChainIncomplete`: no chain to a trusted certificate was found.
     ChainIncomplete,
-    /// What a peer is told instead of the truth, so that it learns nothing. The validator never gives it.
+    /// The answer to a peer in place of the true reason (OPC 10000-6 §6.7.6). The validator never gives it.
     SecurityChecksFailed,
     /// `BadCertificatePolicyCheckFailed`: the key or the signature does not satisfy the security policy.
     PolicyCheckFailed,

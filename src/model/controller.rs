@@ -61,8 +61,11 @@ impl ControllerSeries {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 #[error("{} {firmware} < {oldest}", series.as_str())]
 pub struct UnsupportedFirmware {
+    /// The series of the controller.
     pub series: ControllerSeries,
+    /// The firmware it has.
     pub firmware: FirmwareVersion,
+    /// The first firmware with OPC UA for the series.
     pub oldest: FirmwareVersion,
 }
 
@@ -210,9 +213,9 @@ impl fmt::Display for ControllerName {
     }
 }
 
-/// A controller's serial number: 1–32 ASCII letters, digits, `-` or `_`. It also names the controller's folder on the PC,
-/// and comes from the controller, which cannot choose where its files land: a name that Windows keeps for itself and the
-/// folders of the workspace that are no controller's ([`SerialNumber::WORKSPACE_FOLDERS`]) are refused.
+/// A controller's serial number: 1–32 ASCII letters, digits, `-` or `_`. It also names the controller's folder on the
+/// PC, and comes from the controller, which cannot choose where its files land: a name that Windows keeps for itself
+/// and the folders of the workspace that are no controller's ([`SerialNumber::WORKSPACE_FOLDERS`]) are refused.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct SerialNumber(String);

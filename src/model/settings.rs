@@ -113,7 +113,7 @@ impl FromStr for UserTokenPolicy {
 pub enum StartupMode {
     /// The server starts when the controller is switched on.
     Auto,
-    /// The server starts when somebody presses Start.
+    /// The server starts by the command Start only.
     #[default]
     Manual,
 }
@@ -240,7 +240,7 @@ pub enum SettingsError {
 pub enum SettingsWarning {
     /// A ticked policy is deprecated by OPC 10000-7 or gives no security.
     WeakPolicy(SecurityPolicy),
-    /// Nobody can log in: user names are required and none exists.
+    /// No client can log in: user names are required and no user exists.
     NoUsers,
 }
 

@@ -1,4 +1,4 @@
-//! The text of a file or of standard input, in whichever Unicode encoding it was saved.
+//! The text of a file or of standard input, saved as UTF-8 or UTF-16.
 
 use std::borrow::Cow;
 

@@ -25,7 +25,7 @@ pub struct Bundle {
 /// sends chains; in PEM, in any mixture; and PKCS#7 (`.p7b`, `.p7c`) in either, with the revocation lists in it.
 ///
 /// At most [`MAX_BUNDLE_BYTES`]. A private key beside them is refused: trust material is handed around, keys are not.
-/// Whatever cannot be read is an error; nothing is passed over but text between PEM blocks. The same certificate twice
+/// Content that cannot be read is an error; only text between PEM blocks is passed over. The same certificate twice
 /// is given once.
 pub fn read_bundle(bytes: &[u8]) -> Result<Bundle, PkiError> {
     check_size(bytes, MAX_BUNDLE_BYTES)?;

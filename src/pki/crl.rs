@@ -186,8 +186,8 @@ impl Crl {
             }
     }
 
-    /// Whether it is a later one than `other` of the same authority: by the date, then by the CRL number where both have
-    /// one. A list is not newer than itself.
+    /// Whether it is a later one than `other` of the same authority: by the date, then by the CRL number where both
+    /// have one. A list is not newer than itself.
     ///
     /// Numbers go up (RFC 5280 §5.2.3), but an authority that was set up anew starts again:
     /// [`Crl::number_starts_again_after`].
@@ -225,7 +225,7 @@ impl Crl {
 
     /// What it says of a certificate, if it lists it. Says nothing about certificates of other authorities.
     ///
-    /// An indirect list never does: its entries may be about certificates of anybody.
+    /// An indirect list never does: its entries may be about certificates of any issuer.
     pub fn revoked(&self, certificate: &Certificate) -> Option<RevocationEntry> {
         if self.facts.scope.indirect || !self.is_by_issuer_of(certificate) {
             return None;

@@ -14,8 +14,8 @@ use super::size::check_size;
 use super::{Certificate, FileContent, MAX_CERTIFICATE_BYTES, PkiError, PrivateKey, ServerNames, Wanted, name, tlv};
 use crate::model::{Cause, CsrRequest, with_cause};
 
-/// A certificate signing request (PKCS#10) for an RSA key, found whole, with a signature that proves that whoever made
-/// it holds the key.
+/// A certificate signing request (PKCS#10) for an RSA key, found whole, with a signature that proves that its
+/// maker holds the private key.
 #[derive(Clone, PartialEq, Eq)]
 pub struct Csr {
     der: Vec<u8>,

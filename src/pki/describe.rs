@@ -31,7 +31,7 @@ pub enum Description {
     Crl(Box<CrlDescription>),
     /// A signing request.
     Csr(Box<CsrDescription>),
-    /// A private key. Nothing secret of it is told.
+    /// A private key. The description holds nothing secret.
     PrivateKey(KeyDescription),
     /// A public key.
     PublicKey(KeyDescription),
@@ -160,7 +160,7 @@ pub struct CsrDescription {
     pub sha1: String,
 }
 
-/// What everybody may know of a key, the private half of which may be in the file or not.
+/// The public facts about a key. Its private half may be in the file or not.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct KeyDescription {
     /// `RSA`, `EC`, or an object identifier.
@@ -177,8 +177,8 @@ pub struct KeyDescription {
 /// Describes everything in a file of any kind this program reads, in its order: certificates, chains, revocation lists,
 /// signing requests, keys, PKCS#7 and PKCS#12, in DER or PEM.
 ///
-/// The password is that of a PKCS#12 or of an encrypted key. Of private keys only the public half is told. Blocks while
-/// it hashes the password, and for some signature checks, 2000 at most.
+/// The password is that of a PKCS#12 or of an encrypted key. Private keys are described by their public half. Blocks
+/// while it hashes the password, and for some signature checks, 2000 at most.
 pub fn describe(bytes: &[u8], password: Option<&str>) -> Result<Vec<Description>, PkiError> {
     check_size(bytes, MAX_BUNDLE_BYTES)?;
     let mut found = FileReading::default();

@@ -50,6 +50,7 @@ pub enum PkiError {
     /// The file has no certificate.
     #[error("there is no certificate in it")]
     NoCertificate,
+    /// The bytes are not a public key.
     #[error("not a public key, or a damaged one")]
     NotAPublicKey(#[source] Cause),
     /// The file has several certificates where one is expected; holds how many.
@@ -91,9 +92,12 @@ pub enum PkiError {
     /// The rest of the sentence, the signing request being its subject.
     #[error("the certificate signing request {0}")]
     CsrRefused(&'static str),
+    /// A part of the signing request is damaged.
     #[error("the certificate signing request has a damaged {part}")]
     CsrDamaged {
+        /// The part, in English.
         part: &'static str,
+        /// What the library says about it.
         #[source]
         cause: Cause,
     },

@@ -18,7 +18,7 @@ use crate::model::{Cause, KeyLength, with_cause};
 /// An RSA private key of 1024, 2048 or 4096 bits, the key of an OPC UA application.
 ///
 /// `Debug` shows its length only; the key material is wiped when it is dropped. As an [`rcgen::SigningKey`] it signs
-/// with PKCS#1 v1.5 and SHA-256, whatever its length.
+/// with PKCS#1 v1.5 and SHA-256 at every length.
 pub struct PrivateKey {
     material: KeyMaterial,
     length: KeyLength,

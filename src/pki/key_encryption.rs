@@ -6,8 +6,8 @@ use zeroize::Zeroizing;
 use super::{PkiError, PrivateKey, pem, tlv};
 use crate::model::{with_cause, with_told_cause};
 
-/// How often the passphrase is hashed: what OWASP recommends for PBKDF2 with HMAC-SHA-256. A good half second for
-/// whoever knows it, and for whoever guesses.
+/// How often the passphrase is hashed: what OWASP recommends for PBKDF2 with HMAC-SHA-256. Each try takes
+/// about half a second, with the right passphrase as with a wrong one.
 const ITERATIONS: u32 = 600_000;
 
 /// Writes a key under a passphrase, as PEM: encrypted PKCS#8 with PBES2, PBKDF2 with HMAC-SHA-256, and AES-256.

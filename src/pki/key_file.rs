@@ -15,7 +15,7 @@ use crate::model::{Cause, with_cause};
 pub const MAX_KEY_FILE_BYTES: usize = 256 * 1024;
 
 /// Reads the only RSA private key of a file: PKCS#8, plain or under a password, or PKCS#1; in PEM, DER or base64,
-/// whatever the name of the file says. Certificates beside it are passed over.
+/// by content, not by the name of the file. Certificates beside it are passed over.
 ///
 /// Under a password: PBES2 with AES or 3DES, and the 3DES and RC2 of PKCS#12. The password is looked at only if it is
 /// needed. Not read, but told how to convert: the encryption of traditional PEM, OpenSSH's own format, Microsoft's PVK,
@@ -227,7 +227,7 @@ mod tests {
         assert_eq!(read_pair(&key, der, None).err(), Some(PkiError::PrivateKeyInside), "the wrong way round");
     }
 
-    /// Whatever is in a file, reading it ends, and ends with a key that fits or an error.
+    /// Reading any bytes ends, with a key that fits or an error.
     #[test]
     fn damaged_files_are_errors_and_no_crashes() {
         let key = samples::legacy_key();

@@ -16,7 +16,7 @@ pub enum PkiKind {
     Crl,
     /// A certificate signing request.
     Csr,
-    /// A private key, encrypted or not, of whatever algorithm.
+    /// A private key of any algorithm, encrypted or not.
     Key,
     /// PEM with a private key and certificates beside it.
     KeyAndCertificate,
@@ -147,7 +147,7 @@ mod tests {
         ] {
             assert_eq!(recognise(bytes), None, "{bytes:?}");
         }
-        // Whatever the bytes, nothing panics.
+        // No bytes make it panic.
         for cut in 0..der.len() {
             recognise(&der[cut..]);
         }

@@ -1,24 +1,24 @@
 //! Keys, certificates, PKCS#12 and PEM. Bytes in, bytes out: no I/O, no async, no clock of its own.
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `certificate` | [`Certificate`]: one X.509 certificate that was parsed and found whole |
 //! | `facts` | what is read from a certificate, once |
-//! | `general_name` | names, and the constraints an authority puts on them |
+//! | `general_name` | alternative names, name constraints |
 //! | `flaw` | [`CertificateFlaw`]: what can be wrong with a certificate, and what to do |
-//! | `signature` | which signatures there are, and whether one is right |
+//! | `signature` | signature algorithms, verification of one signature |
 //! | `crl` | [`Crl`]: one certificate revocation list, indexed |
 //! | `authority` | [`is_authority`]: whether a certificate is that of an authority or of an application |
 //! | `distribution_point` | which certificates a revocation list is about |
 //! | `bundle` | [`read_bundle`]: any file with certificates and revocation lists |
 //! | `trust` | [`TrustLists`]: whether a certificate may be trusted (OPC 10000-4 §6.1.3) |
 //! | `describe` | [`describe`]: everything public inside a file, to be read |
-//! | `signers` | which certificate of a file signed what else is in it |
+//! | `signers` | which certificate of a file signed which certificates and CRLs of the same file |
 //! | `parts` | what is in a file, by its content: where every reader starts |
-//! | `file_content` | [`FileContent`]: the names of what files hold, and how one is made of another |
+//! | `file_content` | [`FileContent`]: kinds of content, and how to convert one into another |
 //! | `pem` | the text armour around DER, both ways |
 //! | `ber` | the looser encoding of PKCS#7 and PKCS#12, made into DER |
-//! | `key` | [`PrivateKey`]: an RSA key, and signing with it |
+//! | `key` | [`PrivateKey`]: an RSA key that signs |
 //! | `key_file` | [`read_key_file`], [`read_pair`]: private keys as other tools write them |
 //! | `password_encryption` | what a password encrypts, in keys and in PKCS#12 |
 //! | `key_encryption` | [`encrypt_key`]: a private key under a passphrase, for any tool to read |
@@ -26,7 +26,7 @@
 //! | `csr` | [`Csr`], [`make_csr`]: the request for a certificate that a CA signs |
 //! | `issuers` | [`issuers_of`]: who issued a certificate, as far as the issuers are at hand |
 //! | `kind` | [`recognise`]: what a file is, by its content |
-//! | `ca` | [`CertificateAuthority`]: the small CA that does so |
+//! | `ca` | [`CertificateAuthority`]: the small CA, which signs requests |
 //! | `pkcs12` | [`pkcs12_write`], [`pkcs12_read`]: a key and its certificates under a password |
 //! | `rejected_client` | [`RejectedClient`]: a client certificate that a controller refused |
 //! | `rules` | the rules for certificates, each in one function |
@@ -34,7 +34,7 @@
 //! | `identity` | [`tls_identity`]: what a controller's management interface shows of itself |
 //! | `client_identity` | [`client_identity`]: what this computer shows of itself to OPC UA servers |
 //! | `tlv` | just enough DER to see from outside what a file is |
-//! | `fingerprint` | [`Fingerprint`]: what a configurator pins of that |
+//! | `fingerprint` | [`Fingerprint`]: the SHA-256 that a configurator pins of a controller's TLS certificate |
 //! | `name` | the text of an X.509 name |
 //! | `error` | [`PkiError`]: everything that can be wrong, each with its cause |
 //!

@@ -30,7 +30,7 @@ pub(super) fn emails(name: &X509Name<'_>) -> Vec<String> {
     name.iter_email().map(decoded).collect()
 }
 
-/// Equal for names that RFC 5280 §7.1 calls the same: whatever the string type, case and inner white space.
+/// Equal for names that RFC 5280 §7.1 calls the same: string type, case and inner white space do not matter.
 ///
 /// Every part stands behind its length, so that no text can pass for the seam between two parts.
 pub(super) fn folded(name: &X509Name<'_>) -> Vec<u8> {
@@ -99,7 +99,8 @@ fn decoded(attribute: &AttributeTypeAndValue<'_>) -> String {
     }
 }
 
-/// A text of a certificate or a peer, without control characters and cut to 200 characters, for a [`CertificateFlaw`](super::CertificateFlaw).
+/// A text of a certificate or a peer, without control characters and cut to 200 characters, for a
+/// [`CertificateFlaw`](super::CertificateFlaw).
 pub(super) fn quoted(text: &str) -> String {
     const MOST: usize = 200;
     let mut quoted: String = printable(text).chars().take(MOST).collect();

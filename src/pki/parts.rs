@@ -1,4 +1,4 @@
-//! What is in a file with keys or certificates: by its content, whatever its labels say and however it was written.
+//! The objects in a file with keys or certificates, recognised by content; labels and encoding do not matter.
 //!
 //! Every reader of this module's parent starts here, so that a file which one of them understands is understood by all.
 
@@ -27,8 +27,8 @@ impl FilePart {
 /// The objects of a file, in their order. Never empty: what is not understood is one part, [`FileContent::Unknown`].
 ///
 /// Takes DER, one object behind the other as OPC UA sends chains; BER; PEM with any text around it; base64 without
-/// `BEGIN` and `END`; text in UTF-16. Line ends and zero bytes after the end of DER are padding and carry nothing. Whether
-/// the objects are whole is for their readers to say.
+/// `BEGIN` and `END`; text in UTF-16. Line ends and zero bytes after the end of DER are padding and carry nothing.
+/// Whether the objects are whole is for their readers to say.
 pub(super) fn parts(bytes: &[u8]) -> Result<Vec<FilePart>, PkiError> {
     if bytes.is_empty() {
         return Err(PkiError::Empty);
@@ -139,8 +139,8 @@ fn bare_base64(text: &[u8]) -> Option<Zeroizing<Vec<u8>>> {
     pem::BASE64.decode(&*digits).ok().map(Zeroizing::new)
 }
 
-/// What was signed, or the outside of a key: told by the tags of the parts (RFC 5280 §4.1, §5.1; RFC 2986 §4.2; RFC 5652
-/// §3; RFC 7292 §4; RFC 5958 §2, §3; RFC 8017 A.1.2; RFC 5915 §3).
+/// What was signed, or the outside of a key: told by the tags of the parts (RFC 5280 §4.1, §5.1; RFC 2986 §4.2; RFC
+/// 5652 §3; RFC 7292 §4; RFC 5958 §2, §3; RFC 8017 A.1.2; RFC 5915 §3).
 fn of_der(content: &[u8]) -> Option<FileContent> {
     let parts = tlv::all(content)?;
     let tags: Vec<u8> = parts.iter().map(|part| part.tag).collect();

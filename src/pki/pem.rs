@@ -1,7 +1,7 @@
 //! The text armour around DER (RFC 7468, RFC 1421).
 //!
-//! Certificates, requests and revocation lists in the strict form of RFC 7468 are read by `rustls-pemfile`. That crate is
-//! archived (RUSTSEC-2025-0134: unmaintained, no known defect); it is a thin wrapper over the maintained parser in
+//! Certificates, requests and revocation lists in the strict form of RFC 7468 are read by `rustls-pemfile`. That crate
+//! is archived (RUSTSEC-2025-0134: unmaintained, no known defect); it is a thin wrapper over the maintained parser in
 //! `rustls-pki-types`, and should it ever have to go, only this file changes.
 //!
 //! Private keys, and files from practice that are indented, wrapped otherwise or on one line, are read by hand: parsers
@@ -40,10 +40,10 @@ pub(super) struct PemBlock {
     pub der: Zeroizing<Vec<u8>>,
 }
 
-/// Every block of a PEM text, of whatever kind. What stands around the blocks is passed over.
+/// Every block of a PEM text, of any kind. Text around the blocks is passed over.
 ///
-/// Takes lines of any length and indentation, ended by LF, CRLF or CR, and a block on one line. A block that has no end,
-/// or no base64 in it, is [`PkiError::BadPem`].
+/// Takes lines of any length and indentation, ended by LF, CRLF or CR, and a block on one line. A block that has no
+/// end, or no base64 in it, is [`PkiError::BadPem`].
 pub(super) fn blocks(text: &[u8]) -> Result<Vec<PemBlock>, PkiError> {
     match strict_blocks(text) {
         Some(blocks) => Ok(blocks),

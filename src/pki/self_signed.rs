@@ -37,7 +37,7 @@ impl ServerNames {
 /// Makes the certificate of an OPC UA server, signed with its own key (OPC 10000-6 §6.2.2).
 ///
 /// It is an X.509 v3 certificate that is no CA, for server and client authentication, with every key usage OPC UA asks
-/// for, signed with SHA-256 whatever the length of the key. Empty fields of the subject are left out. It is valid from
+/// for, signed with SHA-256 at every length of the key. Empty fields of the subject are left out. It is valid from
 /// one day before `now`, because the clocks of controllers and clients run behind or in another time zone, until
 /// `now` plus the validity asked for.
 pub fn self_signed(

@@ -15,7 +15,7 @@ use crate::model::with_cause;
 /// How strong the hash within a signature is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) enum Hash {
-    /// MD2, MD4 and MD5: anybody can forge a signature with them.
+    /// MD2, MD4 and MD5: signatures with them can be forged.
     Md5,
     Sha1,
     Sha256,

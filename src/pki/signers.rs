@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use super::{Certificate, Crl, PkiError};
 
-/// The certificates of one file, by subject. Checks a bounded number of signatures, whatever the file says.
+/// The certificates of one file, by subject. Checks a bounded number of signatures.
 pub(super) struct Signers<'a> {
     by_subject: HashMap<&'a [u8], Vec<&'a Certificate>>,
     checked: usize,
@@ -54,7 +54,7 @@ impl<'a> Signers<'a> {
         self.by_subject.get(subject).cloned().unwrap_or_default()
     }
 
-    /// Those with the key identifier that is asked for are tried first: it is a hint that nobody has to follow.
+    /// Those with the key identifier that is asked for are tried first: it is a hint that need not be followed.
     fn first(
         &mut self,
         candidates: impl IntoIterator<Item = &'a Certificate>,

@@ -16,7 +16,7 @@ pub fn detach() {
     windows::detach();
 }
 
-/// Whether somebody can read what is written to standard error: false on Windows for a program that was started by a
+/// Whether standard error is shown anywhere: false on Windows for a program that was started by a
 /// double click, or that let go of its console.
 pub fn has_error_stream() -> bool {
     #[cfg(windows)]

@@ -30,7 +30,8 @@ mod unix {
         is_wayland() || std::env::var_os("DISPLAY").is_some_and(|value| !value.is_empty())
     }
 
-    /// Whether to use X11 although `WAYLAND_DISPLAY` is set: X11 is there, and at the Wayland socket nobody answers.
+    /// Whether to use X11 although `WAYLAND_DISPLAY` is set: X11 is there, and no compositor answers at the
+    /// Wayland socket.
     /// Such a variable is left over in sessions that were started from another one (`su`, `tmux`, remote desktops).
     pub fn prefers_x11() -> bool {
         prefers_x11_in(|name| std::env::var_os(name))

@@ -3,7 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`private`] | files and folders that only this account can use |
-//! | [`replace`] | replaces and removes files, although another program may have them open |
+//! | [`replace`] | replaces and removes files that another program may have open |
 //! | [`stop_signal`] | waits until the system or the user asks the program to end |
 //! | [`display`] | chooses between Wayland and X11; takes source locations out of error messages |
 //! | [`console`] | standard streams and messages of a program that has no console window (Windows) |

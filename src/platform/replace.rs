@@ -17,6 +17,7 @@ use thiserror::Error;
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{} is open in {}", path.display(), programs(holders))]
 pub struct FileHeld {
+    /// The file that is open elsewhere.
     pub path: PathBuf,
     /// Programs with their process number; empty if the system does not know them.
     pub holders: Vec<String>,

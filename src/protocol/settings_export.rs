@@ -15,9 +15,9 @@ use crate::pki::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, sea
 
 /// The settings of one controller, sealed by it: what `option.json` holds.
 ///
-/// Format 1 is a JSON object with exactly these members. Who it is of can be read by anybody and changed by nobody;
-/// what it holds, an [`ExportContent`] as JSON, is encrypted with AES-256-GCM under a key that Argon2id (19456 KiB,
-/// 2 passes, 1 lane) makes of the passphrase and `salt`. What is authenticated with it is the text of
+/// Format 1 is a JSON object with exactly these members. Its origin is readable without the passphrase and protected
+/// against change. The content, an [`ExportContent`] as JSON, is encrypted with AES-256-GCM under a key that Argon2id
+/// (19456 KiB, 2 passes, 1 lane) makes of the passphrase and `salt`. What is authenticated with it is the text of
 /// [`SettingsExport::context`]. `checksum` is the SHA-256 of that text and `sealed`, so that damage can be told from a
 /// wrong passphrase.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,7 +63,7 @@ pub struct ExportContent {
 pub struct ExportedUser {
     /// Name of the user.
     pub name: UserName,
-    /// Argon2id, as a PHC string: the password itself is known to nobody.
+    /// Argon2id, as a PHC string: the password itself is not stored.
     pub password_hash: String,
 }
 

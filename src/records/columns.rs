@@ -3,15 +3,25 @@
 /// Values of one type.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Values<'a> {
+    /// Unsigned, 8 bits.
     U8(&'a [u8]),
+    /// Signed, 8 bits.
     I8(&'a [i8]),
+    /// Unsigned, 16 bits.
     U16(&'a [u16]),
+    /// Signed, 16 bits.
     I16(&'a [i16]),
+    /// Unsigned, 32 bits.
     U32(&'a [u32]),
+    /// Signed, 32 bits.
     I32(&'a [i32]),
+    /// Unsigned, 64 bits.
     U64(&'a [u64]),
+    /// Signed, 64 bits.
     I64(&'a [i64]),
+    /// IEEE 754, 32 bits.
     F32(&'a [f32]),
+    /// IEEE 754, 64 bits.
     F64(&'a [f64]),
     /// Milliseconds since 1970 by the controller's clock; [`NO_TIME`] where it was not set.
     Time(&'a [i64]),
@@ -66,6 +76,7 @@ pub struct Column<'a> {
     pub name: String,
     /// `mm`, `N`, `ticks`; empty for plain numbers.
     pub unit: &'static str,
+    /// One value a record, in the order of the records.
     pub values: Values<'a>,
     /// The time stamps of the item. Where one is 0 there is no value. `None`: there is always a value.
     pub timestamps: Option<&'a [u64]>,

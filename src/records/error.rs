@@ -7,9 +7,13 @@ use thiserror::Error;
 pub enum PacketKind {
     /// The kind is not known yet: the tag says it.
     Force,
+    /// The packet that begins a recording of a force sensor.
     ForceHeader,
+    /// A packet with records of a force sensor.
     ForceData,
+    /// The packet that ends a recording of a force sensor.
     ForceFooter,
+    /// A block of the motion log.
     MotionBlock,
 }
 
@@ -37,18 +41,39 @@ pub struct RecordError {
     pub field: &'static str,
     /// From the start of the read bytes.
     pub offset: usize,
+    /// What is wrong with it.
     pub mistake: Mistake,
 }
 
 /// What is wrong with a field.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum Mistake {
+    /// The packet ends before the field does.
     #[error("the bytes end here, {missing} too early")]
-    Truncated { missing: usize },
+    Truncated {
+        /// Bytes that are missing.
+        missing: usize,
+    },
+    /// Bytes follow the packet.
     #[error("{excess} bytes follow the end of the packet")]
-    Oversized { excess: usize },
+    Oversized {
+        /// How many.
+        excess: usize,
+    },
+    /// More bytes came than one read may bring.
     #[error("{length} bytes are more than one read may bring ({max})")]
-    TooLarge { length: usize, max: usize },
+    TooLarge {
+        /// Bytes that came.
+        length: usize,
+        /// Most bytes of one read.
+        max: usize,
+    },
+    /// The field has a value that the layout does not know.
     #[error("the value is {found}; {expected}")]
-    Value { found: u64, expected: &'static str },
+    Value {
+        /// The value.
+        found: u64,
+        /// The values that the layout knows, in English.
+        expected: &'static str,
+    },
 }

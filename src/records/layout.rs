@@ -110,6 +110,7 @@ macro_rules! packet {
 
             $(
                 $(#[$field_doc])*
+                #[doc = concat!("Field `", $name, "` at byte ", $offset, ".")]
                 #[inline(always)]
                 pub fn $field(self) -> $type {
                     <$type as $crate::records::layout::Wire>::read(self.0, $offset)
@@ -128,7 +129,11 @@ macro_rules! packet {
         /// The fields of a packet.
         #[derive(Debug, Clone, Copy, PartialEq, Default)]
         pub struct $owned {
-            $( $(#[$field_doc])* pub $field: $type, )*
+            $(
+                $(#[$field_doc])*
+                #[doc = concat!("Field `", $name, "` at byte ", $offset, ".")]
+                pub $field: $type,
+            )*
         }
 
         impl $owned {

@@ -1,4 +1,4 @@
-//! Whatever is encoded is decoded to the same, and no bytes bring a panic.
+//! Encoded packets decode to the same values, and no bytes make a reader panic.
 
 use proptest::array::{uniform3, uniform4, uniform6, uniform8};
 use proptest::collection::vec;

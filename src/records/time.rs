@@ -51,6 +51,7 @@ impl Wire for Ticks {
 /// Date and time of the controller's clock, without a time zone (manual 4.1.3). All fields 0: not set.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ControllerTime {
+    /// The year, such as 2026.
     pub year: i16,
     /// 1 to 12.
     pub month: u8,

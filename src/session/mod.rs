@@ -1,15 +1,15 @@
 //! One session with one controller: what every driver offers, in the types of the model, and the drivers.
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `mod` | [`Connector`] and [`ControllerSession`]: the two traits that a driver implements |
-//! | `changes` | what a session is told to change, and what it answers |
+//! | `changes` | the changes that a session sends, and their results |
 //! | `drivers` | [`Connectors`]: the driver of each [`ConnectionKind`](crate::model::ConnectionKind); [`capabilities`] of a controller that is not connected |
 //! | `management` | the driver for the management protocol |
 //! | [`opcua_client`] | connects to a controller's OPC UA server as its clients do; it configures nothing |
 //!
-//! Jobs, window and command line know the traits and [`Connectors`] only. A new driver is a module beside `management`, one
-//! kind of connection in the model, and one entry in `drivers`.
+//! Jobs, window and command line know the traits and [`Connectors`] only. A new driver is a module beside `management`,
+//! one kind of connection in the model, and one entry in `drivers`.
 
 mod changes;
 mod drivers;
@@ -53,21 +53,22 @@ pub trait Connector: Send + Sync {
     ) -> Result<Box<dyn ControllerSession>, Problem>;
 }
 
-/// A logged-in session with one controller. Every call is one request, bounded in time. After an error the session can be
-/// used further, unless the error says that the connection or the session is over.
+/// A logged-in session with one controller. Every call is one request, bounded in time. After an error the session can
+/// be used further, unless the error says that the connection or the session is over.
 ///
 /// Calls that a driver does not implement fail with [`MissingReason::NotOverThisConnection`];
-/// [`ControllerSession::capabilities`] names them beforehand. A change names the configuration that it is based on, and is
-/// applied whole or not at all.
+/// [`ControllerSession::capabilities`] names them beforehand. A change names the configuration that it is based on, and
+/// is applied whole or not at all.
 #[async_trait]
 pub trait ControllerSession: Send + Sync {
     /// The state of the controller (manual 2.4.4.1).
     async fn info(&mut self) -> Result<ControllerInfo, Problem>;
 
-    /// What this controller offers over this connection, and for each missing feature the reason. Constant during a session;
-    /// reads [`ControllerSession::info`] if this has not been done.
+    /// What this controller offers over this connection, and for each missing feature the reason. Constant during a
+    /// session; reads [`ControllerSession::info`] if this has not been done.
     async fn capabilities(&mut self) -> Result<Capabilities, Problem>;
 
+    /// Starts the OPC UA server (manual 2.4.3). Does nothing if it runs.
     async fn start_server(&mut self) -> Result<Changed, Problem> {
         not_offered()
     }
@@ -77,10 +78,12 @@ pub trait ControllerSession: Send + Sync {
         not_offered()
     }
 
+    /// Reads the basic settings (manual 2.6.1).
     async fn settings(&mut self) -> Result<Revisioned<ServerSettings>, Problem> {
         not_offered()
     }
 
+    /// Replaces the basic settings (manual 2.6.1).
     async fn set_settings(&mut self, _based_on: RevisionToken, _update: SettingsUpdate) -> Result<Changed, Problem> {
         not_offered()
     }
@@ -90,10 +93,12 @@ pub trait ControllerSession: Send + Sync {
         not_offered()
     }
 
+    /// Adds a user (manual 2.6.2.2).
     async fn add_user(&mut self, _based_on: RevisionToken, _user: UserCredential) -> Result<Changed, Problem> {
         not_offered()
     }
 
+    /// Removes users (manual 2.6.2.3).
     async fn remove_users(&mut self, _based_on: RevisionToken, _names: Vec<UserName>) -> Result<Changed, Problem> {
         not_offered()
     }
@@ -119,6 +124,7 @@ pub trait ControllerSession: Send + Sync {
         not_offered()
     }
 
+    /// Reads the server certificates that the controller has stored, and its signing request.
     async fn certificates(&mut self) -> Result<Revisioned<StoredServerCertificates>, Problem> {
         not_offered()
     }
@@ -162,6 +168,7 @@ pub trait ControllerSession: Send + Sync {
         not_offered()
     }
 
+    /// Reads the CRLs.
     async fn crls(&mut self) -> Result<Revisioned<Vec<ListedCrl>>, Problem> {
         not_offered()
     }
@@ -207,8 +214,8 @@ pub trait ControllerSession: Send + Sync {
         not_offered()
     }
 
-    /// The configuration that the latest change without an answer was based on: that change may have been applied. `None`
-    /// while every change was answered.
+    /// The configuration that the latest change without an answer was based on: that change may have been applied.
+    /// `None` while every change was answered.
     fn unanswered(&self) -> Option<RevisionToken> {
         None
     }

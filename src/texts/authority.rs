@@ -25,6 +25,7 @@ in_every_language! {
     fn authority(summary: &CertificateSummary, zone: Zone) -> String;
     /// What a CRL says, and when the next one is due.
     fn crl_state(revoked: usize, number: u64, next: Option<String>) -> String;
+    /// A file of the CA was written.
     fn ca_saved(path: &std::path::Path) -> String;
     /// What a signing request from a file asks for.
     fn request(common_name: &str, bits: u16) -> String;

@@ -6,18 +6,31 @@ use super::TextKey;
 
 in_every_language! {
     cli:
+    /// A controller was added, with what was read from it.
     fn added(name: impl Display, what: impl Display) -> String;
+    /// A controller was added whose identity is not confirmed.
     fn added_unconfirmed(name: impl Display, address: impl Display) -> String;
+    /// The identity of a controller was confirmed.
     fn trusted(name: impl Display, what: impl Display) -> String;
+    /// A controller was removed from the list.
     fn removed(name: impl Display) -> String;
+    /// A line of a connection list was left out, with the reason.
     fn left_out(name: impl Display, line: impl Display, why: impl Display) -> String;
+    /// A controller has another series than was given.
     fn other_series(name: impl Display, what: impl Display) -> String;
+    /// Whether backups are kept, and in which folder.
     fn backup(on: bool, folder: impl Display) -> String;
+    /// Certificates were revoked.
     fn revoked(serials: &[String]) -> String;
+    /// Virtual controllers are being started.
     fn starting_virtual(count: usize) -> String;
+    /// The controllers that are changed.
     fn changes(names: &[&str]) -> String;
+    /// The certificate of an authority.
     fn authority(issued_to: &str) -> String;
+    /// The certificate of an application.
     fn application(issued_to: &str) -> String;
+    /// The CRL of an authority.
     fn crl_of(issuer: &str) -> String;
     /// What is done to the controllers of a generation; `plan` is a table of several lines.
     fn over_plan(controllers: TextKey, plan: &str) -> String;
@@ -35,13 +48,19 @@ in_every_language! {
     fn log_read(name: &str, read: u64, size: u64) -> String;
     /// `passwords`: how many were taken over from the keyring.
     fn vault_created(path: &str, passwords: usize) -> String;
+    /// The workspace has no vault.
     fn vault_missing(path: &str) -> String;
+    /// Passwords are kept in this vault.
     fn vault_used(path: &str) -> String;
     /// The keyring is chosen, and there is a vault.
     fn vault_used_without_keyring(path: &str) -> String;
+    /// How many passwords the vault holds.
     fn vault_passwords(count: usize) -> String;
+    /// How many passwords were put into the vault.
     fn vault_imported(count: usize) -> String;
+    /// The password of a controller was removed from the vault.
     fn vault_forgot(name: &str) -> String;
+    /// The vault has no password of this controller.
     fn vault_has_none(name: &str) -> String;
     /// The value of an argument is none of these.
     fn value_known(known: &[&str]) -> String;
@@ -71,6 +90,7 @@ in_every_language! {
     fn no_controller_after(argument: &str) -> String;
     /// Every controller was asked for, and there is none.
     fn no_controllers() -> String;
+    /// The folder has more files than are read.
     fn too_many_files(folder: impl Display, most: usize) -> String;
 }
 

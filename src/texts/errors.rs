@@ -14,6 +14,7 @@ pub struct Explanation {
 }
 
 impl ErrorCode {
+    /// What a person reads about the error: what happened, why, what to do.
     pub const fn explain(self, language: Language) -> Explanation {
         in_language!(language, errors::explain(self))
     }

@@ -26,7 +26,7 @@ pub fn title_for(language: Language, title: T, names: &[String]) -> String {
     }
 }
 
-/// What a person agrees to, one sentence each. Empty: nothing that disturbs anybody.
+/// What a person agrees to, one sentence each. Empty: nothing that disturbs running clients.
 pub fn confirmation(confirmation: Confirmation) -> Vec<T> {
     let Confirmation {
         server,
@@ -60,6 +60,7 @@ pub fn confirmation(confirmation: Confirmation) -> Vec<T> {
     sentences.into_iter().filter_map(|(applies, sentence)| applies.then_some(sentence)).collect()
 }
 
+/// The word for the state of a server.
 pub const fn status(status: ServerStatus) -> T {
     match status {
         ServerStatus::Run => T::StatusRun,
@@ -68,6 +69,7 @@ pub const fn status(status: ServerStatus) -> T {
     }
 }
 
+/// The word for a type of server certificate.
 pub const fn certificate_type(kind: CertificateType) -> T {
     match kind {
         CertificateType::SelfSigned => T::TypeSelfSigned,
@@ -76,6 +78,7 @@ pub const fn certificate_type(kind: CertificateType) -> T {
     }
 }
 
+/// The word for a step of a job.
 pub const fn step(step: JobStep) -> T {
     match step {
         JobStep::Connect => T::StepConnect,
@@ -88,6 +91,7 @@ pub const fn step(step: JobStep) -> T {
     }
 }
 
+/// The word for a choice of colours.
 pub const fn theme(theme: ThemeChoice) -> T {
     match theme {
         ThemeChoice::System => T::ThemeSystem,
@@ -98,31 +102,45 @@ pub const fn theme(theme: ThemeChoice) -> T {
 
 in_every_language! {
     sentences:
+    /// A number of controllers.
     fn controllers(count: usize) -> String;
+    /// How many rows the filter lets through.
     fn shown_of(shown: usize, all: usize) -> String;
+    /// How many rows are ticked, and how many of them the filter hides.
     fn ticked(count: usize, hidden: usize) -> String;
     /// Over the menu of a row that is not ticked.
     fn menu_for_one(name: &str) -> String;
     /// Over the menu of a ticked row.
     fn menu_for_ticked(count: usize) -> String;
+    /// How many server certificates have expired.
     fn expired(count: usize) -> String;
+    /// How many server certificates expire soon.
     fn expiring(count: usize) -> String;
+    /// How many days a certificate is still valid.
     fn days_left(days: i64) -> String;
+    /// The name of a row's tick box, for screen readers.
     fn tick_row(name: &str) -> String;
+    /// The name of a column's heading, for screen readers.
     fn sort_by(column: T) -> String;
+    /// How a job ended.
     fn summary(summary: JobSummary) -> String;
     /// How far a running job is.
     fn job_running(title: T, done: usize, all: usize) -> String;
     /// What the status bar says after a job that needs no dialog.
     fn job_done(title: T, count: usize) -> String;
+    /// A controller was added.
     fn added(name: &str) -> String;
+    /// How many controllers were removed from the list.
     fn deleted(count: usize) -> String;
+    /// How many users there are, and how many there may be.
     fn user_count(count: usize, most: usize) -> String;
     /// When a settings export was made, and of which firmware.
     fn exported_at(at: &str, firmware: FirmwareVersion) -> String;
     /// How long the server log is, how much of its end is here, and how many lines a filter found.
     fn log_size(size: u64, here: u64, lines: usize, found: Option<usize>) -> String;
+    /// The version of the program.
     fn version(version: &str) -> String;
+    /// A key length.
     fn bits(bits: impl std::fmt::Display) -> String;
     /// Which of the controllers whose identity is to be confirmed is on.
     fn nth_of(nth: usize, all: usize) -> String;
@@ -130,11 +148,13 @@ in_every_language! {
     fn stored_certificate(summary: &CertificateSummary, zone: Zone) -> String;
     /// One certificate of a chain, above the one it issued.
     fn issuer(summary: &CertificateSummary, zone: Zone) -> String;
+    /// In how many of the controllers a certificate type is stored.
     fn stored_in(count: usize, all: usize) -> String;
     /// Which of several controllers will refuse a certificate type.
     fn type_lacking(names: &[&str]) -> String;
     /// Why a controller's certificates are not known.
     fn not_read(name: &str, message: &str) -> String;
+    /// How many of the certificates can be imported.
     fn importable(count: usize, all: usize) -> String;
     /// What was found of a certificate, after its severity.
     fn finding(severity: T, explained: &str) -> String;

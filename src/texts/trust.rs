@@ -9,6 +9,7 @@ use crate::jobs::{SkipReason, TrustNote};
 use crate::model::{CertificateStatus, ClientList, ErrorCode, Language};
 use crate::pki::{CrlDates, CrlHealth, CrlIssuer};
 
+/// Why a certificate or CRL of a file is left out.
 pub const fn skipped_thing(reason: SkipReason) -> T {
     match reason {
         SkipReason::Repeated => T::TrustSkipRepeated,
@@ -55,16 +56,21 @@ in_every_language! {
     fn how_full(count: usize, limit: Option<usize>) -> String;
     /// "3 of 50, 1 ticked".
     fn full_and_ticked(full: &str, count: usize, hidden: usize) -> String;
+    /// How many refused clients are new.
     fn new_clients(count: usize) -> String;
+    /// How many certificates and CRLs were added.
     fn trust_added(count: usize) -> String;
     /// `list`: the name of the list they were deleted from.
     fn certificates_deleted(list: T, count: usize) -> String;
+    /// How many CRLs were deleted.
     fn crls_deleted(count: usize) -> String;
+    /// How many certificates were moved between two lists.
     fn certificates_moved(from: T, to: T, count: usize) -> String;
     /// Authorities that no usable CRL is held of.
     fn without_crl(names: &str) -> String;
     /// Who was disconnected, and why.
     fn cut(issued_to: &str, address: &str, status: CertificateStatus) -> String;
+    /// How many further entries there are.
     fn and_more(count: usize) -> String;
     /// The clock of the controller is wrong, and it judges certificates by it.
     fn clock_off(ahead: Duration) -> String;

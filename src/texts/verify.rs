@@ -25,18 +25,21 @@ impl TokenOutcome {
 }
 
 impl RefusalDetails {
+    /// Why the client does not get in, and what to do.
     pub fn explain(&self, language: Language) -> String {
         explain_refusal(self.status, self.cause.as_ref(), language)
     }
 }
 
 impl ConnectRefusal {
+    /// What is wrong with the server, and what to do.
     pub fn explain(&self, language: Language) -> String {
         in_language!(language, verify::refusal(self))
     }
 }
 
 impl NotTried {
+    /// Why it was not tried.
     pub const fn explain(self, language: Language) -> &'static str {
         in_language!(language, verify::not_tried(self))
     }
@@ -50,6 +53,7 @@ impl VerifyFinding {
 }
 
 impl TokenKind {
+    /// The word for the kind of token.
     pub const fn text(self, language: Language) -> &'static str {
         in_language!(language, verify::token_kind(self))
     }

@@ -6,14 +6,17 @@ pub enum Zone {
     /// This computer's time zone.
     #[default]
     Local,
+    /// This distance from UTC; for tests, whose pictures must not depend on the computer.
     Fixed(FixedOffset),
 }
 
 impl Zone {
+    /// `2026-11-28`.
     pub fn date(self, at: DateTime<Utc>) -> String {
         self.format(at, "%Y-%m-%d")
     }
 
+    /// `2026-11-28 13:05`.
     pub fn date_time(self, at: DateTime<Utc>) -> String {
         self.format(at, "%Y-%m-%d %H:%M")
     }

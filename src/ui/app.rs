@@ -18,7 +18,9 @@ type Clock = Arc<dyn Fn() -> DateTime<Utc>>;
 
 /// The window, over any backend.
 pub struct App<B: Backend> {
+    /// Everything the views draw from.
     pub model: Model,
+    /// Does the commands in the background.
     pub backend: B,
     clock: Clock,
     /// In egui's time.
@@ -39,6 +41,7 @@ impl<B: Backend> std::fmt::Debug for App<B> {
 }
 
 impl<B: Backend> App<B> {
+    /// Sets fonts and theme of `ctx`; nothing is drawn yet.
     pub fn new(ctx: &egui::Context, model: Model, backend: B) -> Self {
         theme::install(ctx);
         fonts::install(ctx, model.language);

@@ -34,14 +34,14 @@ impl Model {
         vec![]
     }
 
-    /// The system ends the program, and there may be nobody to ask.
+    /// The system ends the program, and there may be no person to ask.
     pub(in crate::ui) fn stop_requested(&mut self) -> Vec<BackendCommand> {
         let mut commands = self.choose_about_closing(CloseChoice::Stop);
         commands.push(BackendCommand::Quit);
         commands
     }
 
-    /// A failure has to be seen before the window closes, if somebody chose to finish first.
+    /// A failure has to be seen before the window closes, if "finish first" was chosen.
     pub(in crate::ui) fn keep_open_after(&mut self, summary: JobSummary) {
         if summary.failed > 0 && self.closing == Some(Closing::Finishing) {
             self.closing = None;

@@ -56,7 +56,7 @@ fn wait(mut child: Child, program: &str) -> io::Result<()> {
     let until = Instant::now() + WAIT_LIMIT;
     while Instant::now() < until {
         match child.try_wait()? {
-            // Explorer says 1 whatever it did.
+            // Explorer returns 1 in every case.
             Some(status) if status.success() || cfg!(windows) => return Ok(()),
             Some(status) => return Err(io::Error::other(format!("{program}: {status}"))),
             None => std::thread::sleep(POLL),

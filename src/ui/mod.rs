@@ -1,8 +1,9 @@
 //! The window.
 //!
 //! A frame takes in the backend's events, draws from `&Model`, and turns what the engineer did into
-//! [`Message`](model::Message)s. [`reduce`] alone changes the model, and gives back [`BackendCommand`](model::BackendCommand)s; the
-//! [`Backend`](backend::Backend) does them elsewhere. A frame never waits, and without an event there is no frame.
+//! [`Message`](model::Message)s. [`reduce`] alone changes the model, and gives back
+//! [`BackendCommand`](model::BackendCommand)s; the [`Backend`](backend::Backend) does them elsewhere. A frame never
+//! waits, and without an event there is no frame.
 //!
 //! The modules. Each may use only those above it:
 //!
@@ -11,8 +12,8 @@
 //! | [`picker`], `theme`, `fonts` | the desktop's dialog for choosing a file and its file manager; every colour and size |
 //! | [`model`] | what the window knows: rows, the running job, the open dialogs; what a command and a dialog is; messages |
 //! | `widgets` | what dialogs are made of |
-//! | [`shell`] | starting jobs; the dialogs that belong to no feature |
-//! | [`features`] | what the window can do, one file or folder each |
+//! | `shell` | starting jobs; the dialogs that belong to no feature |
+//! | `features` | what the window can do, one file or folder each |
 //! | [`closing`], [`reduce`] | the one place where the model changes |
 //! | [`backend`] | does the commands: jobs, files, saving |
 //! | `views`, `keys`, `drops` | the main window |
@@ -22,7 +23,7 @@ mod app;
 pub mod backend;
 pub mod closing;
 mod drops;
-pub mod features;
+mod features;
 mod file_manager;
 mod fonts;
 mod keys;
@@ -30,7 +31,7 @@ pub mod model;
 mod notice;
 pub mod picker;
 mod reduce;
-pub mod shell;
+mod shell;
 #[cfg(test)]
 mod tests;
 mod theme;
@@ -50,16 +51,28 @@ use crate::texts::TextKey;
 use crate::workspace::{Configuration, Passwords, Workspace, WorkspaceLock};
 
 pub use app::App;
+// The dialogs that stories and pictures look into.
+pub use features::add_controller::AddControllerForm;
+pub use features::backup::BackupDialog;
+pub use features::client_certificates::{DetailsView, TrustAction};
+pub use features::delete_controllers::DeleteControllersDialog;
+pub use features::live_values::{LiveConnection, LiveForm, LiveSection};
+pub use features::server_log::SaveLogForm;
+pub use features::vault::VaultRequest;
 pub use notice::show_notice;
 pub use reduce::reduce;
 
 /// What the window works with.
 pub struct WindowOptions {
+    /// The folder with the list and the files of the controllers.
     pub workspace: Workspace,
     /// Held for as long as the window is open.
     pub lock: WorkspaceLock,
+    /// The list of controllers and the options, as they were loaded.
     pub configuration: Configuration,
+    /// Where connection passwords are looked up and kept.
     pub passwords: Arc<dyn Passwords>,
+    /// The driver of each kind of connection.
     pub connectors: Connectors,
     /// `None`: virtual controllers are not offered.
     pub starter: Option<Arc<dyn VirtualFleetStarter>>,

@@ -11,12 +11,17 @@ use crate::model::{ErrorCode, Problem};
 /// What is looked for: which files are offered first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileKind {
+    /// Comma-separated text.
     Csv,
     /// Certificates, chains of them, CRLs.
     Trust,
+    /// Revocation lists.
     Crl,
+    /// Certificates.
     Certificate,
+    /// Private keys.
     Key,
+    /// PKCS#12.
     Pkcs12,
     /// Certificate signing requests.
     Csr,
@@ -25,6 +30,7 @@ pub enum FileKind {
 }
 
 impl FileKind {
+    /// The extensions that are offered first, without their dot.
     pub const fn extensions(self) -> &'static [&'static str] {
         match self {
             Self::Csv => &["csv"],
@@ -47,6 +53,7 @@ pub type PickedSeveral = Box<dyn FnOnce(Result<Vec<PathBuf>, Problem>) + Send>;
 
 /// Lets a person choose a file. Returns at once.
 pub trait FilePicker: Send + Sync {
+    /// Asks for one file, under a title. `done` is called once, on any thread.
     fn pick(&self, kind: FileKind, title: String, done: Picked);
 
     /// Likewise, of several files; where that cannot be asked for, of one.
@@ -67,7 +74,7 @@ pub trait FilePicker: Send + Sync {
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SystemPicker;
 
-/// Nobody closes a dialog so soon. The library does not tell a dialog that was cancelled from one that could not be
+/// No person closes a dialog so soon. The library does not tell a dialog that was cancelled from one that could not be
 /// opened.
 const TOO_SOON: Duration = Duration::from_millis(300);
 

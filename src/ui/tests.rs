@@ -75,7 +75,7 @@ fn fail(model: &mut Model, job: JobId, index: usize, problem: impl Into<Problem>
     event(model, job, task.failed(index, problem.into()))
 }
 
-/// A model whose controllers nobody has confirmed yet, all ticked.
+/// A model whose controllers are not confirmed yet, all ticked.
 fn unconfirmed() -> Model {
     let mut model = model();
     let entries: Vec<ControllerEntry> = model.rows.all().iter().map(|row| row.entry.clone()).collect();
@@ -102,7 +102,7 @@ fn whose_identity_is_not_confirmed_is_asked_about_one_after_the_other() {
     let (second, address) = probe(&skipped);
     assert_eq!(address, "10.0.0.10");
 
-    // An answer about the one that was skipped is nobody's.
+    // An answer about the one that was skipped is dropped.
     let fingerprint = Fingerprint::of(b"second");
     reduce(&mut model, Message::Event(BackendEvent::Probed { job: first, result: Ok(Fingerprint::of(b"first")) }));
     reduce(&mut model, Message::Event(BackendEvent::Probed { job: second, result: Ok(fingerprint) }));

@@ -125,12 +125,12 @@ pub const LOG_MARGIN: f32 = 260.0;
 pub const TRUST_MARGIN: Margin = Margin::symmetric(10, 8);
 /// What their dialog leaves of the window for itself and its surroundings.
 pub const TRUST_ROOM: Vec2 = vec2(72.0, 168.0);
-/// Below this height of the window, the line the cursor is on is told in fewer words.
+/// Below this height of the window, the details of the line under the cursor are shortened.
 pub const TRUST_LOW_WINDOW: f32 = 640.0;
 pub const TRUST_MIN_HEIGHT: f32 = 140.0;
 pub const TRUST_SIDE_BY_SIDE: f32 = 1050.0;
-/// Live values: a lamp with its number, the bar that shows a value in its range, the tree beside the attributes, and the
-/// list beside the plot.
+/// Live values: a lamp with its number, the bar that shows a value in its range, the tree beside the attributes, and
+/// the list beside the plot.
 pub const LAMP: Vec2 = vec2(46.0, 40.0);
 pub const LAMP_RADIUS: f32 = 7.0;
 pub const RANGE_BAR: Vec2 = vec2(90.0, 6.0);

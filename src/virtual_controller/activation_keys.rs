@@ -6,8 +6,8 @@ use crate::model::activation::{ActivationKey, ActivationKeys, LicenceKey};
 /// The keys a virtual controller with this serial number accepts, and no others.
 ///
 /// Each key is the HMAC-SHA256 of `licence:<serial>` or `activation:<serial>` under the key `opcua-configurator virtual
-/// controller demo key`, the low five bits of each byte as one of `A`–`Z` and `2`–`9` without `I` and `O`. Anybody can
-/// make them, on purpose: they are worth nothing to a real controller.
+/// controller demo key`, the low five bits of each byte as one of `A`–`Z` and `2`–`9` without `I` and `O`. Every reader
+/// of this can make them, on purpose: they are worth nothing to a real controller.
 pub fn demo_keys(serial: &SerialNumber) -> ActivationKeys {
     let key = |what: &str, length: usize| -> String {
         let tag = hmac::sign(&hmac::Key::new(hmac::HMAC_SHA256, DEMO_KEY), format!("{what}:{serial}").as_bytes());

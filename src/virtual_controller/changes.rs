@@ -72,7 +72,7 @@ pub fn make_self_signed(
     install_self_signed(state, context, request, context.now)
 }
 
-/// Makes a self-signed certificate dated `made`, installs and selects it, whatever the firmware.
+/// Makes a self-signed certificate dated `made`, installs and selects it, on any firmware.
 pub fn install_self_signed(
     state: &mut ControllerState,
     context: &OperatingContext,

@@ -41,11 +41,15 @@ pub struct DemoFleet {
 /// What a list of controllers needs to know about one of the demo.
 #[derive(Debug, Clone)]
 pub struct DemoEntry {
+    /// Its name.
     pub name: ControllerName,
+    /// Its series.
     pub series: ControllerSeries,
+    /// Where its management protocol answers.
     pub address: Address,
     /// `None` for the one that cannot be reached.
     pub fingerprint: Option<Fingerprint>,
+    /// Its connection password.
     pub password: SecretString,
 }
 
@@ -60,6 +64,7 @@ impl DemoFleet {
         &self.controllers
     }
 
+    /// Switches all controllers off and waits for that.
     pub async fn shutdown(self) {
         shutdown_all(self.controllers).await;
     }

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::model::clock;
 
-/// The switches of one controller, to be thrown at run time by a test or a demonstration. Clones share them.
+/// The fault switches of one controller, set at run time by a test or a demonstration. Clones share them.
 #[derive(Debug, Clone, Default)]
 pub struct Faults(Arc<Mutex<FaultSwitches>>);
 
@@ -55,10 +55,12 @@ pub enum FaultRefusal {
 }
 
 impl Faults {
+    /// How the switches stand now.
     pub fn get(&self) -> FaultSwitches {
         self.0.lock().clone()
     }
 
+    /// Changes switches. Takes effect with the next request.
     pub fn update(&self, throw: impl FnOnce(&mut FaultSwitches)) {
         throw(&mut self.0.lock());
     }

@@ -29,12 +29,14 @@ use crate::platform::private;
 pub struct FleetConfig {
     /// At most [`MAX_FLEET`].
     pub count: usize,
+    /// The address that every controller listens on.
     pub bind: IpAddr,
     /// The management port of the first controller, the next one's is one higher; 0 takes free ones.
     pub management_port: u16,
     /// The OPC UA port of the first controller, the next one's is one higher; 0 picks free ones. A controller that
     /// exists already keeps its own.
     pub opcua_port: u16,
+    /// Which firmware new controllers have.
     pub firmware: FleetFirmware,
     /// Whether legacy controllers that do not exist yet come activated; current ones always do.
     pub activated: bool,
@@ -50,42 +52,80 @@ pub struct FleetConfig {
     pub seed: u64,
 }
 
+/// Which firmware the controllers of a fleet have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FleetFirmware {
+    /// All legacy.
     Legacy,
+    /// All current.
     Current,
+    /// Legacy and current ones in turn.
     Mixed,
 }
 
+/// Most controllers of a fleet: their serial numbers have four digits.
 pub const MAX_FLEET: usize = 9_999;
 
+/// Why a fleet cannot be started.
 #[derive(Debug, Error)]
 pub enum FleetError {
+    /// More controllers than [`MAX_FLEET`].
     #[error("{count} controllers are too many; at most {MAX_FLEET} fit into one process")]
-    TooMany { count: usize },
+    TooMany {
+        /// How many were asked for.
+        count: usize,
+    },
+    /// The ports end before each controller has one.
     #[error("the ports from {first} on do not suffice for {count} controllers")]
-    Ports { first: u16, count: usize },
+    Ports {
+        /// The first port.
+        first: u16,
+        /// How many controllers were asked for.
+        count: usize,
+    },
+    /// Another process uses the folder.
     #[error("{path} is in use by another process")]
-    Busy { path: PathBuf },
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The folder cannot be used.
     #[error("{path}: {source}")]
-    Data { path: PathBuf, source: io::Error },
+    Data {
+        /// The folder or file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
+    /// The operating system gives no free port.
     #[error("no free port: {0}")]
     NoFreePort(#[source] io::Error),
+    /// A controller cannot be switched on.
     #[error("controller {serial}: {source}")]
-    Controller { serial: SerialNumber, source: SwitchOnError },
+    Controller {
+        /// Its serial number.
+        serial: SerialNumber,
+        /// Why.
+        source: SwitchOnError,
+    },
+    /// A connection password could not be hashed.
     #[error(transparent)]
     Password(#[from] HashError),
+    /// A port cannot be that of an OPC UA server.
     #[error(transparent)]
     Port(#[from] PortError),
+    /// An address of a controller is not one.
     #[error(transparent)]
     Address(#[from] AddressError),
+    /// A name or serial number cannot be made.
     #[error(transparent)]
     Name(#[from] NameError),
+    /// A thread ended before its work was done.
     #[error("a worker thread died")]
     Worker(#[from] JoinError),
 }
 
-/// Running controllers. Dropped without [`Fleet::shutdown`], they stop too, but nobody waits for them.
+/// Running controllers. Dropped without [`Fleet::shutdown`], they stop as well, without waiting.
 #[derive(Debug)]
 pub struct Fleet {
     controllers: Vec<VirtualController>,
@@ -96,12 +136,17 @@ pub struct Fleet {
 /// What a process that started a controller says about it, on one line.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReadyLine {
+    /// Name of the controller.
     pub name: String,
+    /// Its serial number.
     pub serial: SerialNumber,
+    /// Its series.
     pub series: ControllerSeries,
+    /// Its firmware.
     pub firmware: FirmwareVersion,
     /// `host:port` of the management protocol.
     pub management: String,
+    /// The fingerprint of its management identity.
     pub fingerprint: crate::pki::Fingerprint,
     /// `opc.tcp://host:port`.
     pub opcua: String,
@@ -126,10 +171,12 @@ impl Fleet {
         }
     }
 
+    /// The controllers, in the order of their ports.
     pub fn controllers(&self) -> &[VirtualController] {
         &self.controllers
     }
 
+    /// Switches all controllers off and waits for that.
     pub async fn shutdown(self) {
         shutdown_all(self.controllers).await;
     }
@@ -172,6 +219,7 @@ impl FleetConfig {
 }
 
 impl VirtualController {
+    /// What a process prints when the controller is ready.
     pub fn ready_line(&self) -> ReadyLine {
         ReadyLine {
             name: self.name().to_string(),
@@ -185,7 +233,7 @@ impl VirtualController {
     }
 }
 
-/// Lets other processes throw the switches of the controllers in a folder and act on their cells, as long as it lives.
+/// Lets other processes set the fault switches of the controllers in a folder and act on their cells, until dropped.
 #[derive(Debug)]
 pub(super) struct OutsideControl {
     _switches: DropGuard,

@@ -29,7 +29,7 @@ const HANDSHAKE_TIMEOUT: Duration = Duration::from_secs(5);
 const SESSION_TIMEOUT: Duration = Duration::from_secs(20);
 /// For the head of a request, and for a connection without one.
 const HEAD_TIMEOUT: Duration = Duration::from_secs(10);
-/// No connection is older, whatever it does: one that reads its answers slowly is over some day.
+/// Greatest age of a connection, so that one that reads its answers slowly ends as well.
 const MAX_AGE: Duration = Duration::from_secs(600);
 /// What a request in hand gets when the controller is switched off or the connection has become too old.
 const GRACE: Duration = Duration::from_secs(2);

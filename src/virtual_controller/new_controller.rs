@@ -14,12 +14,15 @@ use crate::pki::{PkiError, tls_identity};
 /// What a controller is when it is first switched on.
 #[derive(Debug, Clone)]
 pub struct NewController {
+    /// Serial number, series, firmware and name.
     pub identity: ControllerIdentity,
     /// As [`super::hash_connection_password`] makes it.
     pub connection_password_hash: String,
+    /// The basic settings.
     pub settings: ServerSettings,
     /// Looked at on legacy firmware only; current firmware is always activated.
     pub activated: bool,
+    /// TCP ports taken by other functions of the controller.
     pub used_ports: Vec<u16>,
     /// A self-signed server certificate to begin with.
     pub certificate: Option<NewCertificate>,
@@ -28,9 +31,11 @@ pub struct NewController {
 /// A self-signed certificate with the default subject.
 #[derive(Debug, Clone, Copy)]
 pub struct NewCertificate {
+    /// Length of the key.
     pub key_length: KeyLength,
     /// When it begins to be valid; may lie in the past.
     pub made: DateTime<Utc>,
+    /// How long the certificate is valid.
     pub validity: Validity,
 }
 

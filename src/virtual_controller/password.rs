@@ -11,7 +11,8 @@ use tokio::task::spawn_blocking;
 
 use super::opcua::{HashError, hash_password};
 
-/// As the password of an OPC UA user: Argon2id with a fresh salt, as a PHC string. Takes tens of milliseconds and 19 MiB.
+/// As the password of an OPC UA user: Argon2id with a fresh salt, as a PHC string. Takes tens of milliseconds and 19
+/// MiB.
 pub fn hash_connection_password(password: &SecretString) -> Result<String, HashError> {
     hash_password(password.expose_secret())
 }
@@ -53,7 +54,7 @@ impl PasswordChecker {
             return right;
         }
         let Ok(_slot) = self.slots.acquire().await else { return false };
-        // Somebody else may have asked the same while this one waited.
+        // Another thread may have computed the same while this one waited.
         if let Some(right) = self.recall(hash, password) {
             return right;
         }

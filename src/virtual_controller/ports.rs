@@ -10,7 +10,7 @@ const COUNT: u32 = 20_000;
 /// Where this process looks next. It never gives the same port twice until it has been all the way round.
 static NEXT: AtomicU32 = AtomicU32::new(u32::MAX);
 
-/// A TCP port nobody listens on at `bind`, for later use. Processes begin at different places.
+/// A free TCP port at `bind`, for later use. Processes begin at different places.
 pub fn free_port(bind: IpAddr) -> io::Result<u16> {
     let start = std::process::id().wrapping_mul(7919) % COUNT;
     // Fails when the place is set already, which is as good.
@@ -28,7 +28,7 @@ pub fn free_port(bind: IpAddr) -> io::Result<u16> {
     Err(io::ErrorKind::AddrInUse.into())
 }
 
-/// Whether nobody listens on a TCP port of `bind` just now.
+/// Whether a TCP port of `bind` is free at this moment.
 pub fn is_free(bind: IpAddr, port: u16) -> bool {
     TcpListener::bind((bind, port)).is_ok()
 }

@@ -21,9 +21,9 @@ use crate::pki::{Certificate, CertificateRejection, RefusalCause, RejectedClient
 
 /// The client certificates that were refused, for a person to decide about (manual 2.7.3).
 ///
-/// Any peer that reaches the OPC UA port can add to this list, so it is bounded: one entry a certificate, [`MAX_ENTRIES`] of
-/// them and [`MAX_BYTES`] together. When it is full, the address with most entries loses the one not seen for
-/// longest: a stranger with a thousand certificates does not push out the others.
+/// Any peer that reaches the OPC UA port can add to this list, so it is bounded: one entry a certificate,
+/// [`MAX_ENTRIES`] of them and [`MAX_BYTES`] together. When it is full, the address with most entries loses the one not
+/// seen for longest: a stranger with a thousand certificates does not push out the others.
 ///
 /// It lives in memory; [`RejectedClients::keep`] writes it beside the controller's state, the first time at once, then
 /// at most every [`WRITE_PAUSE`], however many are refused.
@@ -63,7 +63,7 @@ pub struct RejectedEntry {
 }
 
 pub const MAX_ENTRIES: usize = 100;
-/// Bytes of DER. Keeps the list within one answer of the protocol, whatever the certificates say.
+/// Bytes of DER. Keeps the list within one answer of the protocol.
 pub const MAX_BYTES: usize = 1024 * 1024;
 /// Certificates of the chain that are kept of one entry. Chains of more than a root and two more are not seen.
 const MAX_CHAIN: usize = 4;

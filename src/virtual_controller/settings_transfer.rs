@@ -31,7 +31,7 @@ pub fn export(
 }
 
 /// Puts back what this controller sealed, after every check a single change would have met. Only the password of the
-/// server log is not asked for again: that it was on then was somebody's will.
+/// server log is not asked for again: it was switched on deliberately then.
 pub fn import(
     state: &mut ControllerState,
     context: &OperatingContext,

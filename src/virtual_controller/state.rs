@@ -18,8 +18,11 @@ use crate::pki::{Certificate, PkiError, ServerNames};
 /// Who a controller is. Never changes during its life.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ControllerIdentity {
+    /// Serial number of the controller.
     pub serial: SerialNumber,
+    /// Its series.
     pub series: ControllerSeries,
+    /// Its firmware.
     pub firmware: FirmwareVersion,
     /// The name the controller itself carries.
     pub name: ControllerName,
@@ -35,6 +38,7 @@ pub struct KeyPair {
 }
 
 impl KeyPair {
+    /// The certificate. It was checked when it was stored, so an error means that the state was damaged.
     pub fn parse(&self) -> Result<Certificate, PkiError> {
         Certificate::from_der(&self.certificate.0)
     }
@@ -52,6 +56,7 @@ pub struct PendingCsr {
 /// A user of the OPC UA server.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct User {
+    /// Name of the user.
     pub name: UserName,
     /// Argon2id, as a PHC string.
     pub password_hash: String,
@@ -60,32 +65,39 @@ pub struct User {
 /// A certificate in the trusted or issuers list.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrustListCertificate {
+    /// Name of the file that the certificate was added from.
     pub file_name: String,
     /// DER.
     pub certificate: Base64Bytes,
+    /// When it was added, by the controller's clock.
     pub added: DateTime<Utc>,
 }
 
 /// A CRL.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TrustListCrl {
+    /// Name of the file that the CRL was added from.
     pub file_name: String,
     /// DER.
     pub crl: Base64Bytes,
     /// What was read from the DER when it was added: it may be large.
     pub summary: CrlSummary,
+    /// When it was added, by the controller's clock.
     pub added: DateTime<Utc>,
 }
 
 /// Everything a controller remembers when it is switched off.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ControllerState {
+    /// Who the controller is.
     pub identity: ControllerIdentity,
     /// The TLS identity of the management protocol; its certificate's SHA-256 is the controller's fingerprint.
     pub management: KeyPair,
     /// Argon2id of the connection password, as a PHC string.
     pub connection_password_hash: String,
+    /// The basic settings.
     pub settings: ServerSettings,
+    /// The users of the OPC UA server.
     pub users: Vec<User>,
     /// Always true on current firmware, where activation is a controller option.
     pub activated: bool,
@@ -99,8 +111,11 @@ pub struct ControllerState {
     pub csr: Option<PendingCsr>,
     /// The type the server uses, whether one is held or not.
     pub selected: CertificateType,
+    /// The trusted list: clients, and CAs whose clients are accepted.
     pub trusted: Vec<TrustListCertificate>,
+    /// The issuers list: CAs that complete chains. Empty on legacy firmware.
     pub issuers: Vec<TrustListCertificate>,
+    /// The CRLs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub crls: Vec<TrustListCrl>,
     /// TCP ports taken by other functions of the controller.
@@ -177,14 +192,17 @@ impl OperatingContext {
 }
 
 impl ControllerState {
+    /// The set of rules that its firmware follows.
     pub fn generation(&self) -> FirmwareGeneration {
         self.identity.firmware.generation()
     }
 
+    /// How many certificates and CRLs its lists hold.
     pub fn limits(&self) -> ListLimits {
         ListLimits::of(self.generation())
     }
 
+    /// The certificates in a list; the rejected list is kept elsewhere and is empty here.
     pub fn list(&self, list: ClientList) -> &[TrustListCertificate] {
         match list {
             ClientList::Trusted => &self.trusted,
@@ -216,6 +234,7 @@ impl ControllerState {
         self.certificates.get(&self.selected)
     }
 
+    /// What the OPC UA server shows its clients; `None` if the selected type is not held.
     pub fn server_certificate(&self) -> Option<ServerCertificate> {
         let certificate = self.selected_certificate()?.parse().ok()?;
         Some(ServerCertificate { kind: self.selected, summary: certificate.summary() })

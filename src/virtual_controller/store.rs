@@ -33,14 +33,31 @@ pub struct StagedState {
     committed: bool,
 }
 
+/// Why the state of a controller cannot be read or written.
 #[derive(Debug, Error)]
 pub enum StoreError {
+    /// The file cannot be read or written.
     #[error("{path}: {source}")]
-    Io { path: PathBuf, source: io::Error },
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// The error of the operating system.
+        source: io::Error,
+    },
+    /// The file is damaged, and was put aside.
     #[error("the controller's file is damaged ({source}); it was kept as {kept}")]
-    Damaged { source: Damage, kept: PathBuf },
+    Damaged {
+        /// What is wrong with it.
+        source: Damage,
+        /// The file it was moved to.
+        kept: PathBuf,
+    },
+    /// A later version of this program wrote the file.
     #[error("{path} was written by a newer version of this program")]
-    TooNew { path: PathBuf },
+    TooNew {
+        /// The file.
+        path: PathBuf,
+    },
 }
 
 /// What is wrong with the controller's file.
@@ -145,6 +162,7 @@ fn write_private_file(path: &Path, bytes: &[u8], faults: &Faults) -> io::Result<
 }
 
 impl StagedState {
+    /// Puts the state in force: one rename, after which it survives a power failure.
     pub fn commit(mut self) -> Result<(), StoreError> {
         replace::rename(&self.temporary, &self.target)
             .map_err(|source| StoreError::Io { path: self.target.clone(), source })?;
@@ -216,7 +234,7 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
     File::open(folder)?.sync_all()
 }
 
-/// Windows keeps names itself and lets nobody flush a folder.
+/// Windows keeps names itself and has no flush of a folder.
 #[cfg(not(unix))]
 fn sync_folder(_folder: &Path) -> io::Result<()> {
     Ok(())

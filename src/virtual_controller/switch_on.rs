@@ -17,7 +17,7 @@ use crate::pki::Fingerprint;
 
 /// One virtual controller, switched on: its management protocol answers, and its OPC UA server runs when it should.
 ///
-/// Dropped without [`VirtualController::shutdown`], it stops too, but nobody waits for it.
+/// Dropped without [`VirtualController::shutdown`], it stops too, without waiting.
 #[derive(Debug)]
 pub struct VirtualController {
     controller: Arc<Controller>,
@@ -79,6 +79,7 @@ impl VirtualController {
         self.controller.endpoint(None)
     }
 
+    /// What "Get new information" reads.
     pub fn info(&self) -> ControllerInfo {
         self.controller.info(None)
     }
@@ -93,18 +94,22 @@ impl VirtualController {
         self.controller.cell()
     }
 
+    /// Its serial number.
     pub fn serial(&self) -> SerialNumber {
         self.controller.state().identity.serial.clone()
     }
 
+    /// Its series.
     pub fn series(&self) -> ControllerSeries {
         self.controller.state().identity.series
     }
 
+    /// Its firmware.
     pub fn firmware(&self) -> FirmwareVersion {
         self.controller.state().identity.firmware
     }
 
+    /// The name the controller itself carries.
     pub fn name(&self) -> ControllerName {
         self.controller.state().identity.name.clone()
     }

@@ -22,8 +22,11 @@ pub struct Switchboard(pub BTreeMap<SerialNumber, OutsideSwitches>);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct OutsideSwitches {
+    /// See `task_running` there.
     pub task_running: bool,
+    /// See `teach_pendant_connected` there.
     pub teach_pendant: bool,
+    /// See `server_error` there.
     pub server_error: bool,
 }
 

@@ -14,7 +14,7 @@ use crate::platform::replace;
 /// The configurator's own OPC UA application instance certificate and its key, made once for a workspace:
 /// `<workspace>/Configurator/configurator.der` and `configurator_key.pem`, on Windows `configurator_key.dpapi`.
 ///
-/// The certificate is for everybody: it is what is put into a controller's Trusted list. The key's file is readable by
+/// The certificate is public: it is put into a controller's Trusted list. The key's file is readable by
 /// its owner only. On Windows the key is encrypted for the account as well (Data Protection API): it cannot be used
 /// under another account or on another PC.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -125,8 +125,8 @@ impl ConfiguratorIdentityFiles {
     /// The identity; made if there is none yet, and anew once it has expired. Blocks, and makes a key.
     ///
     /// # Errors
-    /// Files that are there but damaged, or do not belong together, are [`ConfiguratorIdentityError::Content`] and left alone: a
-    /// new identity would have to be trusted again everywhere.
+    /// Files that are there but damaged, or do not belong together, are [`ConfiguratorIdentityError::Content`] and left
+    /// alone: a new identity would have to be trusted again everywhere.
     pub fn load_or_make(&self, now: DateTime<Utc>) -> Result<ConfiguratorIdentity, ConfiguratorIdentityError> {
         let paths = IdentityPaths { certificate: self.certificate_path(), key: self.folder.join(KEY) };
         if let Some(found) = paths.load(now)? {

@@ -21,8 +21,8 @@ use test_fleet::TestFleet;
 use tokio_util::sync::CancellationToken;
 
 const LATENCY: Duration = Duration::from_millis(20);
-/// Of one controller's turn: log in, read the information. The second needs the token from the first, so nobody can be
-/// faster than both together. The third request of a session, the log out, is sent while the next controller has its
+/// Of one controller's turn: log in, read the information. The second needs the token from the first, so no program can
+/// be faster than both together. The third request of a session, the log out, is sent while the next controller has its
 /// turn, so it is not part of the ideal; only after the last turn it may be waited for.
 const REQUESTS: u32 = 2;
 const TARGET: f64 = 1.3;
@@ -35,7 +35,7 @@ async fn main() {
     let count = report::number(0).unwrap_or(if benching { 1_000 } else { 8 });
     let parallelism = report::number(1).unwrap_or(16).max(1);
 
-    // What a process pays once, whatever the number of controllers, is paid by these two.
+    // What a process costs once, for any number of controllers, is measured with these two.
     let first = TestFleet::start(2, FleetFirmware::Current).await;
     run_servers(&first, 2).await;
 

@@ -36,7 +36,7 @@ impl TestFleet {
         Self::made(count, firmware, true, "").await
     }
 
-    /// Legacy controllers whose OPC UA function nobody has paid for yet.
+    /// Legacy controllers whose OPC UA function is not activated yet.
     pub async fn not_activated(count: usize) -> Self {
         Self::made(count, FleetFirmware::Legacy, false, PASSWORD).await
     }
@@ -120,7 +120,7 @@ pub async fn run<O: OperationOutput>(
     (reports, summary)
 }
 
-/// Somebody who is not a controller of this plant.
+/// The fingerprint of a controller that is not in this fleet.
 pub fn nobody() -> Fingerprint {
     Fingerprint::of(b"nobody")
 }

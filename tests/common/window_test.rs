@@ -161,13 +161,13 @@ impl WindowTest {
         self.click("Close");
     }
 
-    /// Confirms first: the button that does it stands before Cancel, whatever the act is called.
+    /// Confirms first: the button that does it stands before Cancel, whatever its label.
     pub fn confirm_and_finish(&mut self, summary: &str) {
         agree(&mut self.window);
         self.finish(summary);
     }
 
-    /// Somebody else's work on all controllers.
+    /// A change of all controllers by another program.
     pub fn run(&self, operation: impl Operation + 'static) {
         for report in self.runtime.block_on(self.fleet.run(operation)) {
             assert!(report.result.is_ok(), "{report:?}");

@@ -1,4 +1,5 @@
-//! Writes the seeds of `corpus/`: small files of every kind the readers know. Keys are made anew and belong to nobody.
+//! Writes the seeds of `corpus/`: small files of every kind the readers know. Keys are made anew and are used nowhere
+//! else.
 
 use std::fs;
 use std::path::Path;

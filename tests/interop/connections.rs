@@ -1,4 +1,4 @@
-//! The real program against peers nobody of this project wrote: asyncua, node-opcua and OpenSSL.
+//! The real program against peers from other projects: asyncua, node-opcua and OpenSSL.
 //!
 //! Each story starts a virtual controller and configures it from the command line, as a user would; then a peer looks
 //! at the result from outside.

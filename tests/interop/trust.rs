@@ -1,4 +1,4 @@
-//! Trust between the real program and peers nobody of this project wrote: asyncua and node-opcua as clients that are
+//! Trust between the real program and peers from other projects: asyncua and node-opcua as clients that are
 //! judged, asyncua as a client that judges and as a server that is judged, and OpenSSL as the authority.
 
 use std::path::{Path, PathBuf};
@@ -139,7 +139,7 @@ fn a_chain_is_completed_from_the_issuers_or_from_what_the_client_sends_along() {
     let attempts = |client: &Application| [ENCRYPTED, NEWEST].map(|s| Attempt::new(cell.opcua(), client, s));
     let with_issuer = |client| attempts(client).map(|attempt| Attempt { chain: vec![line.certificate()], ..attempt });
 
-    // Held as issuers, the authorities vouch for nobody but complete the chain of whom is trusted itself.
+    // In the issuers list, authorities trust no client; they complete the chain of clients that are trusted themselves.
     add(&cell, "issuers", &root.certificate());
     cell.run(&["crl", "add", path(&root.crl()), path(&line.crl())]);
     add(&cell, "trusted", &one.files.certificate);
@@ -233,7 +233,7 @@ fn who_is_revoked_by_the_small_ca_while_connected_is_cut_within_a_second() {
             assert!(late < Duration::from_secs(1), "{late:?}");
         }
     });
-    // Whoever else is connected stays so: a word about it would come before these answers.
+    // Other clients stay connected: a message about them would come before these answers.
     assert_let_in(&mut peers, &attempts[..1]);
     assert_refused(&cell, &mut peers, &attempts[1..], "BadCertificateRevoked");
 }

@@ -17,7 +17,7 @@ fn read(window: &mut W, path: &str, contents: &str) {
     tell(window, BackendEvent::FileRead { job, result: Ok((PathBuf::from(path), contents)) });
 }
 
-/// Legacy controllers, the last of which was never read; nobody has been activated.
+/// Legacy controllers, the last of which was never read; none is activated.
 fn legacy(count: usize) -> W {
     let mut configuration = configuration(count, now());
     for (n, entry) in configuration.controllers.iter_mut().enumerate() {

@@ -6,9 +6,9 @@ use opcua_configurator::model::{
 };
 use opcua_configurator::pki::{Certificate, read_bundle};
 use opcua_configurator::ui::backend::{BackendCommand, BackendEvent, RecordingBackend};
-use opcua_configurator::ui::features::client_certificates::{DetailsView, TrustAction};
 use opcua_configurator::ui::model::{JobId, Message, ReadTrustFile};
 use opcua_configurator::ui::reduce;
+use opcua_configurator::ui::{DetailsView, TrustAction};
 use opcua_configurator::workspace::ThemeChoice;
 
 use crate::authority::{Authority, p7b};
@@ -213,7 +213,7 @@ fn adding_to_many() {
 fn real() -> TrustSnapshot {
     let pki = pki();
     let mut held = trust_samples::fleet(now());
-    // Its issuer was not sent along, and nobody here has it.
+    // Its issuer was not sent along, and is not held here.
     let client = &mut held.rejected[1];
     client.certificate.0.clone_from(&pki.client);
     client.status = CertificateStatus::ChainIncomplete;

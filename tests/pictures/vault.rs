@@ -1,8 +1,8 @@
 //! How the vault for connection passwords looks, and adding a controller that is switched off.
 
 use opcua_configurator::model::{ErrorCode, Problem};
+use opcua_configurator::ui::VaultRequest;
 use opcua_configurator::ui::backend::{BackendEvent, RecordingBackend};
-use opcua_configurator::ui::features::vault::VaultRequest;
 use opcua_configurator::ui::model::Message;
 use opcua_configurator::workspace::{PasswordPlace, StoreStatus, VaultState};
 

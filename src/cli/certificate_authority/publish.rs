@@ -17,8 +17,8 @@ use crate::workspace::write_atomic;
 
 #[derive(Debug, Args)]
 pub struct CrlArgs {
-    /// Save the CRL here, as PEM if the name ends in .pem, else as DER; that of a root above the CA goes beside it, named
-    /// root-…
+    /// Save the CRL here, as PEM if the name ends in .pem, else as DER; that of a root above the CA goes beside it,
+    /// named root-…
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// How long it is good for, in days [default: as long as the one before]
@@ -39,7 +39,7 @@ pub struct CrlArgs {
 }
 
 pub fn run(cli: &CommandContext, args: &CrlArgs) -> Result<CommandOutcome, Problem> {
-    // Whatever is wrong with the controllers is found before anything is published.
+    // Mistakes in the choice of controllers are found before anything is published.
     let configuration = cli.configuration()?;
     let chosen = match &args.push {
         None => Vec::new(),

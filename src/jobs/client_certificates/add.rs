@@ -27,7 +27,7 @@ impl Operation for AddTrust {
     type Output = TrustChange;
 
     fn confirmation(&self) -> Option<Confirmation> {
-        // A new CRL may revoke somebody who is connected.
+        // A new CRL may revoke a client that is connected.
         let disconnects_clients = self.files.iter().any(|file| !file.bundle.crls.is_empty());
         Some(Confirmation { disconnects_clients, ..Confirmation::default() })
     }

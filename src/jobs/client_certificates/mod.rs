@@ -10,7 +10,7 @@
 //! | `move_clients` | [`MoveClients`]: from one list into another |
 //! | `change` | one change sent, and what came of it: [`TrustChange`] |
 //! | `undo` | [`TrustUndo`]: the steps that reverse a change |
-//! | `undo_trust` | [`UndoTrust`]: sends them |
+//! | `undo_trust` | [`UndoTrust`]: sends the steps of a [`TrustUndo`] |
 //! | `watch` | [`watch_trust`]: the lists as they change |
 
 mod add;

@@ -38,7 +38,7 @@ pub enum Destination {
 }
 
 /// Which of the files' certificates and CRLs go where in one controller; what is left out, and what is wrong. Made
-/// without asking anybody: to be shown before anything is sent.
+/// from the files and the snapshot alone: to be shown before anything is sent.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TrustPlan {
     /// In the order of the files.

@@ -57,7 +57,7 @@ impl Operation for ListTrust {
     }
 }
 
-/// How often somebody else may change the configuration while it is read.
+/// How often the configuration may change while it is read, before reading fails.
 const ATTEMPTS: u32 = 4;
 /// For everything, however often it is read. Fifty CRLs of megabytes over a slow line take less.
 const MAX_TIME: Duration = Duration::from_secs(120);

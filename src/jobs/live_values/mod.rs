@@ -1,6 +1,7 @@
-//! The values of a controller's OPC UA server as they change: robots, safety, tasks, I/O, variables, consumables, status.
+//! The values of a controller's OPC UA server as they change: robots, safety, tasks, I/O, variables, consumables,
+//! status.
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `tree` | [`NodeTree`]: the nodes below DeviceSet as they were browsed |
 //! | `explore` | browses a server into a [`NodeTree`], bounded |

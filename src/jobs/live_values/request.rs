@@ -5,14 +5,19 @@ use crate::model::opcua::{DataValue, NodeId, NodeReference, QualifiedName, Quali
 /// What a running watch is asked.
 #[derive(Debug, Clone, PartialEq)]
 pub enum LiveRequest {
-    /// ControllerReport the values of these variables from now on, and of no others.
+    /// Report the values of these variables from now on, and of no others.
     Show(Vec<NodeId>),
-    /// ControllerReport what is below a node.
+    /// Report what is below a node.
     Children(NodeId),
-    /// ControllerReport the attributes of a node.
+    /// Report the attributes of a node.
     Inspect(NodeId),
     /// Write a value, as the type it has.
-    Write { node: NodeId, value: Value },
+    Write {
+        /// The variable.
+        node: NodeId,
+        /// The new value.
+        value: Value,
+    },
 }
 
 /// What a watch reports.
@@ -27,16 +32,32 @@ pub enum LiveEvent {
     /// Trying again would not help. The watch is over.
     Ended(Problem),
     /// What is below a node.
-    Children { of: NodeId, children: Result<Vec<NodeReference>, Problem> },
+    Children {
+        /// The node that was asked about.
+        of: NodeId,
+        /// Its children, or why they cannot be read.
+        children: Result<Vec<NodeReference>, Problem>,
+    },
     /// The attributes of a node.
-    Inspected { node: NodeId, details: Result<Box<NodeDetails>, Problem> },
+    Inspected {
+        /// The node that was asked about.
+        node: NodeId,
+        /// Its attributes, or why they cannot be read.
+        details: Result<Box<NodeDetails>, Problem>,
+    },
     /// What became of a write.
-    Written { node: NodeId, quality: Result<Quality, Problem> },
+    Written {
+        /// The variable.
+        node: NodeId,
+        /// The answer of the server, or why the write was not sent.
+        quality: Result<Quality, Problem>,
+    },
 }
 
 /// The attributes of a node (OPC 10000-3 §5).
 #[derive(Debug, Clone, PartialEq)]
 pub struct NodeDetails {
+    /// Its BrowseName.
     pub browse_name: QualifiedName,
     /// All but the value, in the order of the standard: name and value of each.
     pub attributes: Vec<(&'static str, DataValue)>,

@@ -2,7 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `report` | [`VerifyReport`]: what came of it |
+//! | `report` | [`VerifyReport`]: the result of a verification |
 //! | `trust` | [`TrustConfigurator`]: what helps most often |
 //! | `probe` | every endpoint with every token, and what a failure means |
 
@@ -35,7 +35,7 @@ use probe::{Probe, clock, compare, offered_policies, refusal_of};
 ///
 /// The server's certificate is judged as a careful client does, with the certificate that the session with the
 /// controller names as the one to trust. A server that shows another is not logged in to. Nothing is tried twice, and a
-/// password that was refused is not sent again, so that nobody is locked out.
+/// password that was refused is not sent again, so that the user is not locked out.
 ///
 /// It fails only if the controller cannot be asked; what does not work is in the report.
 #[derive(Debug, Clone)]

@@ -37,7 +37,7 @@ impl Probe<'_> {
         endpoint: &Endpoint,
     ) -> Result<EndpointVerdict, Problem> {
         let mut tokens = Vec::new();
-        // What keeps one token out before anybody logs in keeps out the others as well.
+        // A failure before the login keeps the other tokens out as well.
         let mut shut: Option<ConnectRefusal> = None;
         for token in &endpoint.tokens {
             run.begin(JobStep::Verify)?;

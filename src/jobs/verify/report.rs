@@ -80,7 +80,7 @@ pub enum ConnectRefusal {
     OtherCertificate,
     /// User name or password.
     Password,
-    /// Nobody is let in without a name, although it is offered.
+    /// Login without a user name is offered, and refused.
     Anonymous,
     /// No room for another client.
     Busy(String),
@@ -95,7 +95,7 @@ pub enum ConnectRefusal {
     },
 }
 
-/// Why a certificate was refused, as far as it is told.
+/// Why a certificate was refused, as far as the controller tells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefusalDetails {
     /// The status code that the certificate was refused with.
@@ -119,7 +119,7 @@ pub enum NotTried {
     OtherToken,
     /// A policy or a mode that is not known here.
     UnknownSecurity,
-    /// The server shows another certificate than the one selected in the controller: it may be somebody else.
+    /// The server shows another certificate than the one selected in the controller: it may be another server.
     OtherCertificate,
     /// The server sends a chain of certificates, which this client cannot use.
     Chain,
@@ -183,7 +183,7 @@ impl VerifyReport {
         counts
     }
 
-    /// The server refuses this program because nobody has trusted its certificate yet, or for a reason nobody knows.
+    /// The server refuses this program because its certificate is not trusted yet, or for an unknown reason.
     pub fn lacks_trust(&self) -> bool {
         self.verdicts().any(|verdict| match verdict {
             TokenOutcome::Fails(ConnectRefusal::OwnCertificate(why)) => {

@@ -72,7 +72,7 @@ pub enum ActivationMistake {
     /// The third field is not an activation key.
     #[error("activation key: {0}")]
     Activation(KeyError),
-    /// Which of the lines is meant nobody can know, so none of them is used.
+    /// Another line names the serial number as well; none of them is used. Holds the number of that line.
     #[error("the serial number also stands in line {0}")]
     Duplicate(usize),
 }
@@ -168,7 +168,7 @@ pub fn parse(bytes: &[u8]) -> Result<ActivationFile, ActivationFileError> {
     Ok(file)
 }
 
-/// Whether text begins as an activation file, of whatever version and case.
+/// Whether text begins as an activation file of any version, in upper or lower case.
 pub fn begins(text: &str) -> bool {
     let first = TextTable::read(text, 1).rows.into_iter().next().and_then(|row| row.fields.into_iter().next());
     first.is_some_and(|field| {
@@ -223,7 +223,7 @@ fn one(row: &TextTableRow, separator: char) -> Result<ActivationLine, LineMistak
 }
 
 impl ActivationFile {
-    /// A serial number that stands in several good lines, in whichever case, has none.
+    /// A serial number that stands in several good lines has none; upper and lower case are the same.
     fn refuse_duplicates(&mut self) {
         let folded = |serial: &SerialNumber| serial.as_str().to_ascii_uppercase();
         let mut by_serial: std::collections::HashMap<String, Vec<usize>> = std::collections::HashMap::new();

@@ -7,7 +7,7 @@ use thiserror::Error;
 /// The licence key of one controller, `xxxx-xxxx-xxxx-xxxx`: 16 ASCII letters and digits, kept in lower case.
 ///
 /// Read however it was pasted: in either case, with or without dashes, with blanks around and inside. Full-width
-/// characters are refused (manual 2.6.3). What was bought is nobody else's business: `Debug` does not show it.
+/// characters are refused (manual 2.6.3). The key is worth money: `Debug` does not show it.
 #[derive(Clone, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct LicenceKey(String);

@@ -1,7 +1,7 @@
 //! Activation of legacy controllers: the two keys of a licence, the activation file, and what it means for the
 //! controllers that are ticked (manual 2.6.3, appendix A).
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `keys` | [`LicenceKey`] and [`ActivationKey`]: text from a mail or a sheet becomes a key, or says what is wrong |
 //! | `file` | [`ActivationFile`]: bytes become lines, each mistake with its line number |

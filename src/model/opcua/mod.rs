@@ -1,6 +1,6 @@
 //! Values of an OPC UA address space, as a client of any server reads them. No encoding, no connection.
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `node_id` | [`NodeId`], its text form; [`QualifiedName`] |
 //! | `value` | [`Value`]: one value of any built-in type |

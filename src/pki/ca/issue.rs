@@ -27,8 +27,8 @@ pub struct IssueRequest {
 impl CertificateAuthority {
     /// Signs the certificate of an OPC UA application (OPC 10000-6 §6.2.2).
     ///
-    /// The subject is taken over byte by byte, the application URI, host names and addresses after a check; of whatever
-    /// else the request asks for, nothing. Refuses a request without a common name, one that does not name exactly one
+    /// The subject is taken over byte by byte, the application URI, host names and addresses after a check; nothing
+    /// else is taken from the request. Refuses a request without a common name, one that does not name exactly one
     /// URI, that of a server that names no host, names of other kinds, and keys that are too short.
     pub fn issue(&self, csr: &Csr, request: &IssueRequest, now: DateTime<Utc>) -> Result<Certificate, PkiError> {
         let bits = csr.key_bits();

@@ -1,10 +1,10 @@
 //! The small CA: a root, an intermediate if wanted, application certificates and CRLs. Bytes in, bytes out.
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `authority` | [`CertificateAuthority`]: a CA certificate and its key, made or taken up again |
-//! | `issue` | what it signs of a request, and what it refuses |
-//! | `requested` | what a signing request asks for, taken over as it stands |
+//! | `issue` | which parts of a signing request the CA signs, which requests it refuses |
+//! | `requested` | subject, key and names of a signing request |
 //! | `crl` | its list of revoked certificates |
 //! | `encode` | names, times, key identifiers and signatures in DER |
 

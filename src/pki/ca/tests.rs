@@ -72,7 +72,7 @@ fn dns(text: &str) -> GeneralName {
     GeneralName::DnsName(Ia5String::new(text).unwrap())
 }
 
-/// A request as other tools make them: with any subject, any names, and whatever else.
+/// A request as other tools make them: with any subject, any names and further extensions.
 fn foreign(subject: Name, names: Vec<GeneralName>, more: Vec<Extension>) -> Csr {
     let key = samples::key();
     let mut extensions = more;

@@ -15,7 +15,10 @@ pub enum CrlFlaw {
     /// It has the name of the authority, but the key of the authority did not sign it.
     NotSigned,
     /// The algorithm is not supported, or proves nothing.
-    SignatureUnverifiable { because: UnverifiableSignature },
+    SignatureUnverifiable {
+        /// Why.
+        because: UnverifiableSignature,
+    },
     /// It names another key of the authority than the one that signed the certificate, and no certificate of that key
     /// is at hand.
     KeyNotHeld,
@@ -34,7 +37,7 @@ pub enum CrlFlaw {
         /// Name of the algorithm.
         algorithm: String,
     },
-    /// It does not count by itself, whichever certificate is asked about.
+    /// The list does not count by itself for any certificate.
     Unusable {
         /// Why it does not count.
         because: CrlUnusable,

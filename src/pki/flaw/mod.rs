@@ -1,4 +1,5 @@
-//! What can be wrong with a certificate, as values. They decide the OPC UA status; `texts` has the words and the remedy.
+//! What can be wrong with a certificate, as values. They decide the OPC UA status; `texts` has the words and the
+//! remedy.
 
 mod crl;
 mod unverifiable;
@@ -83,7 +84,10 @@ pub enum CertificateFlaw {
     /// It carries its own name as that of its issuer, but another key signed it.
     SelfSignatureWrong,
     /// The algorithm is not supported, or proves nothing.
-    SignatureUnverifiable { because: UnverifiableSignature },
+    SignatureUnverifiable {
+        /// Why.
+        because: UnverifiableSignature,
+    },
 
     // RFC 5280 §6.1.3 and §6.1.4: what authorities above it say about names and policies
     /// RFC 5280 §4.2.1.10: the authority may not certify this name.

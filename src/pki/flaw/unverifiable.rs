@@ -17,7 +17,12 @@ pub enum UnverifiableSignature {
     /// The signer's key lies on an elliptic curve other than P-256, P-384 and P-521.
     CurveNotSupported,
     /// The algorithm is not supported with the elliptic curve of the signer's key.
-    NotWithCurve { algorithm: String, curve: String },
+    NotWithCurve {
+        /// Name of the algorithm.
+        algorithm: String,
+        /// Name of the curve.
+        curve: String,
+    },
     /// More certificates carry the name of the issuer than are tried.
     TooManyIssuers,
 }

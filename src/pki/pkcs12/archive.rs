@@ -11,7 +11,7 @@ use super::mac::MacData;
 
 /// Every key and every certificate of a PKCS#12, in the order of the file.
 pub(super) struct Pkcs12Archive {
-    /// In PKCS#8 without encryption, of whatever algorithm.
+    /// In PKCS#8 without encryption, of any algorithm.
     pub keys: Vec<Zeroizing<Vec<u8>>>,
     pub certificates: Vec<Vec<u8>>,
 }
@@ -74,8 +74,8 @@ impl ArchiveReader<'_> {
         Ok(())
     }
 
-    /// The version, then what is encrypted: the type of its content, the algorithm, and the data under `[0]`, which is an
-    /// octet string, in BER perhaps in pieces.
+    /// The version, then what is encrypted: the type of its content, the algorithm, and the data under `[0]`, which is
+    /// an octet string, in BER perhaps in pieces.
     fn encrypted_data(&mut self, content: &[u8]) -> Result<Zeroizing<Vec<u8>>, PkiError> {
         let damaged = || self.otherwise.clone();
         let data = tlv::sole(content).and_then(|whole| tlv::all(whole.content)).ok_or_else(damaged)?;

@@ -1,9 +1,9 @@
 //! PKCS#12: a key and its certificates under a password (RFC 7292).
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `archive` | every key and certificate inside, decrypted |
-//! | `mac` | what proves that the file is whole and the password right |
+//! | `mac` | MacData: checks that the file is whole and the password right |
 //!
 //! Written with `p12-keystore`. Read here: that crate reads neither BER nor PBMAC1, no password that is missing rather
 //! than empty, and none with characters beyond the BMP.
@@ -82,9 +82,10 @@ fn write(
 
 /// Reads a key and its certificates: first the one for the key, then the others in the order of the file.
 ///
-/// Takes the modern algorithms and the old ones of Windows and OpenSSL 1; DER and BER, in PEM and base64 too. Exactly one
-/// private key is expected. An empty password also opens a file that was made without one. Blocks: at most for a million
-/// hashings of the password, or a gibibyte of scrypt, for each encrypted part of the file, of which sixteen are read.
+/// Takes the modern algorithms and the old ones of Windows and OpenSSL 1; DER and BER, in PEM and base64 too. Exactly
+/// one private key is expected. An empty password also opens a file that was made without one. Blocks: at most for a
+/// million hashings of the password, or a gibibyte of scrypt, for each encrypted part of the file, of which sixteen are
+/// read.
 pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Certificate>), PkiError> {
     let archive = open(bytes, password)?;
     let key = single_key(&archive)?;
@@ -98,14 +99,14 @@ pub fn pkcs12_read(bytes: &[u8], password: &str) -> Result<(PrivateKey, Vec<Cert
     Ok((key, certificates))
 }
 
-/// Reads the only key of a PKCS#12, whatever certificates are beside it; otherwise as [`pkcs12_read`] does.
+/// Reads the only key of a PKCS#12 and ignores the certificates beside it; otherwise as [`pkcs12_read`] does.
 pub fn pkcs12_read_key(bytes: &[u8], password: &str) -> Result<PrivateKey, PkiError> {
     single_key(&open(bytes, password)?)
 }
 
 /// Every key and every certificate of a PKCS#12, whether they belong together or not.
 pub(super) struct Pkcs12Contents {
-    /// Of whatever kind, in PKCS#8 without encryption.
+    /// Of any kind, in PKCS#8 without encryption.
     pub keys: Vec<Zeroizing<Vec<u8>>>,
     pub certificates: Vec<Certificate>,
 }

@@ -6,9 +6,9 @@ use crate::pki::{Certificate, CertificateFlaw};
 /// The most comparisons of names with constraints for one certificate and one authority.
 const MAX_COMPARISONS: usize = 1 << 20;
 
-/// RFC 5280 §6.1.3 (b), (c) and §6.1.4 (g): every name of every certificate, by the constraints of every authority above
-/// it. Those of a self-signed root count like any others: RFC 5280 §6.2 leaves that open, and whoever wrote them wanted
-/// them to hold.
+/// RFC 5280 §6.1.3 (b), (c) and §6.1.4 (g): every name of every certificate, by the constraints of every authority
+/// above it. Those of a self-signed root count like any others: RFC 5280 §6.2 leaves that open, and they were written
+/// to hold.
 pub(super) fn check(chain: &[&Certificate]) -> Result<(), CertificateRejection> {
     for (depth, certificate) in chain.iter().enumerate() {
         let facts = certificate.facts();

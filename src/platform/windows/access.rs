@@ -140,7 +140,7 @@ fn account() -> io::Result<String> {
     }
 }
 
-/// Whether the access control list of a file or folder names nobody but this account, the owner and the system.
+/// Whether the access control list of a file or folder names only this account, the owner and the system.
 #[cfg(test)]
 pub fn is_private(path: &Path) -> io::Result<bool> {
     use windows_sys::Win32::Security::Authorization::{

@@ -22,13 +22,27 @@ pub enum ForceEvent {
     /// A recording begins.
     Started(Box<ForceHeader>),
     /// A recording ended without a footer, because a packet of another recording followed.
-    FooterMissing { id: u16 },
+    FooterMissing {
+        /// Identifier of the recording that ended.
+        id: u16,
+    },
     /// Data or a footer came of a recording whose header did not come.
-    HeaderMissing { id: u16 },
+    HeaderMissing {
+        /// Identifier of the recording without a header.
+        id: u16,
+    },
     /// The records between two counts did not come: `missing` of them, after the record with the count `after`.
-    Lost { after: u32, missing: u32 },
+    Lost {
+        /// Count of the last record that came.
+        after: u32,
+        /// How many records did not come.
+        missing: u32,
+    },
     /// Records were appended to the columns.
-    Records { count: usize },
+    Records {
+        /// How many records.
+        count: usize,
+    },
     /// The recording is complete.
     Ended(Box<ForceFooter>),
 }

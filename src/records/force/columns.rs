@@ -17,6 +17,7 @@ macro_rules! extend_each {
 pub struct ForceColumns {
     /// The id of the recording.
     pub id: Vec<u16>,
+    /// Number of the record in its recording, from 0.
     pub count: Vec<u32>,
     /// Milliseconds.
     pub elapsed: Vec<u32>,
@@ -34,12 +35,17 @@ pub struct ForceColumns {
     pub joints: [Vec<f32>; 6],
     /// J1 to J6, in percent.
     pub overload: [Vec<u8>; 6],
+    /// Whether force control runs, 0 or 1.
     pub force_control: Vec<u8>,
+    /// Set by the program with StepID.
     pub step_id: Vec<u32>,
     /// Milliseconds since 1970 by the controller's clock, or [`NO_TIME`].
     pub time: Vec<i64>,
+    /// Number of the force guide sequence; 0 while none runs.
     pub sequence_no: Vec<u8>,
+    /// Number of the object of the sequence.
     pub object_no: Vec<u8>,
+    /// Number of the force monitor object.
     pub monitor_no: Vec<i16>,
     day: Day,
 }

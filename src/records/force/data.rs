@@ -178,9 +178,13 @@ packet! {
 /// A data record of any DataType.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum ForceData {
+    /// DataType 0: every field.
     All(AllData),
+    /// DataType 1: position, speed and joints.
     Motion(MotionData),
+    /// DataType 2: forces and position.
     Force(ForceAndPosition),
+    /// DataType 3: position.
     Position(PositionData),
 }
 

@@ -53,6 +53,7 @@ pub const HEADER_V2_BYTES: usize = HeaderView::SIZE + 8;
 /// A header of either version.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ForceHeader {
+    /// The part that both versions share.
     pub header: Header,
     /// RecordStartTime: the tick of RecordStart, on the same scale as the motion log's. Version 2 only.
     pub record_start: Option<Ticks>,

@@ -12,7 +12,12 @@ use crate::records::time::{ControllerTime, Ticks};
 #[derive(Debug, Clone, Copy)]
 pub enum ForceRead<'a> {
     /// The start of a recording. `record_start` is there in version 2.
-    Header { header: HeaderView<'a>, record_start: Option<Ticks> },
+    Header {
+        /// What is recorded, and how.
+        header: HeaderView<'a>,
+        /// Time of the first record.
+        record_start: Option<Ticks>,
+    },
     /// Whole data records, at least one, all of one recording and DataType.
     Data(DataRecords<'a>),
     /// The end of a recording.
@@ -22,9 +27,13 @@ pub enum ForceRead<'a> {
 /// Data records that lie end to end.
 #[derive(Debug, Clone, Copy)]
 pub enum DataRecords<'a> {
+    /// Records of DataType 0.
     All(&'a [[u8; AllView::SIZE]]),
+    /// Records of DataType 1.
     Motion(&'a [[u8; MotionView::SIZE]]),
+    /// Records of DataType 2.
     Force(&'a [[u8; ForceView::SIZE]]),
+    /// Records of DataType 3.
     Position(&'a [[u8; PositionView::SIZE]]),
 }
 

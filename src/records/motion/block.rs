@@ -162,28 +162,33 @@ impl<'a> BlockView<'a> {
         DriveCommandView::new(self.item(at::DRIVE + axis * at::DRIVE_AXIS + sample * DriveCommandView::SIZE))
     }
 
+    /// One of the samples of the real-time inputs and outputs.
     #[inline(always)]
     pub fn real_time_io(self, sample: usize) -> RealTimeIoView<'a> {
         assert!(sample < SAMPLES, "sample {sample}");
         RealTimeIoView::new(self.item(at::REAL_TIME_IO + sample * RealTimeIoView::SIZE))
     }
 
+    /// One of the samples of the standard inputs and outputs.
     #[inline(always)]
     pub fn standard_io(self, sample: usize) -> StandardIoView<'a> {
         assert!(sample < SAMPLES, "sample {sample}");
         StandardIoView::new(self.item(at::STANDARD_IO + sample * StandardIoView::SIZE))
     }
 
+    /// The sample of the force sensor.
     #[inline(always)]
     pub fn force_sensor(self) -> ForceSensorView<'a> {
         ForceSensorView::new(self.item(at::FORCE_SENSOR))
     }
 
+    /// The pulse counters.
     #[inline(always)]
     pub fn pulse_counters(self) -> PulseCountersView<'a> {
         PulseCountersView::new(self.item(at::PULSE_COUNTERS))
     }
 
+    /// The position of the tool centre point.
     #[inline(always)]
     pub fn tcp(self) -> TcpPositionView<'a> {
         TcpPositionView::new(self.item(at::TCP))
@@ -242,11 +247,17 @@ impl<'a> BlockView<'a> {
 pub struct MotionBlock {
     /// Of each axis, eight samples in the order of time.
     pub encoders: [[Encoder; SAMPLES]; AXES],
+    /// The current commands of each axis.
     pub drive_commands: [[DriveCommand; SAMPLES]; AXES],
+    /// The real-time inputs and outputs.
     pub real_time_io: [RealTimeIo; SAMPLES],
+    /// The standard inputs and outputs.
     pub standard_io: [StandardIo; SAMPLES],
+    /// The force sensor.
     pub force_sensor: ForceSensor,
+    /// The pulse counters.
     pub pulse_counters: PulseCounters,
+    /// The position of the tool centre point.
     pub tcp: TcpPosition,
 }
 

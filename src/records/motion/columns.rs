@@ -12,10 +12,15 @@ pub struct MotionColumns {
     pub encoders: [EncoderColumns; AXES],
     /// Of each axis.
     pub drive_commands: [DriveColumns; AXES],
+    /// Columns of the real-time inputs and outputs.
     pub real_time_io: IoColumns<u8>,
+    /// Columns of the standard inputs and outputs.
     pub standard_io: IoColumns<u32>,
+    /// Columns of the force sensor.
     pub force_sensor: ForceSensorColumns,
+    /// Columns of the pulse counters.
     pub pulse_counters: PulseColumns,
+    /// Columns of the position of the tool centre point.
     pub tcp: TcpColumns,
 }
 
@@ -37,10 +42,13 @@ pub struct EncoderColumns {
 pub struct DriveColumns {
     /// Ticks.
     pub timestamp: Vec<u64>,
+    /// Commanded d-axis current, in the unit of the drive.
     pub d_current: Vec<i16>,
+    /// Commanded q-axis current, in the unit of the drive.
     pub q_current: Vec<i16>,
     /// 65536 are 360°.
     pub electrical_angle: Vec<u16>,
+    /// Velocity, in the unit of the drive.
     pub velocity: Vec<i16>,
 }
 
@@ -49,7 +57,9 @@ pub struct DriveColumns {
 pub struct IoColumns<T> {
     /// Ticks.
     pub timestamp: Vec<u64>,
+    /// Inputs; bit 0 is the first.
     pub inputs: Vec<T>,
+    /// Outputs; bit 0 is the first.
     pub outputs: Vec<T>,
 }
 

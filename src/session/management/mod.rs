@@ -1,6 +1,6 @@
 //! The driver for the management protocol over HTTPS.
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `mod` | [`ManagementConnector`], and one HTTPS connection on which a request is sent |
 //! | `session` | the session's calls as requests of the protocol |

@@ -48,7 +48,7 @@ pub(super) struct ReceiveLimits {
 impl ReceiveLimits {
     /// For one try: endpoints, and one value.
     pub const ONE_TRY: Self = Self { total_bytes: Some(MAX_BYTES), byte_string: MAX_FRAME, array: 1_000 };
-    /// For a session that reads whatever the address space holds. One message has at most 2 MiB, as everywhere.
+    /// For a session that reads any node of the address space. One message has at most 2 MiB, as everywhere.
     pub const SESSION: Self = Self { total_bytes: None, byte_string: MAX_BYTES, array: 100_000 };
 }
 

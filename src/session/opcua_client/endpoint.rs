@@ -39,7 +39,7 @@ pub enum TokenKind {
     UserName,
     /// With a certificate of the user's own.
     Certificate,
-    /// Issued by somebody else, such as a JSON Web Token.
+    /// Issued by another service, such as a JSON Web Token.
     Issued,
 }
 
@@ -193,7 +193,7 @@ fn policy(uri: &str) -> Option<SecurityPolicy> {
 
 const SCHEME: &str = "opc.tcp://";
 const DEFAULT_PORT: u16 = 4840;
-/// More certificates than this are no chain that anybody means.
+/// Longer chains are refused.
 const MAX_CHAIN: usize = 8;
 
 #[cfg(test)]

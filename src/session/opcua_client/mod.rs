@@ -1,7 +1,7 @@
 //! An OPC UA client: finds out whether a server lets a client in, and if not, why; and reads, writes, browses and
 //! subscribes in a session that stays open.
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `server_location`, `user_login` | where a server is, and who logs in |
 //! | `endpoint` | [`Endpoint`]: what a server offers, as far as it is understood |
@@ -15,10 +15,10 @@
 //! | `client` | [`OpcUaClient`]: endpoints, tries and sessions under one certificate |
 //! | `controller_server` | [`ControllerServer`]: the server of a managed controller, and a session with it |
 //! | `convert` | the library's values as [`Value`](crate::model::opcua::Value)s, and back |
-//! | `failure` | [`ConnectFailure`]: how far it came, and why no further |
+//! | `failure` | [`ConnectFailure`]: the step that failed, and why |
 //!
 //! A try is one connection, bounded in time and in what it takes in. A session is bounded in time for each request, and
-//! in the size of each message. Nothing is tried again by itself. Whatever the peer sends gives a result: the
+//! in the size of each message. Nothing is tried again by itself. All that the peer sends gives a result: the
 //! protocol's library runs in a task of its own.
 //!
 //! The server's certificate is not judged here. The caller compares it with the expected one, before a

@@ -84,7 +84,7 @@ impl SessionRequest {
             })
             .await?;
         let login_needs_it = matches!(self.login, UserLogin::User { .. });
-        // A password is encrypted for whatever certificate is in this answer, which nothing signs without security.
+        // A password is encrypted for the certificate in this answer, which nothing signs without security.
         if login_needs_it && created.server_certificate.as_ref() != self.expected {
             return Err(ConnectFailure::of(ConnectStage::CreateSession, ConnectFailureCause::OtherCertificate));
         }

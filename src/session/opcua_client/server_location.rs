@@ -25,7 +25,7 @@ impl ServerLocation {
     }
 }
 
-/// Whether anybody listens there, found out by connecting and hanging up.
+/// Whether a TCP port accepts connections, found out by connecting and closing at once.
 pub async fn is_reachable(target: &ServerLocation, timeouts: Duration) -> bool {
     let connect = tokio::net::TcpStream::connect(target.authority());
     matches!(tokio::time::timeout(timeouts, connect).await, Ok(Ok(_)))

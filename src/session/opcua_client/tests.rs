@@ -122,7 +122,7 @@ async fn a_server_that_is_too_busy_says_so_in_its_own_words() {
 
 #[tokio::test(flavor = "multi_thread")]
 async fn a_damaged_channel_answer_is_a_clear_failure() {
-    // Whatever an OPN frame holds: no policy, one that does not exist, lengths beyond the end.
+    // OPN frames with no policy, with one that does not exist, with lengths beyond the end.
     let policy = b"http://opcfoundation.org/UA/SecurityPolicy#Nonsense";
     let named = [&(policy.len() as u32).to_le_bytes()[..], policy, &[0xff; 8], &[7; 64]].concat();
     for body in [vec![], vec![0xff; 12], vec![0x7f; 200], [&[1, 0, 0, 0][..], &named].concat()] {

@@ -20,7 +20,9 @@ pub use super::model::{AuthorityResult, AuthorityWork, BackendCommand, BackendEv
 
 /// Does [`BackendCommand`]s in the background. Neither call may block.
 pub trait Backend {
+    /// Begins the work of a command. Its results come as events.
     fn send(&mut self, command: BackendCommand);
+    /// The next event, if there is one.
     fn poll(&mut self) -> Option<BackendEvent>;
     /// Whether work goes on that would leave a controller or a file half changed if the program ended now.
     fn has_unfinished_work(&self) -> bool;
@@ -29,21 +31,27 @@ pub trait Backend {
 /// A virtual controller to be added to the list.
 #[derive(Debug, Clone)]
 pub struct NewVirtualController {
+    /// Its entry in the list, with its pinned identity.
     pub entry: ControllerEntry,
+    /// Its connection password.
     pub password: SecretString,
 }
 
 /// Starts the simulated controllers the welcome page offers.
 #[async_trait]
 pub trait VirtualFleetStarter: Send + Sync {
+    /// Starts them, or returns those that run already. An error: none was started.
     async fn start(&self) -> Result<Vec<NewVirtualController>, Problem>;
 }
 
 /// For tests: keeps what was sent and plays back what it is given.
 #[derive(Debug, Default)]
 pub struct RecordingBackend {
+    /// The commands, in the order in which they were sent.
     pub sent: Vec<BackendCommand>,
+    /// The events that [`Backend::poll`] gives, the first one first.
     pub events: VecDeque<BackendEvent>,
+    /// What [`Backend::has_unfinished_work`] answers.
     pub unfinished_work: bool,
 }
 

@@ -28,17 +28,23 @@ use crate::workspace::{
 const SHUTDOWN: Duration = Duration::from_millis(500);
 
 /// How long dropping the backend waits for the step in hand of a change: longer than a controller may take to answer
-/// ([`ManagementTimeouts::change`](crate::session::ManagementTimeouts)). Reached only if the window went without asking.
+/// ([`ManagementTimeouts::change`](crate::session::ManagementTimeouts)). Reached only if the window went without
+/// asking.
 const FINISH: Duration = Duration::from_secs(150);
 
 /// What the backend works with.
 pub struct BackendOptions {
+    /// The folder that files are read from and saved to.
     pub workspace: Workspace,
+    /// Permission to write the configuration, held as long as the backend lives.
     pub lock: WorkspaceLock,
+    /// Where connection passwords are looked up and kept.
     pub passwords: Arc<dyn Passwords>,
+    /// The driver of each kind of connection.
     pub connectors: Connectors,
     /// `None`: the window does not offer virtual controllers.
     pub starter: Option<Arc<dyn VirtualFleetStarter>>,
+    /// How a person chooses files.
     pub picker: Arc<dyn FilePicker>,
 }
 
@@ -118,7 +124,8 @@ impl TokioBackend {
         })
     }
 
-    /// From now on the system's requests to end arrive as [`BackendEvent::StopRequested`]; the second ends the program at once.
+    /// From now on the system's requests to end arrive as [`BackendEvent::StopRequested`]; the second ends the program
+    /// at once.
     pub fn receive_stop_signals(&self) {
         let emit = self.emit.clone();
         self.spawn(async move { StopSignals::listen().end_at_second(|| emit(BackendEvent::StopRequested)).await });
@@ -230,7 +237,7 @@ async fn report(store: Arc<StoreReporter>) {
     }
 }
 
-/// What can be said of an export without its passphrase; whatever would keep it from being imported is a problem now.
+/// The part of an export that is readable without its passphrase. An export that cannot be imported is a problem.
 fn look_at_export(files: &SettingsFiles, of: &ControllerInfo) -> Result<ExportFound, Problem> {
     let (export, _) = files.load(&of.serial)?;
     export.check_for(&of.serial, of.series, of.firmware)?;
@@ -407,7 +414,8 @@ impl Backend for TokioBackend {
 }
 
 impl Drop for TokioBackend {
-    /// Blocks until everything that was sent to be saved is saved, and until the step in hand of every change has ended.
+    /// Blocks until everything that was sent to be saved is saved, and until the step in hand of every change has
+    /// ended.
     fn drop(&mut self) {
         for token in self.running.values() {
             token.cancel();

@@ -10,6 +10,7 @@ use crate::ui::widgets::{Buttons, dialog, small_note};
 /// Whether backups are kept.
 #[derive(Debug)]
 pub struct BackupDialog {
+    /// Whether backups will be kept.
     pub on: bool,
 }
 

@@ -13,10 +13,12 @@ use crate::workspace::VaultState;
 #[derive(Debug)]
 pub struct DeleteControllersDialog {
     rows: Vec<RowId>,
+    /// The names of the controllers.
     pub names: Vec<String>,
 }
 
 impl DeleteControllersDialog {
+    /// Asks about these rows.
     pub fn new(rows: Vec<RowId>, model: &Model) -> Self {
         Self { names: model.rows.names(&rows), rows }
     }

@@ -16,7 +16,10 @@ pub enum Closing {
 pub enum CloseChoice {
     /// The window was to be closed while work goes on.
     Ask,
+    /// Close when the job has ended.
     Finish,
+    /// Close after the step in hand; controllers that were not begun are left out.
     Stop,
+    /// Do not close.
     Stay,
 }

@@ -18,35 +18,53 @@ use crate::workspace::{Configuration, ControllerEntry, PasswordPlace, StoreStatu
 pub enum BackendCommand {
     /// Ends with [`BackendEvent::JobEnded`].
     Run {
+        /// The job that the events name.
         job: JobId,
+        /// The controllers, in the order of their indexes in events.
         controllers: Vec<JobController>,
+        /// What is done to each.
         task: Task,
+        /// How many controllers are worked on at once.
         parallelism: usize,
         /// To be remembered for all these controllers first.
         password: Option<SecretString>,
     },
+    /// Reads the identity that answers at an address.
     Probe {
+        /// The job that the events name.
         job: JobId,
+        /// The protocol to be spoken.
         connection: ConnectionKind,
+        /// Where the controller answers.
         address: Address,
     },
+    /// Logs in for the first time, and reads the first information.
     Enroll {
+        /// The job that the events name.
         job: JobId,
+        /// The protocol to be spoken.
         connection: ConnectionKind,
+        /// Where the controller answers.
         address: Address,
+        /// The identity that was confirmed.
         fingerprint: Fingerprint,
+        /// What the program proves itself with.
         credentials: Credentials,
     },
     /// Reads what the settings export of a controller on the PC says of itself.
     LookAtExport {
+        /// The job that the events name.
         job: JobId,
+        /// The controller that the export has to fit.
         of: Box<ControllerInfo>,
         /// Instead of the one in the workspace.
         file: Option<PathBuf>,
     },
     /// Ends with [`BackendEvent::AuthorityDone`]. Cannot be cancelled.
     Authority {
+        /// The job that the event names.
         job: JobId,
+        /// What the CA is to do.
         work: AuthorityWork,
     },
     /// Stops a job after the step in hand.
@@ -57,131 +75,196 @@ pub enum BackendCommand {
     Forget(Vec<Fingerprint>),
     /// Lets a person choose a file; ends with [`BackendEvent::FilePicked`].
     PickFile {
+        /// The job that the event names.
         job: JobId,
+        /// Which files are offered first.
         kind: FileKind,
+        /// Title of the file dialog.
         title: String,
     },
     /// Lets a person choose where a file is saved; ends with [`BackendEvent::FilePicked`].
     PickTarget {
+        /// The job that the event names.
         job: JobId,
+        /// Which files are offered first.
         kind: FileKind,
+        /// Title of the file dialog.
         title: String,
         /// The path to begin with.
         begin: PathBuf,
     },
     /// Ends with [`BackendEvent::FileRead`]. A file of more than `most` bytes is refused.
     ReadFile {
+        /// The job that the event names.
         job: JobId,
+        /// The file.
         path: PathBuf,
+        /// Greatest size in bytes; a larger file is an error.
         most: usize,
     },
     /// Lets a person choose files; ends with [`BackendEvent::FilesPicked`].
     PickFiles {
+        /// The job that the event names.
         job: JobId,
+        /// Which files are offered first.
         kind: FileKind,
+        /// Title of the file dialog.
         title: String,
     },
     /// Reads files with certificates and CRLs; ends with [`BackendEvent::TrustFilesRead`].
     ReadTrustFiles {
+        /// The job that the event names.
         job: JobId,
+        /// The files.
         paths: Vec<PathBuf>,
     },
     /// Reports the lists of a controller with [`BackendEvent::TrustSeen`] until it is cancelled.
     WatchTrust {
+        /// The job that the events name.
         job: JobId,
+        /// The controller whose lists are watched.
         controller: Box<JobController>,
     },
     /// Reports what the OPC UA server of a controller shows with [`BackendEvent::LiveSeen`] until it is cancelled.
     WatchValues {
+        /// The job that the events name.
         job: JobId,
+        /// The controller whose server is watched.
         controller: Box<JobController>,
+        /// How the program logs in.
         login: Box<LiveLogin>,
     },
     /// Asks a running [`BackendCommand::WatchValues`] for something. One that has ended does not answer.
     AskValues {
+        /// The job that watches.
         job: JobId,
+        /// What is asked for.
         request: LiveRequest,
     },
     /// Finds out what files are, by their content; ends with [`BackendEvent::Recognised`].
     Recognise {
+        /// The job that the event names.
         job: JobId,
+        /// The files.
         paths: Vec<PathBuf>,
     },
     /// Shows a folder in the desktop's file manager.
     OpenFolder(PathBuf),
+    /// Starts the virtual controllers of the welcome page.
     StartVirtualControllers,
+    /// Writes the configuration file.
     Save(Box<Configuration>),
     /// Brings the window to the front.
     ShowWindow,
+    /// Ends the program.
     Quit,
 }
 
 /// What the backend reports.
 #[derive(Debug)]
 pub enum BackendEvent {
+    /// A job has made progress.
     Job {
+        /// The job.
         job: JobId,
+        /// What happened.
         event: TaskEvent,
     },
+    /// A job has ended; no more events of it follow.
     JobEnded {
+        /// The job.
         job: JobId,
+        /// How many controllers succeeded, failed and were not begun.
         summary: JobSummary,
     },
+    /// The answer to [`BackendCommand::Probe`].
     Probed {
+        /// The job.
         job: JobId,
+        /// The identity that answered.
         result: Result<Fingerprint, Problem>,
     },
+    /// The answer to [`BackendCommand::Enroll`].
     Enrolled {
+        /// The job.
         job: JobId,
+        /// The first information, or why there is none.
         result: Result<Box<Enrolled>, Problem>,
     },
     /// `None`: nothing was chosen.
     FilePicked {
+        /// The job.
         job: JobId,
+        /// The chosen file; `None` if the dialog was cancelled.
         result: Result<Option<PathBuf>, Problem>,
     },
+    /// A file was read.
     FileRead {
+        /// The job.
         job: JobId,
+        /// The file and its bytes.
         result: Result<(PathBuf, FileContents), Problem>,
     },
     /// In the order they were asked for.
     Recognised {
+        /// The job.
         job: JobId,
+        /// What each file is.
         files: Vec<DroppedFile>,
     },
+    /// The answer to [`BackendCommand::LookAtExport`].
     ExportSeen {
+        /// The job.
         job: JobId,
+        /// What the export says of itself, or why it cannot be imported.
         result: Result<ExportFound, Problem>,
     },
     /// Empty: nothing was chosen.
     FilesPicked {
+        /// The job.
         job: JobId,
+        /// The chosen files; none if the dialog was cancelled.
         result: Result<Vec<PathBuf>, Problem>,
     },
     /// In the order they were asked for.
     TrustFilesRead {
+        /// The job.
         job: JobId,
+        /// The files, in the order in which they were asked for.
         files: Vec<ReadTrustFile>,
     },
+    /// The lists of a watched controller were read.
     TrustSeen {
+        /// The job.
         job: JobId,
+        /// What was seen.
         event: WatchEvent,
     },
+    /// A running watch of values has seen something, or answers [`BackendCommand::AskValues`].
     LiveSeen {
+        /// The job.
         job: JobId,
+        /// What was seen.
         event: LiveEvent,
     },
+    /// The answer to [`BackendCommand::Authority`].
     AuthorityDone {
+        /// The job.
         job: JobId,
+        /// What the CA is like afterwards.
         result: Result<AuthorityResult, Problem>,
     },
+    /// The answer to [`BackendCommand::StartVirtualControllers`].
     VirtualStarted(Result<Vec<ControllerEntry>, Problem>),
+    /// The answer to [`BackendCommand::Vault`].
     VaultDone(Result<(), Problem>),
     /// What the store of passwords is like has changed.
     PasswordStore(StoreStatus),
     /// A password works, but only until the program ends.
     PasswordNotKept(Problem),
+    /// The configuration could not be written.
     SaveFailed(Problem),
+    /// The file manager could not be started.
     FolderNotOpened(Problem),
     /// The program was started again on the same workspace.
     StartedAgain,
@@ -204,33 +287,53 @@ impl std::fmt::Debug for FileContents {
 pub enum AuthorityWork {
     /// Needs no passphrase.
     Look,
+    /// Makes a CA in the workspace.
     Create {
+        /// Names, keys and validities of the new CA.
         new: Box<NewAuthority>,
+        /// The passphrase that will protect its keys.
         passphrase: SecretString,
     },
+    /// Restores a CA from a backup.
     Restore {
+        /// The backup file.
         path: PathBuf,
+        /// The passphrase of the backup, which is that of the CA.
         passphrase: SecretString,
     },
     /// Finds out whether the passphrase is right.
     Unlock {
+        /// The passphrase of the CA.
         passphrase: SecretString,
     },
+    /// Issues a certificate for a signing request.
     Sign {
+        /// The signing request.
         csr: Box<Csr>,
+        /// What goes into the certificate.
         request: Box<IssueRequest>,
+        /// The passphrase of the CA.
         passphrase: SecretString,
     },
+    /// Revokes certificates and publishes a new CRL.
     Revoke {
+        /// The certificates, by serial number in upper-case hexadecimal.
         serial_numbers: Vec<String>,
+        /// Why they are revoked.
         reason: RevocationReason,
+        /// The passphrase of the CA.
         passphrase: SecretString,
     },
+    /// Publishes a new CRL.
     PublishCrl {
+        /// The passphrase of the CA.
         passphrase: SecretString,
     },
+    /// Writes a backup of the CA.
     BackUp {
+        /// The file to be written.
         path: PathBuf,
+        /// The passphrase of the CA, which protects the backup.
         passphrase: SecretString,
     },
 }
@@ -249,32 +352,45 @@ pub struct AuthorityResult {
 pub enum VaultWork {
     /// Makes a vault; passwords of these controllers are taken over from the keyring.
     Create {
+        /// The passphrase of the new vault.
         passphrase: SecretString,
+        /// Controllers whose passwords are moved into it from the keyring.
         controllers: Vec<Fingerprint>,
     },
+    /// Opens the vault.
     Open {
+        /// Its passphrase.
         passphrase: SecretString,
     },
+    /// Gives the vault another passphrase.
     ChangePassphrase {
+        /// The passphrase it has now.
         passphrase: SecretString,
+        /// The passphrase it gets.
         new: SecretString,
     },
+    /// Keeps passwords in another place from now on.
     Use(PasswordPlace),
     /// The passphrase is not asked for again.
     Decline,
+    /// Closes the vault: its key and passwords are wiped from memory.
     Close,
 }
 
 /// What a settings export says of itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct ExportFound {
+    /// When the export was made, by the clock of the controller.
     pub exported: DateTime<Utc>,
+    /// Firmware that made the export.
     pub firmware: FirmwareVersion,
 }
 
 /// A file that was read.
 #[derive(Debug, Clone)]
 pub struct ReadTrustFile {
+    /// The file.
     pub path: PathBuf,
+    /// Its certificates and CRLs, or why there are none.
     pub result: Result<TrustFile, Problem>,
 }

@@ -9,6 +9,7 @@ use crate::texts::TextKey as T;
 /// What is typed into the palette, and which of the commands found is selected.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct CommandPalette {
+    /// What was typed.
     pub query: String,
     /// Position among the commands found; may lie beyond them after typing.
     selected: usize,
@@ -21,6 +22,7 @@ pub enum PaletteAction {
     Type(String),
     /// Move the selection by so many commands, clamped.
     Select(isize),
+    /// Closes the palette.
     Close,
 }
 

@@ -12,6 +12,7 @@ use crate::model::Problem;
 /// What the engineer decided in a dialog, if anything.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum DialogAnswer {
+    /// Nothing was decided in this frame.
     None,
     /// The main button.
     Submit,
@@ -22,6 +23,7 @@ pub enum DialogAnswer {
 /// Where a dialog is among the open ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct DialogPlace {
+    /// No other dialog is in front of it.
     pub on_top: bool,
     /// It has just been opened and takes the keyboard.
     pub focus: bool,

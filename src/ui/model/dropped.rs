@@ -13,7 +13,9 @@ pub const MAX_DROPPED: usize = 100;
 /// One of the files, and what it is.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DroppedFile {
+    /// The file.
     pub path: PathBuf,
+    /// What it is by its content.
     pub found: Result<Recognised, Problem>,
 }
 
@@ -27,7 +29,9 @@ impl DroppedFile {
 /// A dialog that some of the files are for.
 #[derive(Debug, Clone, PartialEq)]
 pub struct DropChoice {
+    /// The command that opens the dialog.
     pub command: UiCommand,
+    /// Title of the dialog.
     pub title: TextKey,
     /// Which of the files it takes.
     pub files: Vec<usize>,
@@ -40,7 +44,9 @@ pub struct DropChoice {
 /// What to do with files that were dropped, for a person to choose.
 #[derive(Debug)]
 pub struct DropForm {
+    /// The files.
     pub files: Vec<DroppedFile>,
+    /// The dialogs to choose from.
     pub choices: Vec<DropChoice>,
     /// Of the choices.
     pub selected: Option<usize>,
@@ -49,6 +55,7 @@ pub struct DropForm {
 }
 
 impl DropForm {
+    /// Files that cannot be used now, with the reason.
     pub fn blocked(why: TextKey) -> Self {
         Self { files: vec![], choices: vec![], selected: None, blocked: Some(why) }
     }
@@ -71,7 +78,9 @@ impl DropForm {
 /// Files held over the window.
 #[derive(Debug)]
 pub struct HoveringFiles {
+    /// The job that recognises the files.
     pub job: JobId,
+    /// The files.
     pub paths: Vec<PathBuf>,
     /// `None` while they are looked at.
     pub found: Option<DropForm>,

@@ -6,6 +6,7 @@ use crate::ui::picker::FileKind;
 /// A field for the path of a file that is read or written later, by the operation itself.
 #[derive(Debug, Clone, Copy)]
 pub struct BrowseField {
+    /// Which files the file dialog offers first.
     pub kind: FileKind,
     /// The title of the desktop's dialog if it asks where a file is saved; `None`: for a file that exists.
     pub save_title: Option<TextKey>,
@@ -18,12 +19,15 @@ pub struct BrowseField {
 pub struct FileForm {
     /// As it is typed.
     pub path: String,
+    /// Which files the file dialog offers first.
     pub kind: FileKind,
     /// A larger file is refused.
     pub most: usize,
     /// The path whose contents the dialog shows.
     pub shown: Option<String>,
+    /// The file dialog that is open, if one is.
     pub picking: Option<JobId>,
+    /// The reading that goes on, if any.
     pub reading: Option<JobId>,
     /// Why the last attempt failed.
     pub problem: Option<Problem>,
@@ -32,6 +36,7 @@ pub struct FileForm {
 }
 
 impl FileForm {
+    /// An empty field for files of at most `most` bytes.
     pub fn new(kind: FileKind, most: usize) -> Self {
         Self {
             path: String::new(),

@@ -7,17 +7,23 @@ use crate::model::{DisconnectedClient, Problem};
 /// Whether a running job is to be stopped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum CancelState {
+    /// The job goes on; the default.
     #[default]
     No,
     /// "Stop after the step in hand?" is shown.
     Asking,
+    /// The jobs were told; controllers in hand finish their step.
     Sent,
 }
 
+/// One controller of a job.
 #[derive(Debug)]
 pub struct JobRow {
+    /// Its row in the table.
     pub row: RowId,
+    /// Its name, kept in case the row is deleted meanwhile.
     pub name: String,
+    /// Where the job is with it.
     pub state: RowState,
     /// The file on this computer that was written.
     pub written: Option<PathBuf>,
@@ -34,17 +40,24 @@ pub struct JobRow {
 /// A job, running or ended.
 #[derive(Debug)]
 pub struct Job {
+    /// Names it in events.
     pub id: JobId,
+    /// What is done.
     pub task: Task,
+    /// Its controllers, in the order of the indexes in events.
     pub rows: Vec<JobRow>,
+    /// Controllers that succeeded or failed so far.
     pub finished: usize,
+    /// Controllers that failed so far.
     pub failed: usize,
+    /// Whether it is to be cancelled.
     pub cancel: CancelState,
     /// Set when it has ended.
     pub summary: Option<JobSummary>,
 }
 
 impl JobRow {
+    /// A controller whose turn has not come.
     pub fn new(row: RowId, name: String) -> Self {
         Self {
             row,
@@ -60,6 +73,7 @@ impl JobRow {
 }
 
 impl Job {
+    /// The names of its controllers.
     pub fn names(&self) -> Vec<String> {
         self.rows.iter().map(|row| row.name.clone()).collect()
     }
@@ -74,6 +88,7 @@ impl Job {
         self.rows.iter().position(|row| row.state.problem().is_some())
     }
 
+    /// The controllers that failed because no password is known.
     pub fn without_password(&self) -> Vec<RowId> {
         self.rows.iter().filter(|row| row.state.needs_password()).map(|row| row.row).collect()
     }

@@ -1,6 +1,7 @@
 //! What the window knows: the list of controllers, the running job, the open dialogs.
 //!
-//! A [`Message`] goes in, [`BackendCommand`]s for the backend come out. Nothing here knows the features, does I/O or draws.
+//! A [`Message`] goes in, [`BackendCommand`]s for the backend come out. Nothing here knows the features, does I/O or
+//! draws.
 
 mod closing;
 mod columns;
@@ -59,12 +60,17 @@ pub type Footer = fn(&mut egui::Ui, &Job, &Model, &mut Vec<Message>);
 /// Everything the views draw from.
 #[derive(Debug)]
 pub struct Model {
+    /// Language of every text of the window.
     pub language: Language,
     /// The time of this frame.
     pub now: DateTime<Utc>,
+    /// The time zone that times are shown in.
     pub zone: Zone,
+    /// The table.
     pub rows: Rows,
+    /// What is chosen in the dialogs "Options" and "Backup", and the sizes of the window.
     pub options: Options,
+    /// The folder with the list and the files of the controllers.
     pub workspace: Workspace,
     /// The last one is on top and has the keyboard.
     pub dialogs: Vec<Box<dyn Dialog>>,
@@ -72,6 +78,7 @@ pub struct Model {
     pub job: Option<Job>,
     /// The context menu of a row.
     pub row_menu: Option<RowMenu>,
+    /// The command palette, while it is open.
     pub command_palette: Option<CommandPalette>,
     /// The window is to be closed while work goes on.
     pub closing: Option<Closing>,
@@ -79,7 +86,9 @@ pub struct Model {
     pub status: Option<String>,
     /// Files held over the window.
     pub hover: Option<HoveringFiles>,
+    /// Whether this program can start virtual controllers.
     pub virtual_available: bool,
+    /// Whether they are being started.
     pub virtual_starting: bool,
     /// What the store of connection passwords is like; `None` where there is none, as in the demo.
     pub store: Option<StoreStatus>,
@@ -97,41 +106,59 @@ pub struct Model {
 /// What can happen: an engineer did something, or the backend reports.
 #[derive(Debug)]
 pub enum Message {
+    /// A command was chosen in a menu, by its button or its key.
     Invoke(UiCommand),
     // table
+    /// A row was ticked or unticked.
     Toggle {
+        /// The row.
         row: RowId,
+        /// With Shift: also every row between it and the one ticked before.
         range: bool,
     },
+    /// Every row shown is to be ticked, or unticked.
     TickAll(bool),
+    /// The heading of a column was clicked.
     Sort(Column),
+    /// The filter of the table was edited.
     Filter(String),
     /// By rows of the view; clamped.
     MoveCursor(isize),
+    /// Space was pressed: the row under the cursor is ticked or unticked.
     ToggleCursor,
     /// The table has scrolled to the cursor.
     Revealed,
+    /// Columns have these widths in points, by their keys.
     Widths(BTreeMap<String, f32>),
+    /// The window has this inner size in points.
     Resized((f32, f32)),
     /// Put a column before the one at this position.
     MoveColumn {
+        /// The column.
         column: Column,
+        /// Its new position from the left, counted from 0.
         position: usize,
     },
     /// Open the context menu; `None`: of the row under the cursor.
     OpenRowMenu(Option<RowMenu>),
+    /// The context menu is to be closed.
     CloseRowMenu,
     /// A command of the context menu of this row.
     InvokeFor {
+        /// The command.
         command: UiCommand,
+        /// The row whose menu it was.
         row: RowId,
     },
     /// Show the details of this row.
     OpenDetails(RowId),
+    /// The details pane is to be closed.
     CloseDetails,
+    /// The details pane has this width in points.
     DetailsWidth(f32),
     /// Read settings and lists of this row's controller for its details.
     ReadOverview(RowId),
+    /// Something was done in the command palette.
     Palette(PaletteAction),
     // dialogs
     /// The main button of the dialog on top.
@@ -158,13 +185,21 @@ pub enum Message {
     KeepGoing,
     /// Ask for the passwords the ended job lacked.
     EnterPasswords,
+    /// Another language was chosen.
     SetLanguage(Language),
+    /// Other colours were chosen.
     SetTheme(ThemeChoice),
+    /// How many controllers jobs work on at once was chosen.
     SetParallelism(usize),
+    /// Verifying after changes was switched on or off.
     SetVerifyAfterChanges(bool),
+    /// Virtual controllers are to be started.
     StartVirtual,
+    /// The question about closing was answered.
     Closing(CloseChoice),
+    /// The configuration is to be saved, if it has changed.
     Save,
+    /// The backend reports something.
     Event(BackendEvent),
 }
 
@@ -187,6 +222,7 @@ impl fmt::Debug for ExtraAction {
 }
 
 impl Model {
+    /// The model of a window that was just opened. `now`: the time by this PC's clock.
     pub fn new(configuration: Configuration, workspace: Workspace, language: Language, now: DateTime<Utc>) -> Self {
         let mut rows = Rows::new(configuration.controllers, now);
         if let Some((key, ascending)) = &configuration.options.window.sort

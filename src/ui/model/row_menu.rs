@@ -6,6 +6,7 @@ use crate::model::Feature;
 /// A context menu that is open.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RowMenu {
+    /// The row it belongs to.
     pub row: RowId,
     /// Where it was asked for, in points; `None` with the keyboard: it opens at the row.
     pub at: Option<(f32, f32)>,
@@ -14,6 +15,7 @@ pub struct RowMenu {
 /// The controllers a command is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Targets {
+    /// Every row that is ticked.
     Ticked,
     /// This one alone; the ticks do not count.
     Row(RowId),
@@ -28,6 +30,7 @@ impl Model {
         }
     }
 
+    /// How many controllers that are.
     pub fn target_count(&self, targets: Targets) -> usize {
         match targets {
             Targets::Ticked => self.rows.ticked_count(),

@@ -4,14 +4,20 @@ use crate::model::{ErrorCode, Problem};
 /// Where a job is with one controller.
 #[derive(Debug, Clone, PartialEq)]
 pub enum RowState {
+    /// Its turn has not come.
     Waiting,
+    /// The operation is at this step.
     Step(JobStep),
+    /// The operation succeeded.
     Done,
+    /// The operation failed.
     Failed(Problem),
+    /// The job was cancelled before its turn.
     NotStarted,
 }
 
 impl RowState {
+    /// Why the operation failed.
     pub fn problem(&self) -> Option<&Problem> {
         match self {
             Self::Failed(problem) => Some(problem),

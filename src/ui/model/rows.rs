@@ -14,18 +14,28 @@ pub const EXPIRES_SOON: Duration = Duration::days(30);
 /// A column of the table, in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Column {
+    /// Name of the connection target.
     Name,
+    /// Series of the controller.
     Type,
+    /// Address of the management protocol.
     Address,
+    /// Serial number.
     Serial,
+    /// State of the OPC UA server.
     Status,
+    /// Until when the server certificate is valid.
     Expiry,
+    /// Type of the server certificate.
     Certificate,
+    /// Whether the OPC UA function is activated.
     Activation,
+    /// When the information was read.
     Retrieved,
 }
 
 impl Column {
+    /// All columns in their built-in order.
     pub const ALL: [Self; 9] = [
         Self::Name,
         Self::Type,
@@ -53,6 +63,7 @@ impl Column {
         }
     }
 
+    /// The column that the configuration file stores under this key.
     pub fn from_key(key: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|column| column.key() == key)
     }
@@ -62,10 +73,17 @@ impl Column {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct RowId(u64);
 
+/// How near the end of a certificate is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Expiry {
+    /// It has expired.
     Past,
-    Soon { days: i64 },
+    /// It ends within [`EXPIRES_SOON`].
+    Soon {
+        /// Whole days that are left.
+        days: i64,
+    },
+    /// It is valid for longer.
     Later,
 }
 
@@ -83,9 +101,13 @@ impl Expiry {
 /// A controller in the table.
 #[derive(Debug)]
 pub struct Row {
+    /// Names the row.
     pub id: RowId,
+    /// The controller as the configuration stores it.
     pub entry: ControllerEntry,
+    /// Its address, as it is shown.
     pub address: String,
+    /// Whether it is ticked.
     pub ticked: bool,
     /// Where the running job is with it.
     pub live: Option<RowState>,
@@ -118,6 +140,7 @@ impl Row {
         row
     }
 
+    /// What was read from the controller last.
     pub fn info(&self) -> Option<&ControllerInfo> {
         self.entry.last.as_ref().map(|last| &last.info)
     }
@@ -127,10 +150,12 @@ impl Row {
         session::capabilities(self.entry.connection, self.info())
     }
 
+    /// The end of its server certificate.
     pub fn not_after(&self) -> Option<DateTime<Utc>> {
         self.info().and_then(|info| info.certificate.as_ref()).map(|certificate| certificate.summary.not_after)
     }
 
+    /// The type of its server certificate.
     pub fn certificate_type(&self) -> Option<CertificateType> {
         self.info().and_then(|info| info.certificate.as_ref()).map(|certificate| certificate.kind)
     }
@@ -202,6 +227,7 @@ pub struct Rows {
     order: Vec<usize>,
     /// `order` without what the search hides.
     view: Vec<usize>,
+    /// The column sorted by, and whether ascending; `None`: the order of the configuration.
     pub sort: Option<(Column, bool)>,
     filter: String,
     /// Position in the view.
@@ -219,6 +245,7 @@ pub struct Rows {
 }
 
 impl Rows {
+    /// The rows of a configuration. `now`: the time by this PC's clock.
     pub fn new(entries: Vec<ControllerEntry>, now: DateTime<Utc>) -> Self {
         let next_id = entries.len() as u64;
         let list = (0..).zip(entries).map(|(id, entry)| Row::new(RowId(id), entry, now)).collect();
@@ -247,10 +274,12 @@ impl Rows {
         &self.list
     }
 
+    /// Whether there is no row, shown or not.
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
     }
 
+    /// How many rows the filter lets through.
     pub fn shown(&self) -> usize {
         self.view.len()
     }
@@ -260,6 +289,7 @@ impl Rows {
         self.view.get(position).map(|index| &self.list[*index])
     }
 
+    /// The row of this name.
     pub fn get(&self, id: RowId) -> Option<&Row> {
         self.list.iter().find(|row| row.id == id)
     }
@@ -268,14 +298,17 @@ impl Rows {
         self.list.iter_mut().find(|row| row.id == id)
     }
 
+    /// The text rows are filtered by.
     pub fn filter(&self) -> &str {
         &self.filter
     }
 
+    /// Position of the cursor among the rows shown.
     pub fn cursor(&self) -> Option<usize> {
         self.cursor
     }
 
+    /// How many rows are ticked, shown or not.
     pub fn ticked_count(&self) -> usize {
         self.ticked
     }
@@ -285,18 +318,22 @@ impl Rows {
         self.list.iter().any(|row| row.ticked && !row.capabilities().offers(feature))
     }
 
+    /// How many ticked rows the filter hides.
     pub fn ticked_hidden(&self) -> usize {
         self.ticked - self.ticked_in_view
     }
 
+    /// Whether every row shown is ticked, and there is one.
     pub fn all_shown_ticked(&self) -> bool {
         !self.view.is_empty() && self.ticked_in_view == self.view.len()
     }
 
+    /// How many server certificates have expired.
     pub fn expired_count(&self) -> usize {
         self.expired
     }
 
+    /// How many server certificates end within [`EXPIRES_SOON`].
     pub fn expiring_count(&self) -> usize {
         self.expiring
     }
@@ -306,10 +343,12 @@ impl Rows {
         self.order.iter().map(|i| &self.list[*i]).filter(|row| row.ticked).map(|row| row.id).collect()
     }
 
+    /// The names of controllers, in the order of `ids`.
     pub fn names(&self, ids: &[RowId]) -> Vec<String> {
         ids.iter().filter_map(|id| self.get(*id)).map(|row| row.entry.name.to_string()).collect()
     }
 
+    /// Adds a controller at the end of the list.
     pub fn add(&mut self, entry: ControllerEntry, now: DateTime<Utc>) -> RowId {
         let id = RowId(self.next_id);
         self.next_id += 1;
@@ -319,7 +358,7 @@ impl Rows {
     }
 
     /// Many at once.
-    /// Adds them, and ticks them and no others: whatever is done next is done to them.
+    /// Adds controllers, and ticks these and no others: the next command is for them.
     pub fn add_all_ticked(&mut self, entries: Vec<ControllerEntry>, now: DateTime<Utc>) {
         self.list.iter_mut().for_each(|row| row.ticked = false);
         for entry in entries {
@@ -357,30 +396,35 @@ impl Rows {
         }
     }
 
+    /// Says where a running job is with a controller; `None`: none is at work on it.
     pub fn set_live(&mut self, id: RowId, live: Option<RowState>) {
         if let Some(row) = self.get_mut(id) {
             row.live = live;
         }
     }
 
+    /// Remembers how the last job ended for a controller.
     pub fn set_result(&mut self, id: RowId, result: LastResult) {
         if let Some(row) = self.get_mut(id) {
             row.last_result = Some(result);
         }
     }
 
+    /// Remembers what was read for the details of a controller.
     pub fn set_overview(&mut self, id: RowId, overview: OverviewRead) {
         if let Some(row) = self.get_mut(id) {
             row.overview = Some(overview);
         }
     }
 
+    /// Forgets where the job that ended was with each controller.
     pub fn clear_live(&mut self) {
         for row in &mut self.list {
             row.live = None;
         }
     }
 
+    /// Ticks or unticks a row; with `range`, every row between it and the one ticked before gets the same.
     pub fn toggle(&mut self, id: RowId, range: bool) {
         let position_of = |id: RowId| self.view.iter().position(|i| self.list[*i].id == id);
         let position = position_of(id);
@@ -401,6 +445,7 @@ impl Rows {
         self.count();
     }
 
+    /// Ticks a row.
     pub fn tick(&mut self, id: RowId) {
         if let Some(row) = self.get_mut(id) {
             row.ticked = true;
@@ -446,18 +491,21 @@ impl Rows {
         self.count();
     }
 
+    /// Sorts by a column, ascending; by the column that is sorted by already: in the other direction.
     pub fn sort_by(&mut self, column: Column) {
         let ascending = !matches!(self.sort, Some((same, true)) if same == column);
         self.sort = Some((column, ascending));
         self.rebuild();
     }
 
+    /// Shows only the rows that hold this text, and takes the cursor away.
     pub fn set_filter(&mut self, filter: String) {
         self.filter = filter;
         self.cursor = None;
         self.rebuild();
     }
 
+    /// Moves the cursor by so many rows shown, negative: upwards. It stays within them.
     pub fn move_cursor(&mut self, by: isize) {
         let Some(last) = self.view.len().checked_sub(1) else { return };
         let next = match self.cursor {
@@ -468,6 +516,7 @@ impl Rows {
         self.reveal = true;
     }
 
+    /// Ticks or unticks the row under the cursor.
     pub fn toggle_cursor(&mut self) {
         if let Some(id) = self.cursor.and_then(|at| self.at(at)).map(|row| row.id) {
             self.toggle(id, false);

@@ -21,7 +21,7 @@ type OnResult<O> = Arc<dyn Fn(&mut Model, RowId, Result<O, Problem>) -> Commands
 /// Hands one result to the feature that started the task.
 type Deliver = Box<dyn FnOnce(&mut Model, RowId) -> Commands + Send>;
 
-/// A step of a feature that takes in no result. Called on the window's thread.
+/// A step of a feature without a result. Called on the window's thread.
 type Hook = Arc<dyn Fn(&mut Model) -> Commands + Send + Sync>;
 
 /// An operation, what the window calls it, and which functions of a feature get its results.
@@ -43,6 +43,7 @@ pub struct Task {
     pub restarts_server: bool,
     /// Whether passwords it lacks are asked for. Default: they are.
     pub asks_passwords: bool,
+    /// What the feature adds to the processing dialog after the end.
     pub footer: Option<Footer>,
     close_waiting: Option<fn(&mut Model)>,
     on_end: Option<Hook>,
@@ -52,12 +53,12 @@ pub struct Task {
 }
 
 impl Task {
-    /// A task whose results nothing but the processing dialog takes in.
+    /// A task whose results only the processing dialog shows.
     pub fn new<O: OperationOutput>(title: TextKey, operation: impl Operation<Output = O> + 'static) -> Self {
         Self::with_results(title, operation, |_, _, _| vec![])
     }
 
-    /// A task whose results a feature takes in: `on_result` is called once for each controller, in the order in which
+    /// A task whose results a feature gets: `on_result` is called once for each controller, in the order in which
     /// they finish.
     pub fn with_results<O: OperationOutput>(
         title: TextKey,
@@ -81,10 +82,12 @@ impl Task {
         }
     }
 
+    /// What the button says that agrees to it.
     pub fn act(self, act: TextKey) -> Self {
         Self { act, ..self }
     }
 
+    /// A sentence that the confirmation shows besides its own.
     pub fn remark(self, remark: TextKey) -> Self {
         Self { remark: Some(remark), ..self }
     }
@@ -109,6 +112,7 @@ impl Task {
         Self { close_waiting: Some(Model::close_after_failure::<D>), ..self.in_background() }
     }
 
+    /// See [`Task::footer`](field@Task::footer).
     pub fn footer(self, footer: Footer) -> Self {
         Self { footer: Some(footer), ..self }
     }
@@ -206,12 +210,25 @@ impl fmt::Debug for Task {
 /// What happens while a task runs. `index` counts the job's controllers.
 #[derive(Debug)]
 pub enum TaskEvent {
-    Step { index: usize, step: JobStep },
-    Finished { index: usize, report: Box<TaskReport> },
+    /// A controller has reached a step.
+    Step {
+        /// Position of the controller in the job.
+        index: usize,
+        /// The step.
+        step: JobStep,
+    },
+    /// A controller is finished.
+    Finished {
+        /// Position of the controller in the job.
+        index: usize,
+        /// Its result.
+        report: Box<TaskReport>,
+    },
 }
 
 /// A [`ControllerReport`] whose result only the feature that started the task can look at.
 pub struct TaskReport {
+    /// What the processing dialog shows, or why it failed.
     pub result: Result<TaskFacts, Problem>,
     /// The controller's information after the operation; `None` if it was not reached.
     pub info: Option<ControllerInfo>,
@@ -234,8 +251,11 @@ impl fmt::Debug for TaskReport {
 /// What the processing dialog shows of any result: see [`OutputFacts`](jobs::OutputFacts).
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct TaskFacts {
+    /// The file that was written.
     pub written: Option<PathBuf>,
+    /// The file that was read.
     pub used: Option<PathBuf>,
+    /// Files of an earlier set that were moved aside.
     pub moved_aside: Vec<PathBuf>,
 }
 

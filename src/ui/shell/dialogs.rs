@@ -25,8 +25,8 @@ pub fn show(ui: &Ui, open: &mut [Box<dyn Dialog>], opened: bool, model: &Model, 
     }
 }
 
-/// Enter confirms the dialog whatever has the focus, except a push button, which it presses, and an open list. Tick
-/// boxes and radio buttons are changed with Space.
+/// Enter confirms the dialog. With the focus on a push button it presses that; with an open list it chooses from that.
+/// Tick boxes and radio buttons are changed with Space.
 pub fn enter_confirms(ui: &Ui) -> bool {
     let ctx = ui.ctx();
     let focused = ctx.memory(|memory| memory.focused());

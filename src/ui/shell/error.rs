@@ -17,7 +17,7 @@ impl Dialog for ErrorDialog {
 }
 
 impl Model {
-    /// Shows a failure on top of whatever is shown.
+    /// Shows a failure above all other dialogs.
     pub fn show_problem(&mut self, problem: Problem) {
         self.open(ErrorDialog(problem));
     }

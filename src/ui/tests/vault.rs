@@ -67,7 +67,7 @@ fn who_does_not_open_the_vault_is_asked_for_the_password() {
     assert_eq!(form(&mut model).action, VaultAction::Open);
 }
 
-/// What was asked for is seen, whatever becomes of the password.
+/// The result is shown also if the password cannot be kept.
 #[test]
 fn a_password_that_is_not_kept_opens_no_dialog() {
     for code in [ErrorCode::KeyringUnavailable, ErrorCode::VaultLocked, ErrorCode::WorkspaceFull] {

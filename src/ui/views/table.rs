@@ -104,7 +104,7 @@ fn width(column: Column, model: &Model) -> f32 {
 }
 
 fn remember_widths(columns: &[Column], widths: &[f32], model: &Model, messages: &mut Vec<Message>) {
-    // The last column takes whatever is left; its own width is for when it is not the last.
+    // The last column takes the space that is left; its own width counts where it is not the last.
     let shown = || columns.iter().copied().zip(&widths[1..]).take(columns.len() - 1);
     if shown().any(|(column, now)| (width(column, model) - now).abs() > 0.5) {
         let mut widths = model.options.window.columns.clone();

@@ -47,7 +47,7 @@ impl MalformedBody {
     }
 }
 
-/// Reads a body of at most [`MAX_REQUEST_BYTES`] within 10 s, whatever its media type.
+/// Reads a body of at most [`MAX_REQUEST_BYTES`] within 10 s, of any media type.
 pub(super) async fn read<T: DeserializeOwned>(body: Body, malformed: MalformedBody) -> Result<T, RequestError> {
     let collected = tokio::time::timeout(BODY_TIMEOUT, collect(body)).await;
     let bytes = collected.unwrap_or(Err(RequestError::Late))?;

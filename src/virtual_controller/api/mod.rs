@@ -1,6 +1,6 @@
 //! The controller's end of [`crate::protocol`].
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `mod` | the router; logging in and out |
 //! | `caller` | [`ManagementApi`], and the sender of a request |
@@ -37,8 +37,8 @@ use routes::Routes;
 /// How long a wrong password waits for its answer.
 const WRONG_PASSWORD_DELAY: Duration = Duration::from_millis(300);
 
-/// One router for every controller of the process. The connection of a request, which names the controller, comes with the
-/// request as an extension ([`ClientConnection`]).
+/// One router for every controller of the process. The connection of a request, which names the controller, comes with
+/// the request as an extension ([`ClientConnection`]).
 pub static ROUTER: LazyLock<Router> = LazyLock::new(|| routes().router());
 
 fn routes() -> Routes {
@@ -87,7 +87,7 @@ mod tests {
 
     use super::*;
 
-    /// A request of the protocol's tables that nobody answers, or a path that the tables do not name, is a mistake.
+    /// A request of the protocol's tables without a handler, or a path that the tables do not name, is a mistake.
     #[test]
     fn the_controller_answers_exactly_the_requests_of_the_protocol() {
         let documented = protocol::REQUESTS.into_iter().flatten().map(|row| (row.method, row.path));

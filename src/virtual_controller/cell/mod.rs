@@ -16,7 +16,7 @@
 //! | `io` | [`IoPort`], [`IoValues`]: ports, bit numbers, bits |
 //! | `status` | states, modes and status texts of nodes |
 //! | `spel_value` | [`SpelType`], [`SpelValue`]: data types of variables |
-//! | `spel_declarations` | [`SpelDeclarations`]: the project file that declares them |
+//! | `spel_declarations` | [`SpelDeclarations`]: the project file that declares SPEL variables |
 //! | `snapshot` | [`CellDescription`] and [`CellSnapshot`]: everything that the address space shows |
 //! | `config` | [`CellConfig`]: what a cell is built from |
 //! | `command` | [`CellCommand`], [`Setting`] and why they are refused |

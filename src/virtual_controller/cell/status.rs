@@ -153,7 +153,7 @@ impl TaskState {
 pub enum TaskKind {
     /// Started by Start or by another task; stopped by Stop.
     Normal,
-    /// Runs from power-on, whatever the safety state is.
+    /// Runs from power-on in every safety state.
     Background,
 }
 

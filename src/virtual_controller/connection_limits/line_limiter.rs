@@ -3,11 +3,11 @@ use std::time::{Duration, Instant};
 
 use super::SourceNetwork;
 
-/// How much each source has caused to be said of late, so that no peer floods a log or the list of rejected clients.
+/// Limits the log lines about each source in a minute, so that no peer floods a log or the list of rejected clients.
 ///
-/// A source that is refused too often is quiet for a minute: its refusals are counted, but neither written nor recorded,
-/// and its connections end without an explanation. A client of the same source that is in order is served as always,
-/// since the clients of a robot cell often share one address.
+/// A source that is refused too often is quiet for a minute: its refusals are counted, but neither written nor
+/// recorded, and its connections end without an explanation. A client of the same source that is in order is served as
+/// always, since the clients of a robot cell often share one address.
 #[derive(Debug, Default)]
 pub struct LineLimiter(HashMap<SourceNetwork, SourceAccount>);
 

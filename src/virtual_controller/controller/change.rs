@@ -329,7 +329,8 @@ impl Controller {
         Ok(OpcUaServer::start(config).await?)
     }
 
-    /// Takes the SPEL variables that the project declares now (manual 4.2.2). What cannot be shown is told.
+    /// Takes the SPEL variables that the project declares now (manual 4.2.2). Variables that cannot be shown are
+    /// reported as events.
     async fn declare_variables(&self, events: &ServerEvents) {
         let folder = self.folder.clone();
         let loaded = spawn_blocking(move || project_file::load(&folder)).await.map_err(std::io::Error::other);

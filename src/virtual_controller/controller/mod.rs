@@ -1,12 +1,12 @@
-//! State, store and OPC UA server together. Knows nothing of the management protocol's connections, which are in `api` and
-//! `listener`.
+//! State, store and OPC UA server together. Knows nothing of the management protocol's connections, which are in `api`
+//! and `listener`.
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `mod` | [`Controller`]: opened from its folder |
 //! | `queries` | reads of the state, which never wait |
 //! | `change` | changes, whole or not at all |
-//! | `error` | why a controller does not do what it is asked for |
+//! | `error` | why a controller refuses a request |
 //! | `trust` | client lists and CRLs: a change, and the rejected list beside it |
 //! | `server_slot` | the OPC UA server, made of a state |
 
@@ -54,20 +54,31 @@ pub struct ControllerSpec {
     pub admission: AdmissionOptions,
     /// The robots on it, and how fast their time runs.
     pub cell: CellOptions,
+    /// What the controller is if its folder holds none yet.
     pub initial: NewController,
 }
 
 /// Why a virtual controller could not be switched on.
 #[derive(Debug, Error)]
 pub enum SwitchOnError {
+    /// The state cannot be read or written.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// A new controller cannot be made.
     #[error(transparent)]
     Initial(#[from] NewControllerError),
+    /// The TLS identity cannot be used.
     #[error("the management identity cannot be used: {0}")]
     Tls(#[from] rustls::Error),
+    /// A port cannot be listened on.
     #[error("the management protocol cannot listen on {address}: {source}")]
-    Listen { address: SocketAddr, source: std::io::Error },
+    Listen {
+        /// The address with the port.
+        address: SocketAddr,
+        /// The error of the operating system.
+        source: std::io::Error,
+    },
+    /// A thread ended before its work was done.
     #[error("a worker thread died")]
     Worker(#[from] JoinError),
 }
@@ -95,8 +106,8 @@ pub(super) struct Controller {
 enum ServerState {
     Stopped,
     Running,
-    /// Why the server is not running although it should be, found at this revision of the configuration. Shown as long as
-    /// [`Controller::lasts`] says so.
+    /// Why the server is not running although it should be, found at this revision of the configuration. Shown as long
+    /// as [`Controller::lasts`] says so.
     Failed {
         code: ErrorCode,
         revision: u64,

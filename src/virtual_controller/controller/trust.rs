@@ -66,7 +66,7 @@ impl Controller {
     }
 }
 
-/// The rejected list's part of a change: thrown away, unless the change comes into force.
+/// The rejected list's part of a change; dropped, unless the change comes into force.
 struct RejectedListTransaction {
     rejected: Arc<RejectedClients>,
     arrived: Vec<String>,

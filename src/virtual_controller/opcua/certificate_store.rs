@@ -17,15 +17,15 @@ use crate::platform::{private, replace};
 #[derive(Debug)]
 pub(super) struct PkiFolder {
     root: PathBuf,
-    /// The file with the server's key. Its name is used once, because a server that was stopped is dropped together with
-    /// its last connection, which may be after the next server has started in the same folder.
+    /// The file with the server's key. Its name is used once, because a server that was stopped is dropped together
+    /// with its last connection, which may be after the next server has started in the same folder.
     key_file: String,
     /// The names of the files in the folder for trusted certificates, the one used longest ago first.
     admitted: Mutex<Vec<String>>,
 }
 
 impl PkiFolder {
-    /// Creates the folder, or empties it of what an earlier run left. Nobody but this account may look into it.
+    /// Creates the folder, or empties it of what an earlier run left. Only this account may read it.
     pub(super) fn create(root: PathBuf) -> io::Result<Self> {
         create_private_folder(&root)?;
         for name in [OWN_CERTIFICATE, NEW_CERTIFICATE] {
@@ -125,7 +125,7 @@ impl Drop for PkiFolder {
 /// Where the crate looks for a certificate.
 fn file_name(der: &[u8]) -> Option<String> {
     let name = CertificateStore::cert_file_name(&X509::from_der(der).ok()?);
-    // The common name in it is whatever the client's owner wrote.
+    // The common name in it is free text of the client's owner.
     let harmless = name.len() <= 255 && !name.contains(|c: char| c.is_control() || "/\\:*?\"<>|".contains(c));
     harmless.then_some(name)
 }

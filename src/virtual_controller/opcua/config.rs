@@ -32,22 +32,25 @@ pub struct OpcUaConfig {
     pub policies: BTreeSet<SecurityPolicy>,
     /// At least one.
     pub user_tokens: BTreeSet<UserTokenPolicy>,
+    /// The users who may log in with a password.
     pub users: Vec<OpcUaUser>,
+    /// The server certificate in DER.
     pub certificate_der: Vec<u8>,
     /// The RSA key of the certificate, PKCS#8 DER.
     pub private_key_pkcs8: Zeroizing<Vec<u8>>,
     /// Which client certificates are let in. [`super::OpcUaServer::set_trust`] changes it while the server runs.
     pub trust: TrustLists,
+    /// What is let pass although OPC 10000-4 §6.1.3 advises against it.
     pub trust_policy: TrustPolicy,
-    /// Whether a client is told what is wrong with its certificate. By default it is told only that it was refused, as
-    /// OPC 10000-6 §6.7.6 wants it.
+    /// Whether the error for a client says what is wrong with its certificate. By default it says only that it was
+    /// refused, as OPC 10000-6 §6.7.6 wants it.
     pub detailed_status: bool,
     /// Told of every client whose certificate was refused.
     pub refusals: Option<Arc<dyn RejectionRecorder>>,
     /// The clock certificates are checked by.
     pub clock: CertificateClock,
-    /// What the address space shows: the controller, its robots and what is around them. The firmware decides which nodes
-    /// there are.
+    /// What the address space shows: the controller, its robots and what is around them. The firmware decides which
+    /// nodes there are.
     pub cell: CellHandle,
     /// Told what happens while the server runs.
     pub events: ServerEvents,
@@ -73,6 +76,7 @@ impl AdmissionOptions {
 /// A user who may log in with a password.
 #[derive(Clone, PartialEq, Eq)]
 pub struct OpcUaUser {
+    /// Name of the user.
     pub name: String,
     /// As [`super::hash_password`] makes it: argon2id in the PHC string format.
     pub password_hash: String,

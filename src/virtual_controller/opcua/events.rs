@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::virtual_controller::cell::SpelFinding;
 use crate::virtual_controller::connection_limits::SourceNetwork;
 
-/// Who is told what happens in a running server; nobody by default.
+/// Receives the events of a running server. By default there is no receiver.
 ///
 /// Called on the server's own tasks: a listener must return at once.
 #[derive(Clone, Default)]
@@ -17,66 +17,96 @@ type Listener = dyn Fn(ServerEvent<'_>) + Send + Sync;
 /// password typed into the wrong field, is not part of it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ServerEvent<'a> {
+    /// The server listens.
     Started {
+        /// Its URL.
         endpoint: &'a str,
+        /// The security policies it offers, separated by commas.
         policies: &'a str,
     },
+    /// The server does not listen any more.
     Stopped {
+        /// Its URL.
         endpoint: &'a str,
     },
+    /// A client has connected.
     Connected {
+        /// Where it connected from.
         client: SocketAddr,
     },
+    /// The connection of a client has ended.
     Disconnected {
+        /// Where it connected from.
         client: SocketAddr,
     },
+    /// A client was refused because no connection is free.
     TooManyConnections {
+        /// Where it connected from.
         client: SocketAddr,
     },
     /// A client did not get, or did not keep, a secure channel or a session.
     Refused {
+        /// Where it connected from.
         client: SocketAddr,
+        /// Why, in English.
         reason: &'a str,
     },
     /// An open connection was ended by a change of trust.
     Cut {
+        /// Where it connected from.
         client: SocketAddr,
+        /// Why, in English.
         reason: &'a str,
     },
-    /// No more refusals of this source are told for a minute.
+    /// No more refusals of this source are reported for a minute.
     RefusalsQuiet {
+        /// The address or network.
         source: SourceNetwork,
     },
-    /// No more connections of this source are told for a minute.
+    /// No more connections of this source are reported for a minute.
     ConnectionsQuiet {
+        /// The address or network.
         source: SourceNetwork,
     },
-    /// So many lines about this source were not told.
+    /// So many lines about this source were left out.
     LinesLeftOut {
+        /// The address or network.
         source: SourceNetwork,
+        /// How many lines.
         count: u64,
     },
     /// A line of the project's variables is not shown in the address space.
     VariableNotShown {
+        /// Why it is not shown.
         finding: &'a SpelFinding,
     },
     /// The project's variables cannot be read.
     VariablesUnreadable {
+        /// Why, in English.
         reason: &'a str,
     },
+    /// A user has logged in.
     LoggedIn {
+        /// The user; `None` without a user name.
         user: Option<&'a str>,
+        /// The security policy of the channel.
         policy: &'a str,
+        /// The message security mode of the channel.
         mode: &'a str,
     },
+    /// A login was refused.
     LoginRefused {
+        /// Where the client connected from, if that is known.
         client: Option<SocketAddr>,
+        /// The user, if one of that name exists.
         user: Option<&'a str>,
+        /// Why, in English.
         reason: &'a str,
     },
 }
 
 impl ServerEvents {
+    /// Calls `listener` for each event.
     pub fn new(listener: impl Fn(ServerEvent<'_>) + Send + Sync + 'static) -> Self {
         Self(Some(Arc::new(listener)))
     }

@@ -5,7 +5,7 @@ use super::admission::PasswordLogin;
 use crate::pki::Fingerprint;
 use crate::virtual_controller::connection_limits::SourceNetwork;
 
-/// Slows down who guesses passwords, and nobody else.
+/// Slows down clients that guess passwords, and no others.
 ///
 /// Wrong passwords are counted by where they come from (source and certificate) and the name tried, and by where they
 /// come from alone. After some, each attempt has to wait, twice as long every time. A client whose trusted certificate

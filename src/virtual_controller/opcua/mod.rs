@@ -6,7 +6,7 @@
 //! | file | idea |
 //! |---|---|
 //! | `config` | what a server is made of, checked before anything is started |
-//! | `server` | start, stop, and whether it still runs |
+//! | `server` | start, stop and state of the server |
 //! | `start_error` | why a server could not be started |
 //! | `admission` | the connections of the clients, and who is let in |
 //! | `events` | what happens in a running server, for its log |

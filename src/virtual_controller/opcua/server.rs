@@ -94,7 +94,7 @@ impl OpcUaServer {
         !self.server.is_finished() && !self.clients.is_finished()
     }
 
-    /// Closes every connection and the port. Takes at most a few seconds, whatever the clients do.
+    /// Closes every connection and the port. Takes at most a few seconds, also with clients that do not react.
     pub async fn stop(mut self) {
         self.handle.cancel();
         // Clients that listen are told why they are disconnected; the others are cut off.
@@ -123,7 +123,7 @@ impl fmt::Debug for OpcUaServer {
     }
 }
 
-/// The crate stores its port when it begins to accept, and tells nobody.
+/// The crate stores its port when it begins to accept, without a notification.
 async fn ready(
     server: &mut JoinHandle<Result<(), String>>,
     handle: &ServerHandle,

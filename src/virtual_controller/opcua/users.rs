@@ -22,8 +22,10 @@ use crate::model::{Cause, with_told_cause};
 /// Why a password could not be hashed.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum HashError {
+    /// The operating system gave no random numbers; holds its error.
     #[error("the system gives no random numbers: {0}")]
     Random(#[source] Cause),
+    /// Argon2id failed.
     #[error("the password cannot be hashed: {0}")]
     Hash(#[source] Cause),
 }
@@ -45,7 +47,8 @@ pub fn hash_password(password: &str) -> Result<String, HashError> {
 
 /// Decides who may log in (OPC 10000-4 §5.7.3 ActivateSession).
 ///
-/// A wrong password and an unknown user cannot be told apart: both are refused with the same status after the same work.
+/// A wrong password and an unknown user cannot be told apart: both are refused with the same status after the same
+/// work.
 pub(super) struct Users {
     tokens: UserTokens,
     hashes: HashMap<String, String>,

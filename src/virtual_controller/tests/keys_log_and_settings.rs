@@ -62,7 +62,7 @@ async fn a_log_is_asked_for_from_a_byte_on_and_in_no_other_way() {
     .await;
 }
 
-/// Who knows the passphrase can seal anything; the controller checks it as if it came from anybody.
+/// Who knows the passphrase can seal anything; the controller checks it as if it came from a stranger.
 #[tokio::test]
 async fn a_sealed_export_is_checked_like_any_other_change() {
     bounded(async {

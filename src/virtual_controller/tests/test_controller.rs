@@ -115,7 +115,7 @@ impl TestController {
         self.state().revision
     }
 
-    /// Whether somebody accepts connections on the OPC UA port.
+    /// Whether the OPC UA port accepts connections.
     pub fn answers(&self) -> bool {
         std::net::TcpStream::connect((LOOPBACK, self.state().settings.port.get())).is_ok()
     }

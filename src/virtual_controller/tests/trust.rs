@@ -206,7 +206,7 @@ async fn a_certificate_is_never_in_no_list_and_never_in_two() {
         assert_eq!(again.state(), test_controller.state());
         again.shutdown().await;
 
-        // Whatever way it comes back, it leaves the rejected ones.
+        // However it comes back, it leaves the rejected list.
         let back = edit(3, &[add(Trusted, &certificates[..1])]);
         client.post::<Value>(protocol::EditTrust::PATH, &back).await.unwrap();
         assert_eq!((test_controller.state().trusted.len(), rejected().await.value.len()), (2, 0));

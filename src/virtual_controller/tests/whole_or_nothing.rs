@@ -102,7 +102,7 @@ async fn a_client_that_leaves_in_the_middle_does_not_stop_a_change() {
         let [_, (path, body), _] = changes(1);
         let asking = client.post::<Value>(path, &body);
         let _ = tokio::time::timeout(std::time::Duration::from_millis(30), asking).await;
-        // The next one takes its turn after it, whatever became of it.
+        // The next change runs after it, also if it failed.
         let _: Changed = client.post(protocol::StartServer::PATH, &()).await.unwrap();
         assert_eq!(test_controller.status(), (ServerStatus::Run, None));
         assert!(test_controller.answers());

@@ -16,8 +16,9 @@ use crate::model::{Base64Bytes, text};
 use crate::pki::{SEAL_NONCE_BYTES, SEAL_SALT_BYTES, SealError, Sealed, open, seal};
 use crate::workspace::{WorkspaceError, read_bounded, write_atomic};
 
-/// Format 1: JSON with exactly these members. What is inside, a [`AuthorityBackupContent`] as JSON, is encrypted with AES-256-GCM
-/// under a key that Argon2id makes of passphrase and salt, and authenticated together with [`AuthorityBackup::context`].
+/// Format 1: JSON with exactly these members. What is inside, a [`AuthorityBackupContent`] as JSON, is encrypted with
+/// AES-256-GCM under a key that Argon2id makes of passphrase and salt, and authenticated together with
+/// [`AuthorityBackup::context`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct AuthorityBackup {
@@ -62,7 +63,7 @@ impl UnlockedAuthority {
         }
         let mut issued = BTreeMap::new();
         for certificate in &self.database().issued {
-            // One that was never written was never given to anybody either.
+            // A file that was never written was never handed out.
             if self.files().issued_path(&certificate.serial_number).exists() {
                 let der = self.files().issued(&certificate.serial_number)?.der().to_vec();
                 issued.insert(certificate.serial_number.clone(), Base64Bytes(der));

@@ -31,7 +31,7 @@ pub struct NewAuthority {
     pub crl_days: u16,
 }
 
-/// What everybody may know of the CA. Needs no passphrase.
+/// The public facts about the CA. Needs no passphrase.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AuthorityOverview {
     /// The folder with the files of the CA.
@@ -123,7 +123,7 @@ impl AuthorityFiles {
         Ok(UnlockedAuthority::new(self.clone(), lock, database, signing, passphrase.clone()))
     }
 
-    /// Reads what everybody may know.
+    /// Reads the public facts about the CA.
     pub fn overview(&self) -> Result<AuthorityOverview, AuthorityError> {
         AuthorityOverview::of(&self.folder, self.read_database()?)
     }
@@ -164,7 +164,8 @@ impl AuthorityFiles {
         self.key_path(name).exists()
     }
 
-    /// Keys are never overwritten: one without a CA, left by a creation that was broken off, is kept under another name.
+    /// Keys are never overwritten: one without a CA, left by a creation that was broken off, is kept under another
+    /// name.
     pub(super) fn write_key(&self, name: &str, pem: &str) -> Result<(), WorkspaceError> {
         let path = self.key_path(name);
         if path.exists() {

@@ -12,12 +12,12 @@
 //!   .lock               locked by the process that changes any of this
 //! ```
 //!
-//! The keys are ordinary encrypted PKCS#8, so that OpenSSL, XCA or a bigger CA can take over whenever the plant outgrows
-//! this one. `ca.json` alone is what counts, and is replaced as a whole: there is a CA once it is there, and `.der`,
-//! `.crl` and `ca.pem` are made from it again whenever they differ. A certificate or a CRL is written down there before
-//! anybody gets it. So whatever happens in between, no certificate is at large that could not be revoked, no serial
-//! number is used twice (they are random), and every CRL has a larger number than the ones before: the number is the
-//! time in seconds, or one more than the last, which holds even when an old backup is restored.
+//! The keys are ordinary encrypted PKCS#8, so that OpenSSL, XCA or a bigger CA can take over whenever the plant
+//! outgrows this one. `ca.json` alone is what counts, and is replaced as a whole: there is a CA once it is there, and
+//! `.der`, `.crl` and `ca.pem` are made from it again whenever they differ. A certificate or a CRL is written down
+//! there before it is handed out. So if the process ends in between, no certificate is in use that could not be
+//! revoked, no serial number is used twice (they are random), and every CRL has a larger number than the ones before:
+//! the number is the time in seconds, or one more than the last, which holds even when an old backup is restored.
 
 mod backup;
 mod database;

@@ -11,7 +11,7 @@ use crate::pki::{Certificate, CertificateAuthority, Csr, IssueRequest, Revocatio
 use crate::workspace::WorkspaceLock;
 
 /// How long a CRL is good for unless told otherwise: a year, because in a small plant a person has to publish the next
-/// one by hand, and an expired CRL locks everybody out.
+/// one by hand, and an expired CRL locks every client out.
 pub const DEFAULT_CRL_DAYS: u16 = 365;
 
 /// The small CA, unlocked for signing. Held by one process at a time; given up when dropped.
@@ -24,7 +24,7 @@ pub struct UnlockedAuthority {
     passphrase: SecretString,
 }
 
-/// A certificate that was signed, but that the CA does not know of yet. It must not be given to anybody before
+/// A certificate that was signed, but that the CA does not know of yet. It must not be handed out before
 /// [`UnlockedAuthority::record`].
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct UnrecordedCertificate {
@@ -187,8 +187,8 @@ impl UnlockedAuthority {
         Ok(())
     }
 
-    /// The database entry is written first: without it nothing has changed, and with it the change stands even if the copies
-    /// of its files cannot be written.
+    /// The database entry is written first: without it nothing has changed, and with it the change stands even if the
+    /// copies of its files cannot be written.
     fn commit(&mut self, database: Database) -> Result<(), AuthorityError> {
         self.files.write_database(&database)?;
         self.database = database;

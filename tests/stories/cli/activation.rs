@@ -43,7 +43,7 @@ fn keys_are_typed_for_one_controller_only() {
     let printed = Running::start(program().args(["virtual", "keys", serial])).unwrap().finish(DONE);
     let line = printed.stdout.lines().nth(1).unwrap();
     let fields: Vec<&str> = line.split(',').collect();
-    // As somebody pastes them.
+    // As they are pasted.
     let (licence, activation) = (fields[1].replace('-', " ").to_uppercase(), fields[2].to_lowercase());
     let typed = |controllers: &[&str]| {
         let mut arguments = vec!["activate", "--license", &licence, "--activation", &activation, "--yes"];

@@ -224,7 +224,7 @@ fn openssl_agrees_with_root_intermediate_server_client_and_crl() {
         };
         assert_eq!(subject("x509", "out/server.pem"), subject("req", "server.csr"), "string types and all");
 
-        // Revoked, and said so; and nobody is let in on the word of a CRL that is too old.
+        // Revoked clients are refused, and so is every client while the CRL is too old.
         let serial = office.done("show", &[])["issued"][0]["serial_number"].as_str().unwrap().to_owned();
         office.done("revoke", &[&serial, "--reason", "key-compromise"]);
         office.pem(&openssl);
@@ -371,7 +371,7 @@ fn a_full_disk_leaves_the_ca_as_it_was() {
     assert!(!office.path("ca.backup").exists());
 }
 
-/// Whatever moment a process is killed at: every certificate file is in the database, and CRL numbers only grow.
+/// A process that is killed at any moment leaves every certificate file in the database, and CRL numbers only grow.
 #[test]
 fn a_ca_killed_at_any_moment_forgets_nothing() {
     let Some(openssl) = OpenSsl::find() else { return };

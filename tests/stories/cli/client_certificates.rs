@@ -35,8 +35,8 @@ fn serve(cli: &CommandLineTest) {
     assert_eq!(cli.json(&["start", "weld"]).0, Some(0));
 }
 
-/// RFC 5280 §4.2.1.9 makes an authority, whatever its subject alternative name: it completes the client's chain and
-/// lets in nobody else.
+/// RFC 5280 §4.2.1.9 makes an authority, with any subject alternative name: it completes the client's chain and
+/// lets in no other client.
 #[test]
 fn an_authority_with_a_uri_that_comes_with_a_client_lets_in_no_stranger() {
     let cli = CommandLineTest::with(1, &["--seed", "3", "--firmware", "current"]);

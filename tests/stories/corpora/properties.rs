@@ -219,7 +219,7 @@ proptest! {
         for (serial, places) in good {
             match places.as_slice() {
                 [(number, keys)] => expected.push((*number, serial, keys.clone())),
-                // Which of several lines is meant nobody can know.
+                // Which of several lines is meant is not known.
                 several => mistakes.extend(several.iter().map(|(number, _)| *number)),
             }
         }

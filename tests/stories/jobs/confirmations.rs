@@ -153,7 +153,7 @@ impl Watch {
         found
     }
 
-    /// The server runs, and somebody is connected.
+    /// The server runs, and a client is connected.
     async fn connect(&mut self, identity: Option<&TestApplication>) {
         if let Some(client) = self.client.take() {
             client.close().await;

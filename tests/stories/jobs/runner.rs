@@ -269,7 +269,7 @@ async fn a_backup_holds_the_certificate_and_for_legacy_firmware_the_key() {
     }
 }
 
-/// A certificate in use whose backup is missing is what nobody wants: find out first.
+/// No certificate is in use without its backup: the folder is checked first.
 #[tokio::test(flavor = "multi_thread")]
 async fn a_backup_that_cannot_be_written_stops_before_the_controller_is_changed() {
     let fleet = TestFleet::start(1, FleetFirmware::Legacy).await;

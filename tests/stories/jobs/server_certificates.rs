@@ -143,7 +143,7 @@ async fn a_new_csr_leaves_the_certificate_alone_on_current_firmware_and_takes_it
         assert_eq!(info.status, if legacy { ServerStatus::Stop } else { ServerStatus::Run });
         let expected = if legacy { Some(ErrorCode::NoCertificate) } else { None };
         assert_eq!(codes(&fleet.run(StartServer).await), [expected]);
-        // The former certificate was moved aside with its request. It does not fit the new key, wherever it comes from.
+        // The former certificate was moved aside with its request. It does not fit the new key.
         assert_eq!(codes(&fleet.run(import(&files)).await), [Some(ErrorCode::FileNotFound)]);
         put(&files, second, &former);
         assert_eq!(codes(&fleet.run(import(&files)).await), [Some(ErrorCode::CsrMismatch)]);
@@ -268,7 +268,7 @@ async fn a_certificate_without_a_csr_and_too_many_files_are_refused() {
     let plain = files.ca_signed_folder(serial).join("from_ca.der");
     fs::rename(&plain, plain.with_file_name("from ca.der")).unwrap();
     assert_eq!(codes(&fleet.run(import(&files)).await), [Some(ErrorCode::BadFileName)]);
-    // A file somebody points at may have any name, and be PEM.
+    // A chosen file may have any name, and be PEM.
     let pem = folder.path().join("证书 1.crt");
     fs::write(&pem, Certificate::from_der(&certificate).unwrap().to_pem()).unwrap();
     let source = CaSignedSource::File(pem);

@@ -207,7 +207,7 @@ async fn an_import_is_whole_or_not_at_all() {
     let before = fleet.controller(0).state();
     let unchanged = || assert_eq!(fleet.controller(0).state(), before);
 
-    // The port of then belongs to somebody else now, and the server is put back on its own.
+    // Another program uses the port of then now, and the server is put back on its own.
     let blocker = std::net::TcpListener::bind(("127.0.0.1", port.get())).unwrap();
     let reports = fleet.run(office.import()).await;
     assert_eq!(codes(&reports), [Some(ErrorCode::PortConflict)]);

@@ -43,7 +43,7 @@ impl FilePicker for WholeFolder {
 }
 
 impl WindowTest {
-    /// Controllers "cell 1", "cell 2", …, all ticked; whoever chooses files chooses those of `usb`.
+    /// Controllers "cell 1", "cell 2", …, all ticked; a file dialog chooses the files of `usb`.
     fn with_usb_stick(count: usize, firmware: FleetFirmware) -> Self {
         let picker = |folder: &Path| {
             fs::create_dir(folder.join("usb")).unwrap();
@@ -142,7 +142,7 @@ fn a_client_that_knocks_appears_is_trusted_in_one_click_and_sent_away_again_by_u
     app.clients();
     app.wait_for("No client was refused");
     assert!(app.connect(0, &client).is_err());
-    // Nobody asked for it.
+    // It was not asked for.
     app.wait_for("1 new");
     app.click("Tick HMI line 3");
     assert!(shows(&app.window, "Neither it nor any of its issuers is in the trust list"), "why, in plain words");
@@ -290,7 +290,7 @@ fn a_crl_takes_effect_at_once_and_so_does_its_removal() {
     let now = OffsetDateTime::now_utc();
     app.crls();
     app.wait_for("No CRLs");
-    // The authority comes first, or nobody knows whose CRL it is.
+    // The authority comes first: without it the issuer of the CRL is not known.
     app.click("Close");
     app.clients();
     app.wait_for("Nobody is let in by a certificate yet");
@@ -328,7 +328,7 @@ fn a_crl_takes_effect_at_once_and_so_does_its_removal() {
     app.click("Delete");
     app.wait_for("1 CRL deleted");
     assert!(shows(&app.window, "Authorities without a usable CRL: Plant CA"));
-    // Without a CRL nobody knows who was revoked.
+    // Without a CRL it is not known which clients were revoked.
     assert!(app.is_cut_off(kept));
     app.press(Modifiers::COMMAND, Key::Z);
     app.wait_for("The change was taken back");

@@ -68,7 +68,7 @@ fn an_activation_file_is_announced_and_opens_its_dialog_also_for_one_controller(
     // Neither the name nor the ending tells what it is.
     let file = app.put_file("from the mail.txt", format!("OPCUA.Activation.Ver.1.0\r\n{lines}"));
 
-    // With no controller ticked there is nobody to activate: said before and after dropping.
+    // With no controller ticked there is none to activate: said before and after dropping.
     app.hold(std::slice::from_ref(&file));
     app.wait_for("Tick at least one controller first");
     assert!(shows(&app.window, "from the mail.txt") && shows(&app.window, "Activation file"));
@@ -171,7 +171,7 @@ fn a_certificate_goes_where_it_is_told_and_is_imported() {
     assert!(app.has_value(&file.display().to_string()));
     app.click("Import…");
     app.wait_for("Plant CA");
-    // Whatever clients may warn of.
+    // Warnings of clients.
     let ok = if is_enabled(&app.window, "Import") { "Import" } else { "Import anyway" };
     app.click(ok);
     app.finish("1 done");
@@ -204,7 +204,7 @@ fn a_pfx_and_a_pair_of_files_fill_the_user_specified_dialog() {
     app.click("Cancel");
     app.click("Cancel");
 
-    // The key alone, then both in whatever order.
+    // The key alone, then both in either order.
     app.drop_files(std::slice::from_ref(&key_file));
     app.wait_for_value(&key_file.display().to_string());
     app.click("Cancel");

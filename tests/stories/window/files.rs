@@ -132,7 +132,7 @@ fn the_chain_of_what_a_ca_issued_is_shown_before_the_import() {
     fs::create_dir_all(&folder).unwrap();
     fs::write(folder.join("robot.der"), ca.sign(&csr)).unwrap();
 
-    // Nobody knows the CA; one of the same name did not sign it.
+    // The CA is not known; one of the same name did not sign it.
     fs::write(folder.join("other.cer"), Ca::new().certificate()).unwrap();
     app.click("Import…");
     app.wait_for("by Plant CA");
@@ -147,7 +147,7 @@ fn the_chain_of_what_a_ca_issued_is_shown_before_the_import() {
     assert!(!shows(&app.window, "The next issuer"));
     app.click("Cancel");
 
-    // Both in one file, as many authorities send it, whichever comes first.
+    // Both in one file, as many authorities send it, in either order.
     let pem = |der: &[u8]| Certificate::from_der(der).unwrap().to_pem();
     let both = app.folder.path().join("answer.pem");
     fs::write(&both, pem(ca.certificate()) + &pem(&ca.sign(&csr))).unwrap();

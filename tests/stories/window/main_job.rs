@@ -7,8 +7,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use opcua_configurator::jobs::{AddUser, SelfSigned, SelfSignedFields};
 use opcua_configurator::model::{KeyLength, Language, Problem, ServerStatus, UserCredential, UserPassword, Validity};
 use opcua_configurator::pki::Fingerprint;
+use opcua_configurator::ui::AddControllerForm;
 use opcua_configurator::ui::backend::{NewVirtualController, VirtualFleetStarter};
-use opcua_configurator::ui::features::add_controller::AddControllerForm;
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::{DropPoint, FleetFirmware};
 use opcua_configurator::workspace::{Configuration, ControllerEntry};
@@ -193,7 +193,7 @@ fn adding_a_controller_explains_what_is_wrong_and_keeps_what_was_typed() {
     assert!(!is_enabled(&app.window, "Apply"));
     app.click("Cancel");
 
-    // Nobody there, and somebody else there.
+    // No controller there, and another program there.
     let silent = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let nowhere = silent.local_addr().unwrap().to_string();
     drop(silent);
@@ -419,7 +419,7 @@ fn a_damaged_configuration_is_told_at_the_start() {
     }
 }
 
-/// A file where the folder should be: nobody can write there, not even root.
+/// A file where the folder should be: not even root can write there.
 #[test]
 fn a_workspace_that_cannot_be_written_is_said_so_and_nothing_is_lost() {
     let mut app = WindowTest::with_controllers(1, FleetFirmware::Current);

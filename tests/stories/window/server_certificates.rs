@@ -131,7 +131,7 @@ fn warnings_are_asked_about_and_errors_stop_an_import() {
     assert!(!is_enabled(&app.window, "Import"));
     app.click("Cancel");
 
-    // By its path, as somebody pastes it from a file manager.
+    // By its path, as it is pasted from a file manager.
     let elsewhere = tempfile::tempdir().unwrap();
     let file = elsewhere.path().join("from the CA.der");
     let nowhere = |p: &mut CertificateParams| p.subject_alt_names.retain(|name| matches!(name, SanType::URI(_)));

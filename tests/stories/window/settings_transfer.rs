@@ -8,7 +8,7 @@ use opcua_configurator::jobs::{
     AddUser, BasicSettingsChange, SelfSigned, SelfSignedFields, SetBasicSettings, StartServer, StopServer,
 };
 use opcua_configurator::model::{KeyLength, SecurityPolicy, ServerSettings, UserCredential, UserPassword, Validity};
-use opcua_configurator::ui::features::server_log::SaveLogForm;
+use opcua_configurator::ui::SaveLogForm;
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::FleetFirmware;
 

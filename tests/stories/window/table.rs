@@ -2,9 +2,9 @@
 
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable as _;
+use opcua_configurator::ui::BackupDialog;
+use opcua_configurator::ui::DeleteControllersDialog;
 use opcua_configurator::ui::backend::{Backend, RecordingBackend};
-use opcua_configurator::ui::features::backup::BackupDialog;
-use opcua_configurator::ui::features::delete_controllers::DeleteControllersDialog;
 use opcua_configurator::ui::model::Column;
 use opcua_configurator::virtual_controller::FleetFirmware;
 use opcua_configurator::workspace::Workspace;

@@ -182,7 +182,7 @@ fn a_controller_that_is_switched_off_is_added_now_and_confirmed_later_and_its_mi
         configuration.controllers.iter().any(|entry| entry.fingerprint.is_none() && entry.name.as_str() == "Weld 1")
     });
 
-    // It has no password, and somebody switches it on.
+    // It has no password, and is switched on.
     let folder = tempfile::tempdir().unwrap();
     let fleet = app.runtime.block_on(Fleet::start(controller(port, "", folder.path()))).unwrap();
     app.workspace.vault().create(&PASSPHRASE.into()).unwrap();

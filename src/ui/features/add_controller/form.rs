@@ -8,14 +8,21 @@ use crate::ui::model::{Model, RowId, SecretInput};
 /// A new controller (manual 2.5.1).
 #[derive(Debug)]
 pub struct AddControllerForm {
+    /// The name, as it is typed.
     pub name: String,
+    /// The address, as it is typed.
     pub address: String,
+    /// The connection password, as it is typed.
     pub password: SecretInput,
+    /// Whether the password is shown.
     pub show_password: bool,
     /// The field for the password has just appeared and takes the keyboard.
     pub focus_password: bool,
+    /// The chosen series.
     pub series: ControllerSeries,
+    /// The chosen protocol.
     pub connection: ConnectionKind,
+    /// How far adding is.
     pub stage: AddStage,
     /// Why the last attempt failed.
     pub problem: Option<Problem>,
@@ -53,6 +60,7 @@ pub enum AddStage {
 }
 
 impl AddControllerForm {
+    /// An empty form.
     pub fn new() -> Self {
         Self {
             name: String::new(),
@@ -69,6 +77,7 @@ impl AddControllerForm {
         }
     }
 
+    /// What is wrong with the name, if anything is.
     pub fn name_error(&self, model: &Model) -> Option<TextKey> {
         match self.name.parse::<ControllerName>() {
             Err(_) if self.name.is_empty() && !self.tried => None,
@@ -77,6 +86,7 @@ impl AddControllerForm {
         }
     }
 
+    /// What is wrong with the address, if anything is.
     pub fn address_error(&self, model: &Model) -> Option<TextKey> {
         match self.address.parse::<Address>() {
             Err(_) if self.address.is_empty() && !self.tried => None,
@@ -101,6 +111,7 @@ impl AddControllerForm {
         self.name_error(model).or_else(|| self.address_error(model))
     }
 
+    /// The name and address, or the first mistake.
     pub fn target(&self, model: &Model) -> Result<(ControllerName, Address), Problem> {
         let name: ControllerName = self.name.parse().map_err(|e| Problem::with_detail(ErrorCode::BadName, e))?;
         let address: Address = self.address.parse().map_err(|e| Problem::with_detail(ErrorCode::BadAddress, e))?;
@@ -121,6 +132,7 @@ impl AddControllerForm {
         matches!(self.stage, AddStage::Probing | AddStage::Enrolling(_))
     }
 
+    /// The password that was typed.
     pub fn secret(&self) -> SecretString {
         SecretString::from(self.password.0.clone())
     }

@@ -1,4 +1,4 @@
-//! Controllers of the list that nobody has confirmed yet, as after an import.
+//! Controllers of the list whose identity is not confirmed yet, as after an import.
 
 use crate::texts::TextKey as T;
 use crate::ui::features::add_controller::{AddControllerForm, AddStage, ConfirmIdentityForm};
@@ -23,7 +23,7 @@ impl Model {
         rows.filter(|row| row.entry.fingerprint.is_none()).map(|row| row.id)
     }
 
-    /// Reads information; asks first who the controllers are that nobody has confirmed yet.
+    /// Reads information; asks first about the identity of controllers where it is not confirmed yet.
     pub(in crate::ui) fn get_info(&mut self, rows: Vec<RowId>) -> Vec<BackendCommand> {
         let confirmed = |id: &RowId| self.rows.get(*id).is_some_and(|row| row.entry.fingerprint.is_some());
         let (then_read, unconfirmed): (Vec<_>, Vec<_>) = rows.into_iter().partition(confirmed);

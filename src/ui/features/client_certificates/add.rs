@@ -35,7 +35,7 @@ impl AddFile {
     }
 }
 
-/// Certificates and CRLs from files, and where they go; nothing is sent before somebody agrees.
+/// Certificates and CRLs from files, and where they go; nothing is sent before a person agrees.
 #[derive(Debug)]
 pub struct AddTrustForm {
     pub rows: Vec<RowId>,

@@ -131,7 +131,7 @@ impl Model {
     ) -> Vec<BackendCommand> {
         let (Some(list), Some(to_list)) = (from.list(), to.list()) else { return vec![] };
         let done = LastTrustChange::Moved { from, to, count: thumbprints.len() };
-        // Whatever else was changed meanwhile: the certificates are named, so nothing else can be meant.
+        // Other changes since then do not matter: the certificates are named by thumbprint.
         let relist = MoveClients { from: list, to: to_list, thumbprints, accept_notes, based_on: None };
         self.change(TextKey::TrustTitle, relist, done)
     }
@@ -144,7 +144,7 @@ impl Model {
         self.change(TextKey::TrustUndoTitle, UndoTrust(BTreeMap::from([(name, undo)])), LastTrustChange::TakenBack)
     }
 
-    /// Takes back what the job that ended did, wherever it did it.
+    /// Takes back what the job that ended did, in every controller it changed.
     pub(in crate::ui) fn undo_job(&mut self) -> Vec<BackendCommand> {
         let Some(job) = self.job.as_mut().filter(|job| job.summary.is_some()) else { return vec![] };
         let rows: Vec<(RowId, _)> = job.rows.iter_mut().filter_map(|row| Some((row.row, row.undo.take()?))).collect();
@@ -216,7 +216,7 @@ impl Model {
         vec![]
     }
 
-    /// Nobody gave the password.
+    /// The password was not given.
     pub(in crate::ui) fn trust_without_password(&mut self) -> Vec<BackendCommand> {
         self.job = None;
         match self.dialog::<TrustForm>() {

@@ -14,7 +14,9 @@ use crate::ui::model::Model;
 #[derive(Debug)]
 #[allow(clippy::large_enum_variant, reason = "the dialog boxes it as a whole")]
 pub enum DetailsView {
+    /// A certificate, with the chain above it.
     Certificate(CertificateView),
+    /// A CRL, with its entries.
     Crl(CrlView),
 }
 
@@ -51,7 +53,7 @@ pub struct ChainNode {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum ChainState {
-    /// Nobody has the certificate of this issuer.
+    /// The certificate of this issuer is not at hand.
     Missing,
     /// A CRL names it.
     Revoked,

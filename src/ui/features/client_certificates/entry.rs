@@ -37,7 +37,7 @@ pub struct RejectionDetails {
     pub count: u64,
     pub first_seen: ShownTime,
     pub last_seen: ShownTime,
-    /// It came while the dialog was open, and nobody has looked at it yet.
+    /// It came while the dialog was open, and was not selected since.
     pub is_new: bool,
 }
 

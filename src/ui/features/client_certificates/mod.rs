@@ -8,7 +8,7 @@
 //! | `form` | [`TrustForm`]: the lists of one controller, and what was done to them |
 //! | `change` | delete, move, undo |
 //! | `watch` | the lists as the controller reports them |
-//! | `add` | [`AddTrustForm`]: files, and where what is in them goes |
+//! | `add` | [`AddTrustForm`]: files, and the list that each certificate and CRL goes into |
 //! | `details` | [`CertificateView`]: one certificate or CRL in full |
 
 mod add;
@@ -28,12 +28,14 @@ use egui::Ui;
 use crate::texts::TextKey as T;
 use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, UiCommand};
 
-pub use add::{AddFile, AddTrustForm, MAX_TRUST_FILES};
+pub use add::AddTrustForm;
+#[cfg(test)]
+pub use add::MAX_TRUST_FILES;
 pub use change::change_task;
 pub use change::{DeleteTrust, MoveTrust};
 pub use column::TrustColumn;
-pub use details::{CertificateView, ChainNode, ChainState, CrlLine, CrlView, DetailField, DetailsView};
-pub use entry::{CrlDetails, RejectionDetails, ShownTime, TrustListEntry, ValidityState};
+pub use details::{CertificateView, ChainNode, ChainState, CrlView, DetailField, DetailsView};
+pub use entry::{CrlDetails, RejectionDetails, TrustListEntry, ValidityState};
 pub use form::{Freshness, LastTrustChange, ShownLists, TrustForm};
 pub use pane::{Pane, PaneKind};
 pub use view::UNDO;
@@ -46,7 +48,12 @@ pub enum TrustAction {
     /// Delete what is ticked in this list, or what the cursor is on; asks first.
     Delete(PaneKind),
     /// Move what is ticked, or what the cursor is on.
-    Move { from: PaneKind, to: PaneKind },
+    Move {
+        /// The list that holds the certificates.
+        from: PaneKind,
+        /// The list they go into.
+        to: PaneKind,
+    },
     /// Take the last change back.
     Undo,
     /// Show what the cursor is on in full.

@@ -71,8 +71,8 @@ impl PaneKind {
     }
 }
 
-/// One list: its lines, what is ticked, and the order they are shown in. Nothing here costs more than the lines in sight
-/// in a frame.
+/// One list: its lines, what is ticked, and the order they are shown in. Nothing here costs more than the lines in
+/// sight in a frame.
 #[derive(Debug)]
 pub struct Pane {
     pub kind: PaneKind,
@@ -192,7 +192,7 @@ impl Pane {
         self.limit.is_some_and(|limit| self.len() >= limit)
     }
 
-    /// How many came while nobody looked.
+    /// How many came while the list was not looked at.
     pub fn new_ones(&self) -> usize {
         self.new
     }
@@ -200,10 +200,6 @@ impl Pane {
     /// A line the filter lets through.
     pub fn at(&self, position: usize) -> Option<&TrustListEntry> {
         self.view.get(position).map(|at| &self.entries[*at])
-    }
-
-    pub fn entry(&self, id: &str) -> Option<&TrustListEntry> {
-        self.entries.iter().find(|entry| entry.id == id)
     }
 
     pub fn cursor(&self) -> Option<usize> {

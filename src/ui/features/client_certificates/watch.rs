@@ -68,7 +68,7 @@ impl Model {
         self.start(list_trust(), vec![row], None)
     }
 
-    /// The dialog was closed: nobody needs to watch any more.
+    /// The dialog was closed: watching ends.
     pub(in crate::ui) fn close_trust(&mut self, form: &TrustForm) -> Vec<BackendCommand> {
         let mut commands = self.drop_job();
         commands.extend(form.watch.map(BackendCommand::Cancel));

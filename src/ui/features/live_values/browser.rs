@@ -1,6 +1,6 @@
 use crate::jobs::NodeDetails;
 use crate::model::Problem;
-use crate::model::opcua::{NodeClass, NodeId, NodeReference, QualifiedName};
+use crate::model::opcua::{NodeClass, NodeId, NodeReference};
 
 /// The address space as a tree, as far as it was unfolded.
 #[derive(Debug)]
@@ -19,7 +19,6 @@ pub struct NodeBrowser {
 #[derive(Debug)]
 pub struct BrowsedNode {
     pub node: NodeId,
-    pub browse_name: QualifiedName,
     /// Display name, or else the browse name.
     pub name: String,
     pub class: NodeClass,
@@ -41,7 +40,6 @@ impl Default for NodeBrowser {
     fn default() -> Self {
         let root = BrowsedNode {
             node: NodeId::ROOT_FOLDER,
-            browse_name: QualifiedName::new(0, "Root"),
             name: "Root".to_owned(),
             class: NodeClass::Object,
             depth: 0,
@@ -147,7 +145,6 @@ impl NodeBrowser {
                     let first = self.nodes.len();
                     self.nodes.extend(children.iter().map(|child| BrowsedNode {
                         node: child.node.clone(),
-                        browse_name: child.browse_name.clone(),
                         name: match child.display_name.is_empty() {
                             true => child.browse_name.name.clone(),
                             false => child.display_name.clone(),
@@ -202,6 +199,7 @@ pub enum BrowserMove {
 mod tests {
     use super::*;
     use crate::model::ErrorCode;
+    use crate::model::opcua::QualifiedName;
 
     fn child(number: u32, name: &str) -> NodeReference {
         NodeReference {

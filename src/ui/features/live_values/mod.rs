@@ -1,12 +1,12 @@
 //! What the OPC UA server of one controller shows, as it changes (manual 3.2, 3.4).
 //!
-//! | file | its one idea |
+//! | file | contents |
 //! |---|---|
 //! | `form` | [`LiveForm`]: the dialog with the last value of each variable |
 //! | `section` | [`LiveSection`]: the tabs, and which variables each shows |
 //! | `watch` | connecting, asking for values, and what is reported |
-//! | `browser` | [`NodeBrowser`]: the address space as a tree |
-//! | `plot` | [`LivePlot`]: values over time |
+//! | `browser` | `NodeBrowser`: the address space as a tree |
+//! | `plot` | `LivePlot`: values over time |
 //! | `io` | the bits of I/O nodes |
 //! | `pose` | positions of the tool center point |
 //! | `edit` | [`EditValue`]: writing a value |
@@ -26,10 +26,9 @@ use egui::{Key, Modifiers, Ui};
 use crate::texts::TextKey as T;
 use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, UiCommand};
 
-pub use browser::{BrowsedNode, BrowserMove, ChildrenState, NodeBrowser};
+pub use browser::BrowserMove;
 pub use edit::EditValue;
 pub use form::{LiveConnection, LiveForm};
-pub use plot::{LivePlot, PlotSeries};
 pub use section::LiveSection;
 
 impl UiCommand {

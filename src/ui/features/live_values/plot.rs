@@ -172,11 +172,6 @@ impl PlotSeries {
         stretches.retain(|stretch| !stretch.is_empty());
         stretches
     }
-
-    /// The last number.
-    pub fn last(&self) -> Option<f64> {
-        self.samples.back().map(|(_, value)| *value).filter(|value| !value.is_nan())
-    }
 }
 
 /// The samples that fall on one column of pixels.

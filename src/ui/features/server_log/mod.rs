@@ -106,7 +106,9 @@ impl LogView {
 /// Where the server log of one controller is to be saved.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SaveLogForm {
+    /// The row of the controller.
     pub row: RowId,
+    /// The name of the controller.
     pub name: String,
     /// As it is typed.
     pub path: String,

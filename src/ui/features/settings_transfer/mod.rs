@@ -76,7 +76,7 @@ impl TransferForm {
         }
     }
 
-    /// An import takes whatever passphrase the file was made with.
+    /// An import takes the passphrase that the file was made with, of any length.
     pub fn passphrase_error(&self) -> Option<TextKey> {
         let count = self.passphrase.0.chars().count();
         let short = self.transfer == TransferDirection::Export && (1..MIN_PASSPHRASE_CHARS).contains(&count);

@@ -19,8 +19,11 @@ pub use view::options;
 pub enum VaultRequest {
     /// Keep passwords there from now on. A vault that is not there yet is created.
     Use(PasswordPlace),
+    /// Ask for the passphrase and open the vault.
     Open,
+    /// Close the vault.
     Close,
+    /// Ask for a new passphrase.
     ChangePassphrase,
     /// Do something about the password that could not be kept.
     NotKept,

@@ -25,7 +25,7 @@ pub struct VerifyView {
     pub of: BTreeMap<RowId, Result<Box<VerifyReport>, Problem>>,
     /// Whose report is looked at.
     pub shown: Option<RowId>,
-    /// Who logs in the next time; empty: nobody.
+    /// The user of the next login; empty: none.
     pub user: String,
     pub password: SecretInput,
     pub show_password: bool,

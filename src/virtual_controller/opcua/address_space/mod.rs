@@ -20,18 +20,18 @@
 //! | `budget` | how long a response may be |
 //! | `browsing` | the services Browse and TranslateBrowsePathsToNodeIds |
 //! | `sampler` | values for subscriptions |
-//! | `manager` | all of it as a node manager of the OPC UA crate |
+//! | `manager` | the address space as a node manager of the OPC UA crate |
 //!
 //! # How a value is read
-//! A variable has a [`value::Source`]: a constant, or a function of the cell's snapshot. A request takes one snapshot for
-//! all its values. Subscriptions are sampled every 100 ms at most; without subscriptions nothing runs. Nothing is copied
-//! into the nodes.
+//! A variable has a [`value::Source`]: a constant, or a function of the cell's snapshot. A request takes one snapshot
+//! for all its values. Subscriptions are sampled every 100 ms at most; without subscriptions nothing runs. Nothing is
+//! copied into the nodes.
 //!
 //! # Decisions
 //! - Namespace 1 is the server's own, its URI the ApplicationUri (OPC 10000-5 §7.2).
 //! - Robotics Part 1 is the NodeSet 1.01.2, the errata of the version 1.00 that the manual names.
-//! - RobotStatus, AdditionalInfo, ConsumableStatus and RobotNumber are components of the object they describe; I/O, force
-//!   sensor, motion log, SPEL project and ControllerStatus stand below the controller's Components.
+//! - RobotStatus, AdditionalInfo, ConsumableStatus and RobotNumber are components of the object they describe; I/O,
+//!   force sensor, motion log, SPEL project and ControllerStatus stand below the controller's Components.
 //! - I/O ports with more than 64 bits are shown by bytes, the others by bits.
 //! - A subscription to a node Data sees Null and takes nothing out of the queue.
 

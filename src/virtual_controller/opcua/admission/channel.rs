@@ -27,7 +27,7 @@ pub(super) struct LastRequest {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum PendingCreateSession {
     Session(SessionNumber),
-    /// The server is made to refuse it, and the client is told this status.
+    /// The server is made to refuse it, and the client gets this status.
     Refused(StatusCode),
 }
 

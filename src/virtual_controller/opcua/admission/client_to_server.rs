@@ -105,7 +105,7 @@ impl<'a> ClientToServer<'a> {
         }
     }
 
-    /// The client sends nothing more: closes the sessions that nobody can use any more, then the connection. Whether
+    /// The client sends nothing more: closes the sessions that cannot be used any more, then the connection. Whether
     /// the server has something to do for it. Does nothing the second time.
     pub(super) async fn leave(&mut self, to: &mut OwnedWriteHalf) -> bool {
         if !std::mem::replace(&mut self.can_leave, false) {

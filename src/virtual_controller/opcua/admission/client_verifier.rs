@@ -16,6 +16,7 @@ use crate::pki::{Certificate, CertificateRejection, PeerRole, PresentedCertifica
 pub struct CertificateClock(Arc<dyn Fn() -> DateTime<Utc> + Send + Sync>);
 
 impl CertificateClock {
+    /// A clock that calls this function each time.
     pub fn new(clock: impl Fn() -> DateTime<Utc> + Send + Sync + 'static) -> Self {
         Self(Arc::new(clock))
     }
@@ -94,8 +95,8 @@ pub(super) fn invalid(reason: &str) -> CertificateRejection {
     CertificateRejection::unreadable(reason, "")
 }
 
-/// What the peer is told. Not more than that it was refused, unless `detailed`: the reason would help whoever looks for
-/// a certificate to steal (OPC 10000-6 §6.7.6).
+/// The error that the peer gets. It says only that the peer was refused, unless `detailed`: the reason would help an
+/// attacker to find a usable certificate (OPC 10000-6 §6.7.6).
 pub(super) fn fault(rejection: &CertificateRejection, detailed: bool) -> Fault {
     if detailed {
         Fault::new(StatusCode::from(rejection.status().code()), rejection.to_string())

@@ -80,7 +80,7 @@ impl ClaimedIdentity {
 pub(super) enum StopReason {
     /// It is told this.
     Told(Fault),
-    /// Nobody waits until it has read this.
+    /// Sending does not wait for the client to read it.
     AtOnce(Fault),
 }
 
@@ -89,7 +89,7 @@ pub(super) async fn stop_asked(stopped: &mut watch::Receiver<Option<StopReason>>
     let asked = stopped.wait_for(Option::is_some).await.map(|stop| stop.clone());
     match asked {
         Ok(Some(stop)) => stop,
-        // Nobody is left who could ask.
+        // No task is left that could ask.
         _ => std::future::pending().await,
     }
 }

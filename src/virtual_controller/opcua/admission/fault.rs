@@ -1,6 +1,6 @@
 use opcua::types::StatusCode;
 
-/// Why a peer is turned away, in the words it is told.
+/// The error message that a refused peer gets: status and reason.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(in super::super) struct Fault {
     pub(super) status: StatusCode,

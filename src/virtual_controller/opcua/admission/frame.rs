@@ -10,7 +10,7 @@ pub(super) const SYMMETRIC_HEADER: usize = HEADER + 4 + 4 + 8;
 pub(super) const MAX_HELLO: usize = HEADER + 5 * 4 + 4 + 4096;
 /// More than an OpenSecureChannel with a chain of four certificates takes.
 pub(super) const MAX_OPEN: usize = 16 * 1024;
-/// More certificates than this are no chain that anybody means.
+/// Longer chains are refused.
 pub(super) const MAX_SENT_CERTIFICATES: usize = 8;
 
 /// What travels on a connection (OPC 10000-6 §7.1.2.2, §6.7.2.2).

@@ -56,6 +56,7 @@ impl GateSettings {
 /// An open connection that was ended because its certificate is not trusted any more.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DisconnectedConnection {
+    /// Where the client connected from.
     pub address: SocketAddr,
     /// The client's own.
     pub certificate: Certificate,
@@ -134,7 +135,7 @@ impl Gate {
         self.sessions.enter(connection, &|token| self.server.find_session(token))
     }
 
-    /// What the server is told when a client has left: which of its sessions end.
+    /// The message to the server when a client has left: it closes the client's sessions.
     pub(super) fn closing_message(&self, connection: &Arc<GateConnection>) -> Vec<u8> {
         let Some(channel) = connection.state.lock().channel else { return Vec::new() };
         let ended = self.sessions.leave(connection, channel, &|token| self.server.find_session(token));
@@ -148,7 +149,7 @@ impl Gate {
             .find(|connection| connection.state.lock().login_mark.as_deref() == Some(mark))
     }
 
-    /// Tells that a user was not let in. Nobody is told if the source of it is kept quiet.
+    /// Reports that a user was not let in, unless the source is over its limit.
     pub(in super::super) fn login_refused(&self, client: SocketAddr, user: Option<&str>, reason: &str) {
         self.reporter.login_refused(client, user, reason);
     }
@@ -232,7 +233,7 @@ impl Gate {
                     let client = SecuredClient::new(policy, leaf.der()).map_err(|_| ErrorKind::InvalidInput)?;
                     state.secured = Some(Arc::new(client));
                 }
-                // Before the folder, so that nobody finds the certificate there without a connection that needs it.
+                // Before the folder, so that the certificate is not found there without a connection that needs it.
                 state.identity = Some(identity.clone());
             }
             self.pki.admit(leaf.der())
@@ -257,14 +258,14 @@ impl Gate {
     }
 
     /// Takes the certificate of a client that was refused out of the server's hands; not if another connection was let
-    /// in with it. Certificates are public: whoever shows somebody else's in a way that is refused must not lock its
-    /// owner out.
+    /// in with it. Certificates are public: a peer that shows the certificate of another in a way that is refused must
+    /// not lock its owner out.
     fn forget(&self, leaf: &Certificate, refused: &GateConnection) {
         self.pki.forget(leaf.der(), || self.connections.any_other_has(leaf, refused));
     }
 
-    /// The policy of this name, if clients may open a channel with it. Without security everybody may, since that is how
-    /// they ask for the endpoints.
+    /// The policy of this name, if clients may open a channel with it. Without security every client may, since that is
+    /// how they ask for the endpoints.
     fn offered(&self, uri: &str) -> Option<WirePolicy> {
         let policies = self.settings.policies.iter().chain([&SecurityPolicy::None]);
         policies.map(|policy| wire(*policy)).find(|policy| policy.to_uri() == uri)

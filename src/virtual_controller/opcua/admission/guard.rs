@@ -18,12 +18,12 @@ use opcua::types::{
 
 use super::gate::Gate;
 
-/// A node manager that serves only sessions the gate vouches for.
+/// A node manager that serves only sessions that the gate has checked.
 ///
 /// The OPC UA crate does not compare the certificate of CreateSession with that of the secure channel, nor the client's
 /// ApplicationUri with its certificate (OPC 10000-4 §5.6.2). Here every service that reaches a node does, and so does
-/// the activation of a session, which asks every node manager for its namespaces. Whoever finds the port behind the
-/// gate has no channel the gate knows, and gets nothing either.
+/// the activation of a session, which asks every node manager for its namespaces. A client that finds the port
+/// behind the gate has no channel that the gate knows, and is refused as well.
 pub(in super::super) struct GuardedNodeManager {
     inner: Arc<DynNodeManager>,
     gate: Arc<Gate>,
@@ -39,7 +39,7 @@ impl GuardedNodeManager {
     }
 
     fn check(&self, context: &RequestContext) -> Result<(), StatusCode> {
-        // Nobody holds it for long; the crate holds it nowhere it calls a node manager.
+        // It is never held for long; the crate does not hold it where it calls a node manager.
         let session = context.session().try_read_for(WAIT_LIMIT).ok_or(StatusCode::BadTooManyOperations)?;
         self.gate.vouch(session.session_id_numeric(), session.secure_channel_id(), || {
             let certificate = session.client_certificate().and_then(|certificate| certificate.to_der().ok());

@@ -25,7 +25,7 @@ pub(in super::super) struct InnerServer {
     stand_in: Option<SocketAddr>,
 }
 
-/// A listener for the crate's server, which insists on one. Nobody can connect to it: it is one end of a connection,
+/// A listener for the crate's server, which insists on one. No client can connect to it: it is one end of a connection,
 /// whose other end keeps it from becoming readable and must be held as long.
 pub(in super::super) fn deaf_listener() -> io::Result<(TcpListener, std::net::TcpStream)> {
     let listener = std::net::TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
@@ -50,8 +50,8 @@ impl InnerServer {
         Self { stand_in: Some(address), ..Self::default() }
     }
 
-    /// From now on this server is reached; none after `None`. A server holds its gate, so that both stay in memory until
-    /// then.
+    /// From now on this server is reached; none after `None`. A server holds its gate, so that both stay in memory
+    /// until then.
     pub(super) fn attach(&self, handle: Option<ServerHandle>) {
         *self.handle.lock() = handle;
     }
@@ -107,7 +107,7 @@ impl<'a> ReverseConnect<'a> {
     }
 }
 
-/// Waits for the one that begins with `expected`, whoever else connects.
+/// Waits for the connection that begins with `expected`; others are dropped.
 async fn answer(listener: &TcpListener, expected: &[u8]) -> io::Result<TcpStream> {
     let mut callers: JoinSet<Option<TcpStream>> = JoinSet::new();
     loop {

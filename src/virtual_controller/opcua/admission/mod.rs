@@ -11,41 +11,42 @@
 //! | `verifier` | the trust lists in force, and what a peer is told of its rejection |
 //! | `inner_server` | how the gate, and nothing else, reaches the crate's server |
 //! | `client_to_server` | whole chunks only, and requests for sessions and logins looked at |
-//! | `server_to_client` | the answers to them, and last words |
+//! | `server_to_client` | the server's messages to a client, and the error that ends a connection |
 //! | `chunk_buffer` | bytes of one direction, chunk by chunk |
 //! | `frame` | the parts of OPC UA's chunks that are not encrypted |
 //! | `rewrap` | OpenSecureChannel opened and sealed again, so that the gate has the keys of the channel |
-//! | `channel_keys` | messages opened and closed with them |
+//! | `channel_keys` | the keys of a secure channel: decrypts, encrypts and signs messages |
 //! | `channel` | what is known of one channel: its keys, its last message, what it has asked for |
 //! | `sessions` | how many sessions there may be, and which one makes room |
 //! | `logins` | which connection a user logs in by |
 //! | `guard` | sessions that do not belong to their secure channel |
 //! | `connections` | the connections there are, in the places of `connection_limits` |
 //! | `limits` | how many, how long, how large |
-//! | `report` | who is told of a refusal |
-//! | `fault` | why a peer is turned away, in the words it is told |
+//! | `report` | refusals in the log and in the rejected list |
+//! | `fault` | the error message that a refused peer gets |
 //!
 //! # Layers
-//! `service` uses `client_to_server` and `server_to_client`; these, `guard` and `logins` use `gate`; `gate` uses `verifier`,
+//! `service` uses `client_to_server` and `server_to_client`; these, `guard` and `logins` use `gate`; `gate` uses
+//! `client_verifier`,
 //! `connections`, `sessions`, `report` and `inner_server`; these use what is left. Nothing uses a layer above its own.
 //!
 //! # The walk of a connection
-//! Hello; then OpenSecureChannel, whose policy and certificates travel in clear: they are judged, and the request passes
-//! or the peer gets an error; so does one that has not the key of its certificate. From then on chunks pass, while
-//! renewals are compared with the first request and judged again. CreateSession takes a place among the sessions, and a
-//! user's name in ActivateSession is marked with its connection. When the connection ends, the gate closes the sessions
-//! that nobody could use any more.
-//! At the activation of a session the guard compares it with its channel. A change of the trust lists judges everybody
-//! again, and ends in milliseconds the connections that would not be let in now.
+//! Hello; then OpenSecureChannel, whose policy and certificates travel in clear: they are judged, and the request
+//! passes or the peer gets an error; so does one that has not the key of its certificate. From then on chunks pass,
+//! while renewals are compared with the first request and judged again. CreateSession takes a place among the sessions,
+//! and a user's name in ActivateSession is marked with its connection. When the connection ends, the gate closes the
+//! sessions that cannot be used any more. At the activation of a session the guard compares it with its channel. A
+//! change of the trust lists checks every client again, and ends in milliseconds the connections that would not be let
+//! in now.
 //!
 //! # What a peer is told
-//! `BadSecurityChecksFailed` whatever is wrong with its certificate; the true reason is in the log and with the rejected
+//! `BadSecurityChecksFailed` for every flaw of its certificate; the true reason is in the log and with the rejected
 //! clients. A controller can be told to give the true one.
 //!
 //! # Limits of the OPC UA crate that remain
-//! TransferSubscriptions and Publish reach no node, so that only the activation guards them. A password in clear is taken
-//! out where nothing is signed; a client that signs but neither encrypts its channel nor its password, although told to,
-//! shows it to who listens.
+//! TransferSubscriptions and Publish reach no node, so that only the activation guards them. A password in clear is
+//! taken out where nothing is signed; a client that signs but neither encrypts its channel nor its password, although
+//! told to, shows it to who listens.
 
 mod channel;
 mod channel_keys;

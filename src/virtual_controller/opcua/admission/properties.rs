@@ -1,4 +1,4 @@
-//! What holds whatever a peer sends: the gate reads it before anybody was let in.
+//! Properties that hold for all bytes a peer may send: the gate reads them before the peer is admitted.
 
 use opcua::types::{
     ActivateSessionRequest, BinaryEncodable as _, ByteString, ContextOwned, DecodingOptions, ExtensionObject,

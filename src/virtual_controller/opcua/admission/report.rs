@@ -12,14 +12,14 @@ use crate::virtual_controller::connection_limits::{LineDecision, LineLimiter, Re
 /// Who keeps the list of rejected clients.
 pub trait RejectionRecorder: Send + Sync {
     /// A client at `address` was refused because of its certificate. `sent` is what it sent, leaf first, and never
-    /// empty; `rejection` is the true reason, whatever the client was told.
+    /// empty; `rejection` is the true reason, which the client may not have been told.
     ///
     /// Called on the server's own tasks, so it must not take long; not more than about thirty times a minute for one
     /// address.
     fn record(&self, sent: &[Certificate], address: IpAddr, rejection: &CertificateRejection);
 }
 
-/// Tells of connections and refusals, and keeps quiet when one source causes too many of them.
+/// Reports connections and refusals, with a limit for each source.
 pub(in super::super) struct AdmissionReporter {
     events: ServerEvents,
     refusals: Option<Arc<dyn RejectionRecorder>>,
@@ -31,7 +31,7 @@ impl AdmissionReporter {
         Self { events, refusals, lines: Mutex::default() }
     }
 
-    /// A certificate was refused. False if nobody was told, because its source is kept quiet.
+    /// A certificate was refused. False if it was not reported, because the source is over its limit.
     pub(super) fn rejected(&self, client: SocketAddr, sent: &[Certificate], rejection: &CertificateRejection) -> bool {
         let told = self.refused(client, &rejection.to_string());
         if told
@@ -43,7 +43,8 @@ impl AdmissionReporter {
         told
     }
 
-    /// Something else than a certificate was refused. False if nobody was told, because its source is kept quiet.
+    /// Something else than a certificate was refused. False if it was not reported, because the source is over its
+    /// limit.
     pub(super) fn refused(&self, client: SocketAddr, reason: &str) -> bool {
         self.refusal(client, ServerEvent::Refused { client, reason })
     }
@@ -78,7 +79,7 @@ impl AdmissionReporter {
         }
     }
 
-    /// An open connection was ended because its certificate is not trusted any more. Never kept quiet: it was let in.
+    /// An open connection was ended because its certificate is not trusted any more. Reported without a limit.
     pub(super) fn cut(&self, client: SocketAddr, sent: &[Certificate], rejection: &CertificateRejection) {
         self.events.tell(ServerEvent::Cut { client, reason: &rejection.to_string() });
         if let Some(refusals) = &self.refusals {

@@ -12,8 +12,8 @@ use super::super::admission::wire::{ChannelKeys, ChunkBuffer, ChunkEnvelope, Mes
 use super::SERVER;
 use super::test_application::TestApplication;
 
-/// Stands between a client and the server, and opens the client's secure channels as somebody else, or with more
-/// certificates than its own. Everything else passes untouched. Works because the test has everybody's keys.
+/// Stands between a client and the server, and opens the client's secure channels as another application, or with more
+/// certificates than its own. Everything else passes untouched. Works because the test has the keys of both.
 pub(super) struct ImpersonatingProxy {
     pub url: String,
     /// How many CreateSession requests had the issuers put in.

@@ -53,7 +53,7 @@ async fn serves_ten(server: &OpcUaServer) -> Duration {
     longest
 }
 
-/// It was so: 20 of them, and nobody got a session for 121 s.
+/// It was so: with 20 of them, no other client got a session for 121 s.
 #[tokio::test(flavor = "multi_thread")]
 async fn sessions_that_are_not_activated_keep_nobody_out() {
     let folder = tempfile::tempdir().unwrap();

@@ -2,7 +2,7 @@ use opcua_configurator::pki::{Description, describe};
 
 use super::{PASSWORD, assert_printable};
 
-/// [`describe`]: whatever a file holds can be told as JSON and back, without a control character or a private key.
+/// [`describe`]: the description of any file goes to JSON and back, without a control character or a private key.
 pub fn description(bytes: &[u8]) {
     let Ok(things) = describe(bytes, Some(PASSWORD)) else { return };
     assert!(!things.is_empty());

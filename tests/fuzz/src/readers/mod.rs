@@ -1,4 +1,4 @@
-//! What every reader of bytes from outside has to hold, whatever the bytes are: one function a reader.
+//! What every reader of bytes from outside has to hold for all bytes: one function a reader.
 //!
 //! The fuzzer calls one of [`TARGETS`] with bytes of its own making; the test `fuzz_seeds` of the main package, which
 //! compiles this very file, calls all of them with the seeds of `corpus/` and damaged copies of them.

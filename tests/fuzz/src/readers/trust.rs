@@ -29,7 +29,8 @@ pub fn bundle(bytes: &[u8]) {
 /// certificates are trusted, which are issuers, which were sent (bit by bit, from the second on and round again), and
 /// what the policy allows.
 ///
-/// Nobody is trusted by an empty list, a chain ends in what is trusted, and who passes a strict policy passes a lax one.
+/// An empty list trusts no certificate, a chain ends in a trusted one, and a chain that passes a strict policy passes a
+/// lax one.
 pub fn trust(bytes: &[u8]) {
     let [trusted, issuers, sent, allowed, bundle @ ..] = bytes else { return };
     let Ok(Bundle { certificates, crls }) = read_bundle(bundle) else { return };

@@ -28,7 +28,7 @@ pub enum Algorithm {
     Sha384,
     Sha512,
     Sha1,
-    /// With a signature of noise: nobody here can make one, and nobody should look at it.
+    /// With a signature of noise: no key of this kind is at hand, and the signature should not be looked at.
     Md5,
     Pss,
 }
@@ -121,7 +121,7 @@ pub struct Keys {
     /// Of intermediates, from the leaf upwards.
     pub middle: [Key; 2],
     pub root: Key,
-    /// One of a CA that nobody should believe.
+    /// One of a CA that is not trusted.
     pub stranger: Key,
     pub rsa_1024: Key,
     pub p256: Key,

@@ -88,7 +88,7 @@ pub fn world(length: usize) -> World {
         role: PeerRole::Either,
         policy: TrustPolicy::default(),
         damage_leaf: None,
-        // Nobody stands above a self-signed application who could revoke it; OpenSSL would want a list of itself.
+        // No authority could revoke a self-signed application; OpenSSL would want a list of its own.
         ask: if length == 1 { Ask::NoLists } else { Ask::AllLists },
         check_policies: false,
         extended_lists: false,
