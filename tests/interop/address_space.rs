@@ -36,8 +36,8 @@ const MANDATORY: &str = "i=78";
 #[test]
 fn asyncua_finds_every_type_member_and_reference_of_both_firmware_generations() {
     let Some(python) = Python::find() else { return };
-    for firmware in ["current", "legacy"] {
-        let cell = running_cell(firmware);
+    for (firmware, more) in [("current", &[][..]), ("legacy", &[]), ("current", &["--virtual-io"])] {
+        let cell = running_cell(firmware, more);
         let output = cell.folder().join("walk.jsonl");
         let mut walker = python.script("walk.py");
         walker.args(["--url", cell.opcua(), "--output"]).arg(&output);
@@ -52,7 +52,7 @@ fn node_opcua_finds_every_type_member_and_reference_and_the_published_node_sets(
     let Some(peer) = NodePeer::find() else { return };
     let node_sets = node_sets();
     for firmware in ["current", "legacy"] {
-        let cell = running_cell(firmware);
+        let cell = running_cell(firmware, &[]);
         let output = cell.folder().join("walk.jsonl");
         let walked = answer(peer.script("walk.mjs").arg(cell.opcua()).arg(&output));
         assert_eq!(walked["ok"], true, "{walked}");
@@ -66,8 +66,8 @@ fn node_opcua_finds_every_type_member_and_reference_and_the_published_node_sets(
 }
 
 /// A controller with robots of both kinds, whose server is open to everybody.
-fn running_cell(firmware: &str) -> Cell {
-    let cell = Cell::start_with(firmware, &["--robots", "C4-A601S,GX4-A251S"]);
+fn running_cell(firmware: &str, more: &[&str]) -> Cell {
+    let cell = Cell::start_with(firmware, &[&["--robots", "C4-A601S,GX4-A251S"], more].concat());
     cell.make_certificate("2048", 1);
     cell.set("None", "anonymous");
     cell.run(&["start"]);

@@ -133,3 +133,44 @@ impl Watched {
         is_any_enabled.then_some(due)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NODE: Id = Id::own(1);
+
+    fn handle(number: u32) -> MonitoredItemHandle {
+        MonitoredItemHandle { subscription_id: 1, monitored_item_id: number }
+    }
+
+    /// At which of the first ten ticks the node is sampled; `None` from where on nothing is left to do.
+    fn sampled(sampler: &Sampler) -> Option<Vec<u32>> {
+        let mut last = HashMap::new();
+        let mut ticks = Vec::new();
+        for tick in 0..10 {
+            if !sampler.watched.due(INTERVAL * tick, &mut last)?.is_empty() {
+                ticks.push(tick);
+            }
+        }
+        Some(ticks)
+    }
+
+    #[test]
+    fn a_node_is_sampled_as_often_as_its_fastest_enabled_item_wants() {
+        let sampler = Sampler::new();
+        assert_eq!(sampled(&sampler), None);
+        sampler.add(NODE, handle(1), INTERVAL * 5, MonitoringMode::Reporting);
+        assert_eq!(sampled(&sampler), Some(vec![0, 5]));
+        sampler.add(NODE, handle(2), Duration::ZERO, MonitoringMode::Sampling);
+        assert_eq!(sampled(&sampler), Some((0..10).collect()), "no faster than every tick");
+        sampler.set_interval(NODE, handle(2), INTERVAL * 3);
+        assert_eq!(sampled(&sampler), Some(vec![0, 3, 6, 9]));
+        sampler.set_mode(NODE, handle(2), MonitoringMode::Disabled);
+        assert_eq!(sampled(&sampler), Some(vec![0, 5]));
+        sampler.remove(NODE, handle(1));
+        assert_eq!(sampled(&sampler), None, "only a disabled item is left");
+        sampler.remove(NODE, handle(2));
+        assert!(sampler.watched.nodes.lock().is_empty());
+    }
+}
