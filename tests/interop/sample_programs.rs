@@ -56,7 +56,7 @@ fn assert_same(saved: &[String], recorded: &[Vec<Value>]) {
             let is_same = match recorded {
                 Value::Number(number) if number.is_f64() => saved.parse() == Ok(number.as_f64().unwrap_or_default()),
                 Value::String(text) => saved == text,
-                number => saved == number.to_string(),
+                number => *saved == *number.to_string(),
             };
             assert!(is_same, "record {at}, value {field}: saved {saved}, recorded {recorded}");
         }
