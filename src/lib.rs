@@ -11,6 +11,7 @@
 //! | [`protocol`] | the controller-management protocol's messages and error codes |
 //! | [`workspace`] | the folder on the PC: configuration, per-serial folders, secrets; atomic writes |
 //! | [`session`] | one session with one controller, over HTTPS |
+//! | [`recorder`] | force sensor and motion log data of a controller: acquisition, files, values for plots |
 //! | [`jobs`] | what an engineer does to many controllers: plan, run side by side, report |
 //! | [`licences`] | the licences of everything linked in, for window and command line |
 //! | [`texts`] | every sentence for a person, in every language |
@@ -37,6 +38,7 @@ pub mod model;
 pub mod pki;
 pub mod platform;
 pub mod protocol;
+pub mod recorder;
 pub mod records;
 pub mod session;
 pub mod texts;

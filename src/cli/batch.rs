@@ -101,6 +101,19 @@ impl CommandContext {
         self.confirmed(configuration, chosen, operation, on_report)
     }
 
+    /// As [`CommandContext::reports`], and the caller prints everything, with `--json` too.
+    pub fn quiet_reports<O: OperationOutput>(
+        &self,
+        configuration: &Configuration,
+        chosen: &[ControllerEntry],
+        operation: impl Operation<Output = O> + 'static,
+    ) -> Result<Vec<ControllerReport<O>>, Problem> {
+        if let Some(confirmation) = operation.confirmation() {
+            self.confirm(confirmation, chosen, &[])?;
+        }
+        self.confirmed(configuration, chosen, operation, |_, _| {})
+    }
+
     /// As [`CommandContext::reports`], once everything was agreed to.
     fn confirmed<O: OperationOutput>(
         &self,

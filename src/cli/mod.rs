@@ -20,6 +20,7 @@ mod licences;
 mod output;
 mod passwords;
 mod pki;
+mod record;
 mod secret_file;
 mod server_control;
 mod server_log;
@@ -160,6 +161,9 @@ enum Command {
     ImportSettings(settings_transfer::TransferArgs),
     /// Connect to OPC UA servers as a client through every offered endpoint and token; say what works and why not
     Verify(verify::VerifyArgs),
+    /// Record force sensor and motion log data of controllers; show and convert recordings
+    #[command(subcommand)]
+    Record(record::RecordCommand),
     /// Switch the backup of what is made on or off
     #[command(subcommand)]
     Backup(backup::BackupCommand),
@@ -251,6 +255,7 @@ pub fn main() -> ExitCode {
         Some(Command::ExportSettings(args)) => settings_transfer::export(&context, &args),
         Some(Command::ImportSettings(args)) => settings_transfer::import(&context, &args),
         Some(Command::Verify(args)) => verify::run(&context, &args),
+        Some(Command::Record(command)) => record::run(&context, command),
         Some(Command::Backup(command)) => backup::run(&context, command),
         Some(Command::Vault(command)) => vault::run(&context, command),
         Some(Command::Licences(args)) => licences::run(&context, &args),

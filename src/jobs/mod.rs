@@ -26,6 +26,7 @@
 //! | `settings_transfer` | export settings to the PC, import exports |
 //! | `live_values` | watch the values of one OPC UA server as they change |
 //! | `verify` | connect to the OPC UA server as a client does |
+//! | `find_server` | find the OPC UA server of a controller, for a session that stays open |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activation;
@@ -35,6 +36,7 @@ mod controller;
 mod create_csr;
 mod enroll;
 mod export_self_signed;
+mod find_server;
 mod get_info;
 mod import_ca_signed;
 mod live_values;
@@ -65,6 +67,7 @@ pub use controller::JobController;
 pub use create_csr::{CreateCsr, CsrFields, CsrSaved};
 pub use enroll::{Enrolled, enroll, probe};
 pub use export_self_signed::{CertificateExported, ExportSelfSigned};
+pub use find_server::{FindServer, FoundServer};
 pub use get_info::GetInfo;
 pub use import_ca_signed::{CaSignedSource, CheckCaSigned, ImportCaSigned};
 pub use live_values::{

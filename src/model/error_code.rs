@@ -156,6 +156,9 @@ error_codes! {
     ConfiguratorNotTrusted "configurator-not-trusted" Pc,
     OpcUaLoginRefused "opcua-login-refused" Pc,
     OpcUaConnectionFailed "opcua-connection-failed" Pc,
+    // recording
+    NoDataNodes "no-data-nodes" Pc,
+    DataSettingsRefused "data-settings-refused" Pc,
     // activation (2.6.3)
     WrongKeys "wrong-keys" Both,
     NotInFile "not-in-file" Pc,

@@ -102,6 +102,7 @@ mod errors;
 mod files;
 mod help;
 mod live;
+mod recorder;
 mod sentences;
 mod trust;
 mod vault;
@@ -114,6 +115,7 @@ pub use errors::Explanation;
 pub use files::*;
 pub use help::{HelpTexts, UsageErrorTexts, help};
 pub use live::*;
+pub use recorder::*;
 pub use sentences::*;
 pub use trust::*;
 pub use vault::*;
@@ -159,6 +161,7 @@ impl TextKey {
             en::controllers::FIXED_TEXTS,
             en::files::FIXED_TEXTS,
             en::live::FIXED_TEXTS,
+            en::recorder::FIXED_TEXTS,
             en::server::FIXED_TEXTS,
             en::server_certificates::FIXED_TEXTS,
             en::trust::FIXED_TEXTS,

@@ -1,5 +1,6 @@
 //! How fast packets of the motion log and the force sensor become columns, against NumPy doing the same with structured
-//! dtypes, and how fast the zero-copy views walk over every field, against a copy of the same bytes.
+//! dtypes, and how fast the zero-copy views walk over every field, against a copy of the same bytes; and how long a plot
+//! of ten million points takes.
 //!
 //! `cargo bench --bench records -- [BLOCKS]`; 8,000 without an argument. NumPy is taken from the Python of `RECORDS_PYTHON`
 //! or from `python3`; without it, its lines are missing.
@@ -12,6 +13,7 @@ use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use opcua_configurator::recorder::Series;
 use opcua_configurator::records::force::{
     AllData, AllView, DataHead, DataRecords, ForceColumns, ForceDataType, ForceRead,
 };
@@ -25,6 +27,8 @@ const ROUNDS: usize = 15;
 /// Blocks or records in one read, as a client gets them that polls.
 const BLOCKS_PER_READ: usize = 8;
 const RECORDS_PER_READ: usize = 100;
+/// Columns of a plot over the whole width of a large screen.
+const PIXELS: usize = 3840;
 
 fn main() {
     let benching = report::is_benching();
@@ -60,6 +64,28 @@ fn main() {
         let walked = rate(bytes, rounds, walk);
         let ratio = walked.median() / copied.median();
         line(&format!("{what}, walked (GB/s)"), format!("{walked}; {ratio:.2} × memcpy, target 0.5 ×"));
+    }
+    plot(if benching { 10_000_000 } else { 10_000 }, rounds);
+}
+
+/// A sine with noise, plotted whole, and in a part that moves.
+fn plot(points: usize, rounds: usize) {
+    let mut series = Series::default();
+    let start = Instant::now();
+    for index in 0..points {
+        let noise = (index.wrapping_mul(2_654_435_761) % 1000) as f64 / 1000.0;
+        series.push(index as f64 * 0.001, (index as f64 * 1e-4).sin() + noise);
+    }
+    let appended = start.elapsed().as_nanos() as f64 / points as f64;
+    line("plot, append a point (ns)", format!("{appended:.1}"));
+    let end = points as f64 * 0.001;
+    for (what, from, to) in [("whole", 0.0, end), ("a third", end / 3.0, end * 2.0 / 3.0)] {
+        let times = (0..rounds * 4).map(|round| {
+            let start = Instant::now();
+            black_box(series.query(from + round as f64 * 0.01..to, PIXELS));
+            start.elapsed().as_secs_f64() * 1e3
+        });
+        line(&format!("plot, {what} (ms)"), format!("{}; {points} points, target 4 ms", Spread::of(times)));
     }
 }
 

@@ -14,13 +14,26 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("protocol", &["model", "pki"]),
     ("workspace", &["model", "pki", "platform", "protocol"]),
     ("session", &["model", "pki", "protocol", "workspace"]),
-    ("jobs", &["model", "pki", "workspace", "session"]),
-    ("texts", &["model", "pki", "workspace", "session", "jobs"]),
+    ("recorder", &["platform", "model", "records", "workspace", "session"]),
+    ("jobs", &["model", "pki", "workspace", "session", "recorder"]),
+    ("texts", &["model", "pki", "workspace", "session", "recorder", "jobs"]),
     ("ui", &["licences", "platform", "model", "pki", "workspace", "session", "jobs", "texts"]),
     ("virtual_controller", &["platform", "model", "pki", "records", "protocol"]),
     (
         "cli",
-        &["licences", "platform", "model", "pki", "workspace", "session", "jobs", "texts", "ui", "virtual_controller"],
+        &[
+            "licences",
+            "platform",
+            "model",
+            "pki",
+            "workspace",
+            "session",
+            "recorder",
+            "jobs",
+            "texts",
+            "ui",
+            "virtual_controller",
+        ],
     ),
 ];
 
@@ -69,6 +82,7 @@ const MAKES_PROBLEMS: &[&str] = &[
     "pki::fingerprint",
     "protocol::messages",
     "protocol::settings_export",
+    "recorder::problem",
     "virtual_controller::api::failed",
     "workspace::problem",
 ];

@@ -21,6 +21,7 @@ pub use report::{
 };
 
 pub use trust::TrustConfigurator;
+pub(super) use trust::{own as own_identity, trust as trust_configurator};
 
 use super::{Confirmation, JobStep, Operation, OperationOutput, OperationRun, OutputFacts};
 use crate::model::{

@@ -29,7 +29,7 @@ impl Operation for TrustConfigurator {
 }
 
 /// The program's own certificate; made if there is none yet.
-pub(super) async fn own(
+pub(in crate::jobs) async fn own(
     files: &ConfiguratorIdentityFiles,
     run: &OperationRun<'_>,
 ) -> Result<ConfiguratorIdentity, Problem> {
@@ -38,7 +38,7 @@ pub(super) async fn own(
 }
 
 /// Does nothing if it is trusted already.
-pub(super) async fn trust(run: &mut OperationRun<'_>, own: &ConfiguratorIdentity) -> Result<(), Problem> {
+pub(in crate::jobs) async fn trust(run: &mut OperationRun<'_>, own: &ConfiguratorIdentity) -> Result<(), Problem> {
     let before = TrustSnapshot::read(run.session).await?;
     let thumbprint = own.certificate.thumbprint_sha1();
     if before.holds(ClientList::Trusted, &thumbprint) {

@@ -365,6 +365,14 @@ error_texts! {
         "The connection to the OPC UA server failed",
         "The server did not answer, closed the connection, or sent something that cannot be read.",
         "Check that the server runs and that no firewall blocks its port. Verify shows how far a connection comes.";
+    NoDataNodes:
+        "The server does not offer this data",
+        "The nodes of the force sensor or the motion log are missing, or have values that they cannot have. Motion logs need firmware 8.0.0 or later; force sensor data needs a force sensor.",
+        "Check the firmware and the option of the controller. After a change of hardware, restart the controller.";
+    DataSettingsRefused:
+        "The controller does not accept the settings of the recording",
+        "The server refused to set DataType, DataNum, SamplingInterval or Port.",
+        "Log in as a user who may write, or choose other settings. Another client may be recording already.";
     WrongKeys:
         "The controller does not accept the keys",
         "The licence key or the activation key was made for another serial number, or has a typing mistake.",

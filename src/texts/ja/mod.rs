@@ -29,6 +29,7 @@ pub mod errors;
 pub mod files;
 pub mod help;
 pub mod live;
+pub mod recorder;
 pub mod revocation_lists;
 pub mod sentences;
 pub mod server;

@@ -10,6 +10,7 @@ mod lying_controller;
 mod main_job;
 mod odd_paths;
 mod pki;
+mod record;
 mod server_settings;
 mod terminal;
 mod vault;
