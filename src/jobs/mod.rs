@@ -71,9 +71,9 @@ pub use find_server::{FindServer, FoundServer};
 pub use get_info::GetInfo;
 pub use import_ca_signed::{CaSignedSource, CheckCaSigned, ImportCaSigned};
 pub use live_values::{
-    AxisPoints, ConsumablePoints, ControllerPoints, IoGroup, IoSignal, LiveEvent, LiveLayout, LiveLogin, LivePoint,
-    LiveRequest, NodeDetails, QueueKind, QueuePoints, QueueSystemPoints, RobotPoints, SafetyPoints, SpelProjectPoints,
-    StatusPoints, TaskPoints, is_consumed_by_reading, watch_values,
+    AxisPoints, ConsumablePoints, ControllerPoints, IoGroupPoints, IoSignalPoint, LiveEvent, LiveLayout, LiveLogin,
+    LivePoint, LiveRequest, NodeDetails, QueueKind, QueuePoints, QueueSystemPoints, RobotPoints, SafetyPoints,
+    SpelProjectPoints, StatusPoints, TaskPoints, is_consumed_by_reading, watch_values,
 };
 pub use operation::{
     Confirmation, JobStep, NoOutput, Operation, OperationOutput, OperationRun, OutputFacts, ServerEffect,

@@ -1,6 +1,7 @@
 //! The rules of the window, without a window.
 
 mod client_certificates;
+mod live_values;
 mod server_log;
 mod transfer;
 mod vault;

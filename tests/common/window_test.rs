@@ -5,8 +5,13 @@ use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use egui_kittest::kittest::Queryable as _;
-use opcua_configurator::jobs::Operation;
-use opcua_configurator::model::{CertificateType, ConnectionKind, Problem, SerialNumber};
+use opcua_configurator::jobs::{
+    AddUser, BasicSettingsChange, Operation, SelfSigned, SelfSignedFields, SetBasicSettings, StartServer,
+};
+use opcua_configurator::model::{
+    CertificateType, ConnectionKind, KeyLength, Problem, SecurityPolicy, SerialNumber, UserCredential, UserPassword,
+    UserTokenPolicy, Validity,
+};
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
 use opcua_configurator::ui::picker::{FileKind, FilePicker, FixedPicker, Picked};
 use opcua_configurator::virtual_controller::{FleetFirmware, demo_keys};
@@ -81,6 +86,34 @@ impl WindowTest {
     /// A plant, and a window that knows it: "cell 1", "cell 2", …
     pub fn with_controllers(count: usize, firmware: FleetFirmware) -> Self {
         Self::start(|| TestFleet::start(count, firmware), listed, None, |_| FixedPicker(Ok(None)))
+    }
+
+    /// Controllers whose servers run, with a user.
+    pub fn with_servers(count: usize, firmware: FleetFirmware, policies: &[SecurityPolicy]) -> Self {
+        let app = Self::with_controllers(count, firmware);
+        let change = BasicSettingsChange {
+            security_policies: Some(policies.iter().copied().collect()),
+            user_tokens: Some(UserTokenPolicy::ALL.into()),
+            ..BasicSettingsChange::default()
+        };
+        app.run(SetBasicSettings { change, ..SetBasicSettings::default() });
+        app.run(SelfSigned {
+            fields: SelfSignedFields {
+                common_name: None,
+                country: "JP".into(),
+                state: "Nagano".into(),
+                locality: "Suwa".into(),
+                organisation: "Example".into(),
+                key_length: KeyLength::Rsa2048,
+                validity: Validity::try_from(5).unwrap(),
+            },
+            backup: None,
+        });
+        let credential =
+            UserCredential { name: "operator1".parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() };
+        app.run(AddUser { credential, based_on: None });
+        app.run(StartServer);
+        app
     }
 
     /// `picker` gets the desk's folder.

@@ -11,6 +11,7 @@ mod client_certificates;
 mod drop;
 #[path = "../common/harness.rs"]
 mod harness;
+mod live_values;
 mod main_window;
 mod pictures;
 #[path = "../common/samples.rs"]

@@ -107,6 +107,7 @@ pub fn job(window: &W) -> JobId {
         | BackendCommand::PickFile { job, .. }
         | BackendCommand::Recognise { job, .. }
         | BackendCommand::LookAtExport { job, .. }
+        | BackendCommand::WatchValues { job, .. }
         | BackendCommand::Authority { job, .. } => Some(*job),
         _ => None,
     };

@@ -2,8 +2,8 @@ use std::collections::HashMap;
 
 use super::consumed::is_consumed_by_reading;
 use super::layout::{
-    AxisPoints, ConsumablePoints, ControllerPoints, IoGroup, IoSignal, LiveLayout, LivePoint, QueueKind, QueuePoints,
-    QueueSystemPoints, RobotPoints, SafetyPoints, SpelProjectPoints, StatusPoints, TaskPoints,
+    AxisPoints, ConsumablePoints, ControllerPoints, IoGroupPoints, IoSignalPoint, LiveLayout, LivePoint, QueueKind,
+    QueuePoints, QueueSystemPoints, RobotPoints, SafetyPoints, SpelProjectPoints, StatusPoints, TaskPoints,
 };
 use super::tree::{NodeIndex, NodeTree};
 use crate::model::opcua::{NodeId, Value};
@@ -88,7 +88,11 @@ impl Arranger<'_> {
             motor_on_count: of("RobotStatus", "MotorOnCount"),
             target_position: of("AdditionalInfo", "CurPos"),
             actual_position: of("AdditionalInfo", "RealPos"),
-            axes: axes.iter().enumerate().map(|(at, axis)| self.axis(*axis, self.train(*axis, at, &trains))).collect(),
+            axes: axes
+                .iter()
+                .enumerate()
+                .map(|(at, axis)| self.axis(&name, *axis, self.train(*axis, at, &trains)))
+                .collect(),
         });
         self.consumables(robot, &name, layout);
         for axis in axes {
@@ -103,23 +107,28 @@ impl Arranger<'_> {
         trains.iter().find(moves).or_else(|| trains.get(at)).copied()
     }
 
-    fn axis(&self, axis: NodeIndex, train: Option<NodeIndex>) -> AxisPoints {
+    /// The variables are named with robot and axis, which tells them apart in a plot.
+    fn axis(&self, robot: &str, axis: NodeIndex, train: Option<NodeIndex>) -> AxisPoints {
         let tree = self.tree;
+        let named = |object: NodeIndex, name: &str| {
+            let point = self.point(object, name)?;
+            Some(LivePoint { name: format!("{robot} {} {}", self.name(axis), point.name), ..point })
+        };
         let motor = train.and_then(|train| {
             let is_motor = |part: &NodeIndex| tree.variable(*part, "MotorTemperature").is_some();
             tree.objects(train).find(is_motor)
         });
-        let extra = |name: &str| self.point(tree.child(axis, "AdditionalInfo")?, name);
+        let extra = |name: &str| named(tree.child(axis, "AdditionalInfo")?, name);
         AxisPoints {
             name: self.name(axis),
-            profile: self.point(axis, "MotionProfile"),
-            position: self.point(axis, "ActualPosition"),
-            speed: self.point(axis, "ActualSpeed"),
-            acceleration: self.point(axis, "ActualAcceleration"),
+            profile: named(axis, "MotionProfile"),
+            position: named(axis, "ActualPosition"),
+            speed: named(axis, "ActualSpeed"),
+            acceleration: named(axis, "ActualAcceleration"),
             torque: extra("Torque"),
             hofs: extra("Hofs"),
-            load_rate: motor.and_then(|motor| self.point(motor, "EffectiveLoadRate")),
-            motor_temperature: motor.and_then(|motor| self.point(motor, "MotorTemperature")),
+            load_rate: motor.and_then(|motor| named(motor, "EffectiveLoadRate")),
+            motor_temperature: motor.and_then(|motor| named(motor, "MotorTemperature")),
         }
     }
 
@@ -176,14 +185,14 @@ impl Arranger<'_> {
         }
     }
 
-    fn signals(&self, system: NodeIndex, signals: NodeIndex) -> IoGroup {
+    fn signals(&self, system: NodeIndex, signals: NodeIndex) -> IoGroupPoints {
         let points = self.tree.variables(signals).enumerate().map(|(at, index)| {
             let browse_name = &self.tree.node(index).browse_name.name;
-            IoSignal { point: self.point_at(index), number: trailing_number(browse_name).unwrap_or(at as u32) }
+            IoSignalPoint { point: self.point_at(index), number: trailing_number(browse_name).unwrap_or(at as u32) }
         });
-        let mut points: Vec<IoSignal> = points.collect();
+        let mut points: Vec<IoSignalPoint> = points.collect();
         points.sort_by_key(|signal| signal.number);
-        IoGroup { system: self.name(system), name: self.name(signals), signals: points }
+        IoGroupPoints { system: self.name(system), name: self.name(signals), signals: points }
     }
 
     fn project(&self, project: NodeIndex) -> SpelProjectPoints {
@@ -277,6 +286,7 @@ mod tests {
         assert!(found.speed_override.is_some() && found.power.is_some() && found.actual_position.is_some());
         assert!(found.home.is_none() && found.target_position.is_none());
         let position = found.axes[0].position.as_ref().unwrap();
+        assert_eq!(position.name, "Robot1 J1 ActualPosition");
         assert_eq!((position.unit.as_deref(), position.range), (Some("deg"), Some((-170.0, 170.0))));
         let load = |at: usize| found.axes[at].load_rate.as_ref().unwrap().node.clone();
         let train = |name: &str| {

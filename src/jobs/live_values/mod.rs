@@ -25,8 +25,8 @@ mod watch;
 
 pub use consumed::is_consumed_by_reading;
 pub use layout::{
-    AxisPoints, ConsumablePoints, ControllerPoints, IoGroup, IoSignal, LiveLayout, LivePoint, QueueKind, QueuePoints,
-    QueueSystemPoints, RobotPoints, SafetyPoints, SpelProjectPoints, StatusPoints, TaskPoints,
+    AxisPoints, ConsumablePoints, ControllerPoints, IoGroupPoints, IoSignalPoint, LiveLayout, LivePoint, QueueKind,
+    QueuePoints, QueueSystemPoints, RobotPoints, SafetyPoints, SpelProjectPoints, StatusPoints, TaskPoints,
 };
 pub use request::{LiveEvent, LiveRequest, NodeDetails};
 pub use watch::{LiveLogin, watch_values};

@@ -34,7 +34,6 @@ english_texts! { live:
     LiveSpeedOverride: "Speed factor";
     LiveMotorOnTime: "Motor-on time";
     LiveMotorOnCount: "Times motors were switched on";
-    LiveModel: "Model";
     LiveNumber: "Robot number";
     LiveKind: "Kind";
     LiveSixAxis: "Six-axis";
@@ -95,7 +94,6 @@ english_texts! { live:
     LiveQueueError: "Error";
     LiveDataNote: "The recorded data is not read here: each read takes it away from the client that records it.";
     LiveChoose: "Choose a node to see its attributes";
-    LiveAttribute: "Attribute";
     LiveQuality: "Quality";
     LiveSourceTime: "Source time";
     LiveServerTime: "Server time";
@@ -108,7 +106,6 @@ english_texts! { live:
     LivePlotResume: "Follow";
     LivePlotClear: "Remove all";
     LivePlotRemove: "Remove";
-    LivePlotReset: "Clear history";
     LiveDropHere: "Drop here to plot";
     LiveWrite: "Write a value…";
     LiveWriteTitle: "Write a value";

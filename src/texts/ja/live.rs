@@ -34,7 +34,6 @@ fixed_texts! {
     LiveSpeedOverride: "速度係数";
     LiveMotorOnTime: "励磁時間";
     LiveMotorOnCount: "励磁回数";
-    LiveModel: "型式";
     LiveNumber: "ロボット番号";
     LiveKind: "種類";
     LiveSixAxis: "6軸";
@@ -95,7 +94,6 @@ fixed_texts! {
     LiveQueueError: "エラー";
     LiveDataNote: "取得データはここでは読み出しません。読み出すとキューから取り出され、記録中のクライアントがそのデータを取得できなくなるためです。";
     LiveChoose: "ノードを選択すると、属性を表示します";
-    LiveAttribute: "属性";
     LiveQuality: "品質";
     LiveSourceTime: "ソース時刻";
     LiveServerTime: "サーバー時刻";
@@ -108,7 +106,6 @@ fixed_texts! {
     LivePlotResume: "追従";
     LivePlotClear: "すべて削除";
     LivePlotRemove: "削除";
-    LivePlotReset: "履歴を消去";
     LiveDropHere: "ここにドロップするとグラフに追加します";
     LiveWrite: "値の書き込み…";
     LiveWriteTitle: "値の書き込み";

@@ -34,7 +34,6 @@ fixed_texts! {
     LiveSpeedOverride: "速度比例";
     LiveMotorOnTime: "励磁时间";
     LiveMotorOnCount: "励磁次数";
-    LiveModel: "型号";
     LiveNumber: "机器人编号";
     LiveKind: "类型";
     LiveSixAxis: "6 轴";
@@ -95,7 +94,6 @@ fixed_texts! {
     LiveQueueError: "错误";
     LiveDataNote: "此处不读取采集的数据：每次读取都会从队列中取走数据，使采集数据的客户端无法再获取。";
     LiveChoose: "选择一个节点以查看其属性";
-    LiveAttribute: "属性";
     LiveQuality: "质量";
     LiveSourceTime: "源时间";
     LiveServerTime: "服务器时间";
@@ -108,7 +106,6 @@ fixed_texts! {
     LivePlotResume: "跟随";
     LivePlotClear: "全部移除";
     LivePlotRemove: "移除";
-    LivePlotReset: "清除历史";
     LiveDropHere: "拖放到此处以绘制曲线";
     LiveWrite: "写入值…";
     LiveWriteTitle: "写入值";

@@ -7,6 +7,7 @@ mod client_certificates;
 mod closing;
 mod drop;
 mod files;
+mod live_values;
 mod main_job;
 mod server_certificates;
 mod settings_transfer;

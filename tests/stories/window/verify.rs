@@ -1,43 +1,12 @@
 //! Connecting to controllers as an OPC UA client, through the real window.
 
-use opcua_configurator::jobs::{
-    AddUser, BasicSettingsChange, SelfSigned, SelfSignedFields, SetBasicSettings, StartServer,
-};
-use opcua_configurator::model::{KeyLength, SecurityPolicy, UserCredential, UserPassword, UserTokenPolicy, Validity};
+use opcua_configurator::model::SecurityPolicy;
 use opcua_configurator::virtual_controller::FleetFirmware;
 
 use crate::common::window::{choose, is_enabled, shows, type_into, wait_until};
 use crate::common::window_test::{WAIT_LIMIT, WindowTest};
 
 impl WindowTest {
-    /// Controllers whose servers run, with a user.
-    fn with_servers(count: usize, policies: &[SecurityPolicy]) -> Self {
-        let app = Self::with_controllers(count, FleetFirmware::Mixed);
-        let change = BasicSettingsChange {
-            security_policies: Some(policies.iter().copied().collect()),
-            user_tokens: Some(UserTokenPolicy::ALL.into()),
-            ..BasicSettingsChange::default()
-        };
-        app.run(SetBasicSettings { change, ..SetBasicSettings::default() });
-        app.run(SelfSigned {
-            fields: SelfSignedFields {
-                common_name: None,
-                country: "JP".into(),
-                state: "Nagano".into(),
-                locality: "Suwa".into(),
-                organisation: "Example".into(),
-                key_length: KeyLength::Rsa2048,
-                validity: Validity::try_from(5).unwrap(),
-            },
-            backup: None,
-        });
-        let credential =
-            UserCredential { name: "operator1".parse().unwrap(), password: UserPassword::new("Passw0rd1").unwrap() };
-        app.run(AddUser { credential, based_on: None });
-        app.run(StartServer);
-        app
-    }
-
     /// Until the reports are there.
     fn wait_for_reports(&mut self) {
         wait_until(&mut self.window, WAIT_LIMIT, |window| {
@@ -52,7 +21,8 @@ impl WindowTest {
 
 #[test]
 fn what_fails_is_explained_mended_and_verified_again() {
-    let mut app = WindowTest::with_servers(2, &[SecurityPolicy::None, SecurityPolicy::Basic256Sha256]);
+    let mut app =
+        WindowTest::with_servers(2, FleetFirmware::Mixed, &[SecurityPolicy::None, SecurityPolicy::Basic256Sha256]);
     app.tick(&["cell 1", "cell 2"]);
     choose(&mut app.window, &["Tools", "Verify"]);
     app.wait_for_reports();
@@ -89,7 +59,7 @@ fn what_fails_is_explained_mended_and_verified_again() {
 
 #[test]
 fn a_change_that_starts_the_server_again_can_be_verified() {
-    let mut app = WindowTest::with_servers(1, &[SecurityPolicy::None]);
+    let mut app = WindowTest::with_servers(1, FleetFirmware::Mixed, &[SecurityPolicy::None]);
     app.tick(&["cell 1"]);
     let settings = |app: &mut WindowTest| {
         choose(&mut app.window, &["Server settings", "Basic settings…"]);
@@ -116,7 +86,7 @@ fn a_change_that_starts_the_server_again_can_be_verified() {
 
 #[test]
 fn a_controller_that_cannot_be_asked_does_not_keep_the_others_out() {
-    let mut app = WindowTest::with_servers(2, &[SecurityPolicy::None]);
+    let mut app = WindowTest::with_servers(2, FleetFirmware::Mixed, &[SecurityPolicy::None]);
     app.runtime.block_on(app.fleet.controller(0).shutdown());
     app.tick(&["cell 1", "cell 2"]);
     choose(&mut app.window, &["Tools", "Verify"]);

@@ -18,21 +18,30 @@ pub struct NodeBrowser {
 /// A node at one place of the tree. The same node may be at several places.
 #[derive(Debug)]
 pub struct BrowsedNode {
+    /// Its id.
     pub node: NodeId,
     /// Display name, or else the browse name.
     pub name: String,
+    /// What kind of node it is.
     pub class: NodeClass,
+    /// Nodes above it.
     pub depth: usize,
+    /// What is below it is shown, or is read to be shown.
     pub is_unfolded: bool,
+    /// What is below it.
     pub below: ChildrenState,
 }
 
 /// What is below a node.
 #[derive(Debug, PartialEq)]
 pub enum ChildrenState {
+    /// It was not asked for.
     Unread,
+    /// It was asked for.
     Reading,
+    /// Indices of the nodes below, in the order of the server.
     Read(Vec<usize>),
+    /// Why it could not be read.
     Failed(Problem),
 }
 
@@ -72,6 +81,7 @@ impl NodeBrowser {
         self.lines.iter().position(|index| *index == selected)
     }
 
+    /// The selected node.
     pub fn selected(&self) -> Option<&BrowsedNode> {
         self.selected.map(|index| &self.nodes[index])
     }

@@ -8,7 +8,9 @@ use crate::ui::model::JobId;
 #[derive(Debug)]
 pub struct EditValue {
     pub(super) watch: JobId,
+    /// The node.
     pub node: NodeId,
+    /// The name of the node.
     pub name: String,
     /// BrowseName of the data type.
     pub data_type: String,
@@ -16,6 +18,7 @@ pub struct EditValue {
     pub before: Value,
     /// As it is typed.
     pub text: String,
+    /// It was sent and is not answered yet.
     pub is_writing: bool,
     /// Why the last write did not succeed.
     pub refusal: Option<Result<Quality, Problem>>,

@@ -14,6 +14,7 @@ use crate::ui::model::{JobId, RowId, SecretInput};
 pub enum LiveConnection {
     /// Nothing has come yet.
     Connecting,
+    /// The values are current.
     Live,
     /// It is connected again.
     Lost(Problem),
@@ -24,19 +25,27 @@ pub enum LiveConnection {
 /// What the OPC UA server of one controller shows.
 #[derive(Debug)]
 pub struct LiveForm {
+    /// The row of the controller.
     pub row: RowId,
+    /// The name of the controller.
     pub name: String,
+    /// Whether the values are current.
     pub link: LiveConnection,
     /// `None`: the server was not reached yet.
     pub layout: Option<Box<LiveLayout>>,
+    /// The open tab.
     pub section: LiveSection,
     /// The group of signals that is shown: index into [`LiveLayout::io`].
     pub io_group: usize,
+    /// The tree of the tab for all nodes.
     pub browser: NodeBrowser,
+    /// The values of the tab for the plot.
     pub plot: LivePlot,
     /// As it is typed; empty: anonymous.
     pub user: String,
+    /// As it is typed; wiped when it was used.
     pub password: SecretInput,
+    /// The password is shown in clear.
     pub show_password: bool,
     /// The fields for the login are shown.
     pub asks_for_login: bool,
@@ -50,6 +59,7 @@ pub struct LiveForm {
 }
 
 impl LiveForm {
+    /// The dialog before anything was read.
     pub fn new(row: RowId, name: String) -> Self {
         Self {
             row,
@@ -71,6 +81,7 @@ impl LiveForm {
         }
     }
 
+    /// Whether the values are those that the server has now.
     pub fn is_live(&self) -> bool {
         self.link == LiveConnection::Live
     }
@@ -86,6 +97,7 @@ impl LiveForm {
         (!value.quality.is_bad() && value.value != Value::Null).then_some(&value.value)
     }
 
+    /// The last value of each variable that was reported.
     pub fn values(&self) -> &HashMap<NodeId, DataValue> {
         &self.values
     }

@@ -1,6 +1,6 @@
 use std::collections::HashMap;
 
-use crate::jobs::{IoGroup, LivePoint};
+use crate::jobs::{IoGroupPoints, LivePoint};
 use crate::model::opcua::{DataValue, NodeId, Value};
 
 /// A lamp.
@@ -15,7 +15,7 @@ pub struct IoBit<'a> {
 }
 
 /// The bits of a group of signals. A byte has eight, a word sixteen; bit 0 is the lowest (manual 3.2.3.1).
-pub fn bits<'a>(group: &'a IoGroup, values: &HashMap<NodeId, DataValue>) -> Vec<IoBit<'a>> {
+pub fn bits<'a>(group: &'a IoGroupPoints, values: &HashMap<NodeId, DataValue>) -> Vec<IoBit<'a>> {
     let mut bits = Vec::new();
     for signal in &group.signals {
         let value = values.get(&signal.point.node);
@@ -38,15 +38,16 @@ pub fn bits<'a>(group: &'a IoGroup, values: &HashMap<NodeId, DataValue>) -> Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::jobs::IoSignal;
+    use crate::jobs::IoSignalPoint;
 
     #[test]
     fn bytes_and_words_are_taken_apart() {
-        let signal = |number: u32| IoSignal {
+        let signal = |number: u32| IoSignalPoint {
             point: LivePoint { node: NodeId::numeric(1, number), name: String::new(), unit: None, range: None },
             number,
         };
-        let group = IoGroup { signals: vec![signal(2), signal(3), signal(4), signal(5)], ..IoGroup::default() };
+        let group =
+            IoGroupPoints { signals: vec![signal(2), signal(3), signal(4), signal(5)], ..IoGroupPoints::default() };
         let value = |value: Value| DataValue { value, ..DataValue::default() };
         let values = HashMap::from([
             (NodeId::numeric(1, 2), value(Value::Boolean(true))),

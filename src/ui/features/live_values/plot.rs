@@ -29,6 +29,7 @@ const HOLD: f64 = 0.5;
 /// The samples of one variable.
 #[derive(Debug)]
 pub struct PlotSeries {
+    /// The variable.
     pub point: LivePoint,
     /// Number of its colour.
     pub color: usize,
@@ -46,18 +47,22 @@ impl Default for LivePlot {
 }
 
 impl LivePlot {
+    /// What is plotted, in the order in which it was added.
     pub fn series(&self) -> &[PlotSeries] {
         &self.series
     }
 
+    /// The variables that are plotted.
     pub fn nodes(&self) -> impl Iterator<Item = &NodeId> {
         self.series.iter().map(|series| &series.point.node)
     }
 
+    /// Whether a variable is plotted.
     pub fn holds(&self, node: &NodeId) -> bool {
         self.nodes().any(|held| held == node)
     }
 
+    /// Whether no other variable can be added.
     pub fn is_full(&self) -> bool {
         self.series.len() >= MAX_SERIES
     }
@@ -72,6 +77,7 @@ impl LivePlot {
         self.series.push(PlotSeries { point, color, samples: VecDeque::new() });
     }
 
+    /// Removes a variable with its samples.
     pub fn remove(&mut self, node: &NodeId) {
         self.series.retain(|series| series.point.node != *node);
     }

@@ -1,5 +1,5 @@
 use crate::jobs::{
-    IoGroup, LiveLayout, LivePoint, RobotPoints, SafetyPoints, SpelProjectPoints, StatusPoints, TaskPoints,
+    IoGroupPoints, LiveLayout, LivePoint, RobotPoints, SafetyPoints, SpelProjectPoints, StatusPoints, TaskPoints,
 };
 use crate::model::opcua::NodeId;
 use crate::texts::TextKey as T;
@@ -7,13 +7,21 @@ use crate::texts::TextKey as T;
 /// A tab of the dialog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LiveSection {
+    /// Robots with their axes.
     Robot,
+    /// Safety states and tasks.
     Safety,
+    /// I/O as lamps.
     Io,
+    /// SPEL variables.
     Variables,
+    /// Parts that wear.
     Consumables,
+    /// Controllers, status flags, force sensor and motion log.
     Status,
+    /// The address space.
     Nodes,
+    /// Values over time.
     Plot,
 }
 
@@ -60,7 +68,7 @@ impl LiveSection {
                 let tasks = layout.tasks.iter().flat_map(TaskPoints::points);
                 safety.chain(tasks).map(node).collect()
             }
-            Self::Io => layout.io.get(io).into_iter().flat_map(IoGroup::points).map(node).collect(),
+            Self::Io => layout.io.get(io).into_iter().flat_map(IoGroupPoints::points).map(node).collect(),
             Self::Variables => layout.projects.iter().flat_map(SpelProjectPoints::points).map(node).collect(),
             Self::Consumables => layout.consumables.iter().flat_map(|part| part.points()).map(node).collect(),
             Self::Status => {

@@ -1,7 +1,7 @@
 use egui::{Align2, Button, FontId, Sense, Stroke, Ui, WidgetInfo, pos2};
 
 use super::value::ValueCells;
-use crate::jobs::IoGroup;
+use crate::jobs::IoGroupPoints;
 use crate::texts;
 use crate::ui::features::live_values::LiveForm;
 use crate::ui::features::live_values::io::{IoBit, bits};
@@ -32,7 +32,7 @@ pub fn show(ui: &mut Ui, cells: &ValueCells<'_>, messages: &mut Vec<Message>) ->
 }
 
 /// Rows of eight or sixteen, so that the numbers of a column differ by whole bytes.
-fn lamps(ui: &mut Ui, cells: &ValueCells<'_>, group: &IoGroup, messages: &mut Vec<Message>) {
+fn lamps(ui: &mut Ui, cells: &ValueCells<'_>, group: &IoGroupPoints, messages: &mut Vec<Message>) {
     let bits = bits(group, cells.form.values());
     let in_row = if ui.available_width() >= 16.0 * theme::LAMP.x { 16 } else { 8 };
     ui.spacing_mut().item_spacing = egui::Vec2::ZERO;

@@ -2,12 +2,13 @@
 
 use egui::{Context, Key, Modifiers};
 
-use crate::ui::features::live_values::{LiveForm, LiveSection};
+use crate::ui::features::live_values::{BrowserMove, LiveForm, LiveSection};
 use crate::ui::model::{Message, Model};
 
 /// How far Page Up and Page Down go in the tree.
 const PAGE: isize = 15;
 
+/// Ctrl+Page Up and Ctrl+Page Down turn the tabs; the arrow keys move in the tree.
 pub fn read(ctx: &Context, form: &mut LiveForm, messages: &mut Vec<Message>) {
     if form.layout.is_none() || egui::Popup::is_any_open(ctx) {
         return;
@@ -35,9 +36,7 @@ pub fn read(ctx: &Context, form: &mut LiveForm, messages: &mut Vec<Message>) {
         if pressed(key)
             && let Some(node) = browser.move_selection(by)
         {
-            messages.push(Message::act(move |model| {
-                model.live_moved(crate::ui::features::live_values::BrowserMove::Selected(node))
-            }));
+            messages.push(Message::act(move |model| model.live_moved(BrowserMove::Selected(node))));
         }
     }
     let right = pressed(Key::ArrowRight).then(|| browser.right()).flatten();

@@ -26,9 +26,11 @@ pub fn show(ui: &mut Ui, form: &mut LiveForm, height: f32, model: &Model, messag
         });
         ScrollArea::vertical().id_salt("series").max_height(height).auto_shrink(false).show(ui, |ui| {
             let cells = ValueCells { form, model };
-            for series in form.plot.series() {
-                entry(ui, &cells, series, messages);
-            }
+            ui.vertical(|ui| {
+                for series in form.plot.series() {
+                    entry(ui, &cells, series, messages);
+                }
+            });
         });
     });
 }
@@ -72,6 +74,7 @@ fn lines(ui: &mut Ui, form: &LiveForm, width: f32, height: f32, model: &Model) {
         .allow_axis_zoom_drag(false)
         .allow_double_click_reset(false)
         .show_background(false)
+        .grid_color(palette.line)
         .x_axis_formatter(|mark, _| ago(mark.value));
     plot.show(ui, |plot| {
         plot.set_plot_bounds_x(from - to..=0.0);

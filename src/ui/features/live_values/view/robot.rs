@@ -77,7 +77,7 @@ fn tool(ui: &mut Ui, cells: &ValueCells<'_>, index: usize, robot: &RobotPoints) 
     table(ui, ("tool", index), pose::NAMES.len() + 1, |ui| {
         ui.label("");
         for (at, name) in pose::NAMES.iter().enumerate() {
-            let unit = if at < 3 { "mm" } else { "deg" };
+            let unit = if at < 3 { "mm" } else { "°" };
             let text = RichText::new(format!("{name} ({unit})")).size(theme::HEADER_TEXT).color(palette(ui).weak);
             ui.label(text);
         }

@@ -2,6 +2,7 @@ use egui::{Align, Color32, Grid, Label, Layout, Response, RichText, Sense, Ui, v
 
 use crate::jobs::LivePoint;
 use crate::model::opcua::{DataValue, Quality, Value};
+use crate::model::untrusted_text::one_line;
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::live_values::LiveForm;
 use crate::ui::model::{Message, Model};
@@ -79,7 +80,9 @@ impl ValueCells<'_> {
         let color = if self.form.is_live() { color } else { palette.off };
         let number = value.is_some_and(|value| value.value.as_f64().is_some());
         let sense = if number { Sense::click_and_drag() } else { Sense::click() };
-        let label = Label::new(RichText::new(shown).color(color)).selectable(false).truncate().sense(sense);
+        // A grid gives a label no more room than the lines above; the rest is in the tooltip.
+        let shown = RichText::new(one_line(&shown, MAX_CHARS)).color(color);
+        let label = Label::new(shown).selectable(false).extend().sense(sense);
         let response = ui.add(label);
         self.offer(&response, point, number, messages);
         response.on_hover_ui(|ui| self.details(ui, point, value))
@@ -121,7 +124,7 @@ impl ValueCells<'_> {
         ui.label(RichText::new(&point.name).strong());
         ui.label(RichText::new(point.node.to_string()).size(theme::SMALL_TEXT).monospace());
         let Some(value) = value else { return };
-        ui.label(crate::model::untrusted_text::one_line(&value.value.to_string(), 300));
+        ui.label(one_line(&value.value.to_string(), 300));
         let time = |at: Option<chrono::DateTime<chrono::Utc>>| at.map(|at| self.model.zone.date_time(at));
         let rows = [
             (T::LiveQuality, Some(value.quality.name().to_owned())),
@@ -175,3 +178,5 @@ pub fn heading(ui: &mut Ui, text: &str) {
 }
 
 const WIDE: f32 = 900.0;
+/// Characters of a value in a table.
+const MAX_CHARS: usize = 48;
