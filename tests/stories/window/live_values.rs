@@ -39,7 +39,8 @@ impl WindowTest {
         let selected = browser.selected_line();
         let from = selected.map_or(0, |line| line + 1);
         let is_it = |line: &usize| browser.line(*line).is_some_and(|node| node.name == name);
-        let line = (from..browser.len()).find(is_it).unwrap_or_else(|| panic!("no node {name} below {selected:?}"));
+        let line =
+            (from..browser.line_count()).find(is_it).unwrap_or_else(|| panic!("no node {name} below {selected:?}"));
         for _ in from..=line {
             self.window.key_press(egui::Key::ArrowDown);
             self.window.step();
@@ -50,10 +51,10 @@ impl WindowTest {
     /// Selects the next node of this name and unfolds it, and waits until what is below it is there.
     fn unfold(&mut self, name: &str) {
         self.select(name);
-        let lines = self.live().browser.len();
+        let lines = self.live().browser.line_count();
         self.window.key_press(egui::Key::ArrowRight);
         wait_until(&mut self.window, WAIT_LIMIT, |window| {
-            window.state().model.top::<LiveForm>().is_some_and(|form| form.browser.len() > lines)
+            window.state().model.top::<LiveForm>().is_some_and(|form| form.browser.line_count() > lines)
         });
     }
 }
