@@ -232,7 +232,7 @@ fn record_all(
                 let client = tokio::task::spawn_blocking(move || OpcUaClient::new(&own, ConnectTimeouts::default()));
                 let client = match client.await {
                     Ok(Ok(client)) => Arc::new(client),
-                    Ok(Err(error)) => return (entry, Err(Problem::from(error))),
+                    Ok(Err(error)) => return (entry, Err(error)),
                     Err(error) => return (entry, Err(Problem::with_detail(ErrorCode::Internal, error))),
                 };
                 let connector = OpcUaConnector::new(found.server, client, login, settings);

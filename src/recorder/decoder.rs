@@ -37,8 +37,8 @@ pub struct Facts {
 
 #[derive(Debug)]
 enum Data {
-    Force { data_type: ForceDataType, columns: ForceColumns, assembly: ForceAssembly, elapsed: Option<u32> },
-    Motion { columns: MotionColumns, last: Option<LastBlock>, period: Option<u64> },
+    Force { data_type: ForceDataType, columns: Box<ForceColumns>, assembly: ForceAssembly, elapsed: Option<u32> },
+    Motion { columns: Box<MotionColumns>, last: Option<LastBlock>, period: Option<u64> },
 }
 
 /// The block before, in ticks.
@@ -55,13 +55,10 @@ impl Decoder {
     /// For a recording with these settings.
     pub fn new(settings: &RecordSettings) -> Self {
         let data = match settings.source() {
-            Source::Force { data_type, .. } => Data::Force {
-                data_type,
-                columns: ForceColumns::default(),
-                assembly: ForceAssembly::default(),
-                elapsed: None,
-            },
-            Source::Motion { .. } => Data::Motion { columns: MotionColumns::default(), last: None, period: None },
+            Source::Force { data_type, .. } => {
+                Data::Force { data_type, columns: Box::default(), assembly: ForceAssembly::default(), elapsed: None }
+            }
+            Source::Motion { .. } => Data::Motion { columns: Box::default(), last: None, period: None },
         };
         Self { data, interrupted: None, facts: Facts::default() }
     }

@@ -146,7 +146,10 @@ mod tests {
         }
     }
 
-    fn tree(rows: &[(u32, &[(u32, &str, NodeClass)])]) -> Tree {
+    /// A node and its children, each with its number, name and class.
+    type Row<'a> = (u32, &'a [(u32, &'a str, NodeClass)]);
+
+    fn tree(rows: &[Row<'_>]) -> Tree {
         let id = |identifier| match identifier {
             85 => NodeId::OBJECTS_FOLDER,
             other => NodeId::numeric(4, other),

@@ -89,10 +89,10 @@ fn field(column: &Column<'_>) -> Result<Arc<Type>> {
 fn write(writer: &mut SerializedColumnWriter<'_>, column: &Column<'_>, rows: usize) -> Result<()> {
     let there = |row: usize| row.is_multiple_of(column.rows_per_value) && column.is_there(row / column.rows_per_value);
     match column.values {
-        Values::U8(values) => of::<Int32Type, _>(writer, column, rows, there, values, |value| i32::from(value)),
-        Values::I8(values) => of::<Int32Type, _>(writer, column, rows, there, values, |value| i32::from(value)),
-        Values::U16(values) => of::<Int32Type, _>(writer, column, rows, there, values, |value| i32::from(value)),
-        Values::I16(values) => of::<Int32Type, _>(writer, column, rows, there, values, |value| i32::from(value)),
+        Values::U8(values) => of::<Int32Type, _>(writer, column, rows, there, values, i32::from),
+        Values::I8(values) => of::<Int32Type, _>(writer, column, rows, there, values, i32::from),
+        Values::U16(values) => of::<Int32Type, _>(writer, column, rows, there, values, i32::from),
+        Values::I16(values) => of::<Int32Type, _>(writer, column, rows, there, values, i32::from),
         Values::U32(values) => of::<Int32Type, _>(writer, column, rows, there, values, u32::cast_signed),
         Values::I32(values) => of::<Int32Type, _>(writer, column, rows, there, values, |value| value),
         Values::U64(values) => of::<Int64Type, _>(writer, column, rows, there, values, u64::cast_signed),

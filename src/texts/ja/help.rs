@@ -429,7 +429,7 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     ("verify", "user", "ユーザー名が必要な場合にログインするユーザー。省略した場合、このログインは試行しない"),
     ("verify", "user_password_file", "ユーザーのパスワードのファイル。「-」は標準入力"),
     ("verify", "trust_me", "先に本ツールの証明書を各コントローラーの信頼リストに追加し、そのまま残す"),
-    ("record force", "data_type", "値：0 すべて、1 位置・速度・関節、2 力と位置、3 位置"),
+    ("record force", "data_type", "値：0：すべて、1：位置・速度・関節、2：力と位置、3：位置"),
     ("record force", "monitor", "チャンネル。2は同時に実行される2つ目のRecordStart用"),
     ("record force", "data_num", "1回の読み取りの最大レコード数。0はコントローラーが決定"),
     ("record force", "recordings", "力覚センサーの記録がこの回数に達したら終了。0は終了しない"),
