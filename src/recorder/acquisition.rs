@@ -6,11 +6,10 @@ use tokio::sync::mpsc::Sender;
 use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 
-use super::journal::Entry;
+use super::journal::{self, Entry};
 use super::settings::{RecordSettings, Source};
 use super::source::{ErrorStatus, PacketSource, SourceConnector, SourceError};
 use super::stop_reason::StopReason;
-use crate::model::clock;
 use crate::records::force::TAG_FOOTER;
 
 /// When a recording ends by itself; without a limit it goes on until it is asked to end.
@@ -226,6 +225,6 @@ impl Acquisition {
     }
 
     async fn send(&self, entry: Entry) -> Result<(), AcquisitionError> {
-        self.entries.send((clock::now(), entry)).await.map_err(|_| AcquisitionError::NotTaken)
+        self.entries.send((journal::now(), entry)).await.map_err(|_| AcquisitionError::NotTaken)
     }
 }

@@ -11,12 +11,13 @@ use std::fs::File;
 use std::io::{self, BufReader, Read, Write as _};
 use std::path::{Path, PathBuf};
 
-use chrono::{DateTime, Utc};
+use chrono::{DateTime, SubsecRound as _, Utc};
 use serde::{Deserialize, Serialize};
 
 use super::error::RecorderError;
 use super::settings::RecordSettings;
 use super::stop_reason::StopReason;
+use crate::model::clock;
 use crate::platform::private;
 use crate::records::MAX_READ_BYTES;
 
@@ -222,6 +223,11 @@ fn read_whole(file: &mut impl Read, bytes: &mut [u8]) -> io::Result<bool> {
         Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => Ok(false),
         Err(error) => Err(error),
     }
+}
+
+/// The time of this computer, as precise as a journal keeps it: to the millisecond.
+pub(super) fn now() -> DateTime<Utc> {
+    clock::now().trunc_subsecs(3)
 }
 
 #[cfg(test)]

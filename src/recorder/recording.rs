@@ -10,7 +10,7 @@ use tokio_util::sync::CancellationToken;
 
 use super::acquisition::{Acquisition, AcquisitionError, StopLimits};
 use super::error::RecorderError;
-use super::journal::{Entry, RecordingHeader};
+use super::journal::{self, Entry, RecordingHeader};
 use super::live::LiveTap;
 use super::recording_files::{Recorded, RecordingFiles};
 use super::source::{SourceConnector, SourceError};
@@ -94,7 +94,7 @@ impl Recording {
             let result = acquisition.run(source, connector).await;
             let reason = *result.as_ref().unwrap_or(&StopReason::Error);
             // The writer is gone only if it failed, which is reported.
-            let _gone = entries.send((clock::now(), Entry::End(reason))).await;
+            let _gone = entries.send((journal::now(), Entry::End(reason))).await;
             result
         };
         let (acquired, written) = tokio::join!(acquired, write(files, received));
@@ -121,7 +121,7 @@ async fn write(
             match runtime.block_on(async { timeout_at(next_sync, entries.recv()).await }) {
                 Ok(Some((at, Entry::End(reason)))) => return files.finish(at, reason),
                 // The acquisition was dropped in the middle.
-                Ok(None) => return files.finish(clock::now(), StopReason::Error),
+                Ok(None) => return files.finish(journal::now(), StopReason::Error),
                 Ok(Some((at, entry))) => files.push(at, &entry)?,
                 Err(_elapsed) => {}
             }
