@@ -33,16 +33,17 @@ impl WindowTest {
         });
     }
 
-    /// Moves down in the tree with the keyboard to the next node of this name.
+    /// Moves in the tree with the keyboard to the next node of this name below, or else to the last one above: servers
+    /// list the children of a node in any order.
     fn select(&mut self, name: &str) {
         let browser = &self.live().browser;
-        let selected = browser.selected_line();
-        let from = selected.map_or(0, |line| line + 1);
+        let from = browser.selected_line().map_or(0, |line| line + 1);
         let is_it = |line: &usize| browser.line(*line).is_some_and(|node| node.name == name);
-        let line =
-            (from..browser.line_count()).find(is_it).unwrap_or_else(|| panic!("no node {name} below {selected:?}"));
-        for _ in from..=line {
-            self.window.key_press(egui::Key::ArrowDown);
+        let below = (from..browser.line_count()).find(is_it).map(|line| (egui::Key::ArrowDown, line + 1 - from));
+        let above = || (0..from).rev().find(is_it).map(|line| (egui::Key::ArrowUp, from - 1 - line));
+        let (key, steps) = below.or_else(above).unwrap_or_else(|| panic!("no node {name}"));
+        for _ in 0..steps {
+            self.window.key_press(key);
             self.window.step();
         }
         assert!(shows(&self.window, name), "{name} is in sight");
