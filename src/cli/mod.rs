@@ -30,6 +30,7 @@ mod table;
 mod table_cell;
 mod trust_files;
 mod usage_error;
+mod user_login;
 mod users;
 mod value_error;
 mod vault;

@@ -5,17 +5,16 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
-use secrecy::ExposeSecret as _;
 use serde_json::{Value, json};
 use tokio_util::sync::CancellationToken;
 
 use super::controller_selection::ControllerSelection;
 use super::output::{json_path, say};
-use super::secret_file::read_secret;
 use super::table::table;
+use super::user_login::UserLoginArgs;
 use super::{CommandContext, CommandOutcome, runtime};
 use crate::jobs::{FindServer, FoundServer};
-use crate::model::{ErrorCode, Language, Problem, UserName, UserPassword, clock};
+use crate::model::{ErrorCode, Language, Problem, clock};
 use crate::platform::stop_signal::StopSignals;
 use crate::recorder::{
     self, Format, OpcUaConnector, RecordSettings, Recorded, Recording, RecordingEnd, RecordingHeader, SettingsError,
@@ -109,13 +108,8 @@ pub struct CommonArgs {
     #[arg(long)]
     keep_packets: bool,
 
-    /// User that logs in; without one, the login is anonymous
-    #[arg(long, value_name = "USER", requires = "user_password_file")]
-    user: Option<String>,
-
-    /// File with the user's password, "-" for standard input
-    #[arg(long, value_name = "FILE", requires = "user")]
-    user_password_file: Option<PathBuf>,
+    #[command(flatten)]
+    login: UserLoginArgs,
 
     /// First put the certificate of this configurator into the trusted list of each controller, where it stays
     #[arg(long)]
@@ -150,17 +144,6 @@ pub fn run(cli: &CommandContext, command: RecordCommand) -> Result<CommandOutcom
     }
 }
 
-impl CommonArgs {
-    fn login(&self) -> Result<UserLogin, Problem> {
-        let (Some(user), Some(file)) = (&self.user, &self.user_password_file) else { return Ok(UserLogin::Anonymous) };
-        let bad = |e| Problem::with_detail(ErrorCode::BadCredential, e);
-        let name: UserName = user.parse().map_err(bad)?;
-        let password = read_secret(file)?;
-        UserPassword::new(password.expose_secret()).map_err(bad)?;
-        Ok(UserLogin::User { name: name.to_string(), password })
-    }
-}
-
 /// Finds the servers, then records from all of them side by side until each has ended.
 fn record(
     cli: &CommandContext,
@@ -171,7 +154,7 @@ fn record(
     let language = cli.output.language();
     let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration, language)?;
-    let login = args.login()?;
+    let login = UserLogin::of(args.login.credential()?.as_ref());
     let folder = args.output.clone().unwrap_or_else(|| cli.workspace.root().join("recordings"));
     for recovered in recorder::recover(&folder) {
         match recovered {

@@ -1,17 +1,14 @@
-use std::path::PathBuf;
-
 use clap::Args;
-use secrecy::ExposeSecret as _;
 use serde_json::{Value, json};
 
 use super::batch::{Presentation, PrintedResult};
 use super::controller_selection::ControllerSelection;
 use super::output::json_path;
-use super::secret_file::read_secret;
 use super::table::table;
+use super::user_login::UserLoginArgs;
 use super::{CommandContext, CommandOutcome};
 use crate::jobs::{ConnectRefusal, TokenOutcome, Verify, VerifyReport};
-use crate::model::{ErrorCode, Language, Problem, UserCredential, UserPassword, untrusted_text};
+use crate::model::{Language, Problem, untrusted_text};
 use crate::pki::{CertificateRejection, Severity};
 use crate::session::opcua_client::{ConnectTimeouts, MessageSecurity};
 use crate::texts::{TextKey, cli as texts};
@@ -19,13 +16,8 @@ use crate::texts::{TextKey, cli as texts};
 /// Exit code 1 if anything that is offered does not work.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
-    /// User that logs in where a user name is wanted; without one, such logins are not tried
-    #[arg(long, value_name = "USER", requires = "user_password_file")]
-    user: Option<String>,
-
-    /// File with the user's password, "-" for standard input
-    #[arg(long, value_name = "FILE", requires = "user")]
-    user_password_file: Option<PathBuf>,
+    #[command(flatten)]
+    login: UserLoginArgs,
 
     /// First put the certificate of this configurator into the trusted list of each controller, where it stays
     #[arg(long)]
@@ -38,17 +30,9 @@ pub struct VerifyArgs {
 pub fn run(cli: &CommandContext, args: &VerifyArgs) -> Result<CommandOutcome, Problem> {
     let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration, cli.output.language())?;
-    let login = match (&args.user, &args.user_password_file) {
-        (Some(user), Some(file)) => {
-            let bad = |e| Problem::with_detail(ErrorCode::BadCredential, e);
-            let password = UserPassword::new(read_secret(file)?.expose_secret()).map_err(bad)?;
-            Some(UserCredential { name: user.parse().map_err(bad)?, password })
-        }
-        _ => None,
-    };
     let verify = Verify {
         identity: cli.workspace.own_identity(),
-        login,
+        login: args.login.credential()?,
         trust_first: args.trust_me,
         timeouts: ConnectTimeouts::default(),
     };

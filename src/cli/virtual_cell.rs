@@ -1,4 +1,4 @@
-//! Commands to the cells of virtual controllers that run in another process: what the plant around them does.
+//! Commands to the cells of virtual controllers that run in another process: safety, modes, inputs, recordings.
 
 use std::path::PathBuf;
 

@@ -54,6 +54,30 @@ impl ErrorCode {
     pub const fn is_unreached(self) -> bool {
         matches!(self, Self::Unreachable | Self::Timeout | Self::ConnectionLost)
     }
+
+    /// Whether another try gives the same error until somebody changes something: a watch ends with it instead of trying
+    /// again. A wrong password tried again would lock this computer out.
+    pub const fn is_lasting(self) -> bool {
+        use ErrorCode::*;
+        matches!(
+            self,
+            WrongPassword
+                | PasswordMissing
+                | VaultLocked
+                | LockedOut
+                | FingerprintChanged
+                | FingerprintUnknown
+                | NotAController
+                | ProtocolVersion
+                | KeyringUnavailable
+                | NoCertificate
+                | NoSuitableEndpoint
+                | ConfiguratorNotTrusted
+                | OpcUaLoginRefused
+                | FileUnreadable
+                | WorkspaceReadOnly
+        )
+    }
 }
 
 // Code, wire name, origin. The texts are in each language's `errors.rs`.

@@ -294,7 +294,7 @@ impl CrlFields {
             return Err(PkiError::SignatureAlgorithms);
         }
         if !matches!(list.version.map(|version| version.0), None | Some(1)) {
-            return Err(PkiError::NotACrl(Cause::finding("it has a version nobody knows")));
+            return Err(PkiError::NotACrl(Cause::finding("its version is unknown")));
         }
         // The only error is that an extension is repeated.
         parsed.tbs_cert_list.extensions_map().map_err(|_| PkiError::RepeatedExtension)?;

@@ -56,7 +56,7 @@ pub async fn watch_trust(
         }
         match ended {
             None => return,
-            Some(problem) if is_final(problem.code) => return on_event(WatchEvent::Ended(problem)),
+            Some(problem) if problem.code.is_lasting() => return on_event(WatchEvent::Ended(problem)),
             // The controller was restarted, or the session was given up for others: nothing to tell.
             Some(problem) if problem.code == ErrorCode::SessionExpired => {}
             Some(problem) => on_event(WatchEvent::Lost(problem)),
@@ -94,21 +94,4 @@ async fn watch(
             }
         }
     }
-}
-
-/// What is not better the next time.
-const fn is_final(code: ErrorCode) -> bool {
-    use ErrorCode::*;
-    matches!(
-        code,
-        WrongPassword
-            | PasswordMissing
-            | VaultLocked
-            | LockedOut
-            | FingerprintChanged
-            | FingerprintUnknown
-            | NotAController
-            | ProtocolVersion
-            | KeyringUnavailable
-    )
 }

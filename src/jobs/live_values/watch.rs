@@ -59,7 +59,7 @@ pub async fn watch_values(
         }
         match ended {
             None => return,
-            Some(problem) if is_final(problem.code) => return on_event(LiveEvent::Ended(problem)),
+            Some(problem) if problem.code.is_lasting() => return on_event(LiveEvent::Ended(problem)),
             Some(problem) => on_event(LiveEvent::Lost(problem)),
         }
         tokio::select! {
@@ -87,35 +87,9 @@ async fn open(
         OpcUaClient::new(&own, ConnectTimeouts::default())
     });
     let client = client.await.map_err(|e| Problem::with_detail(ErrorCode::Internal, e))??;
-    let login = match &login.user {
-        None => UserLogin::Anonymous,
-        Some(user) => UserLogin::User { name: user.name.as_str().to_owned(), password: user.password.secret().clone() },
-    };
+    let login = UserLogin::of(login.user.as_ref());
     let session = server.connect(&client, &login).await?;
     Ok((client, session))
-}
-
-/// What is not better the next time, without somebody changing something.
-const fn is_final(code: ErrorCode) -> bool {
-    use ErrorCode::*;
-    matches!(
-        code,
-        WrongPassword
-            | PasswordMissing
-            | VaultLocked
-            | LockedOut
-            | FingerprintChanged
-            | FingerprintUnknown
-            | NotAController
-            | ProtocolVersion
-            | KeyringUnavailable
-            | NoCertificate
-            | NoSuitableEndpoint
-            | ConfiguratorNotTrusted
-            | OpcUaLoginRefused
-            | FileUnreadable
-            | WorkspaceReadOnly
-    )
 }
 
 const FIRST_PAUSE: Duration = Duration::from_millis(500);

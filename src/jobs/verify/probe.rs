@@ -98,9 +98,7 @@ impl Probe<'_> {
             (TokenKind::UserName, None) => Err(NotTried::NoPassword),
             (TokenKind::UserName, Some(_)) if !protected => Err(NotTried::PasswordInTheClear),
             (TokenKind::UserName, Some(_)) if self.password_refused => Err(NotTried::PasswordRefused),
-            (TokenKind::UserName, Some(UserCredential { name, password })) => {
-                Ok((selected, UserLogin::User { name: name.as_str().to_owned(), password: password.secret().clone() }))
-            }
+            (TokenKind::UserName, user @ Some(_)) => Ok((selected, UserLogin::of(user))),
         }
     }
 
