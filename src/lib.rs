@@ -9,6 +9,7 @@
 //! | [`pki`] | keys, certificates, PKCS#12, PEM: bytes in, bytes out |
 //! | [`records`] | packets of force sensor and motion log: decode, encode, columns |
 //! | [`protocol`] | the controller-management protocol's messages and error codes |
+//! | [`remote`] | the remote RS232 and Ethernet commands of controllers: codec, client |
 //! | [`workspace`] | the folder on the PC: configuration, per-serial folders, secrets; atomic writes |
 //! | [`session`] | one session with one controller, over HTTPS |
 //! | [`recorder`] | force sensor and motion log data of a controller: acquisition, files, values for plots |
@@ -17,7 +18,7 @@
 //! | [`texts`] | every sentence for a person, in every language |
 //! | [`ui`] | the window: a model without egui, a reducer, views and dialogs |
 //! | [`cli`] | the same jobs from the command line |
-//! | [`virtual_controller`] | the bundled mock controller with its real OPC UA server; uses `model`, `pki`, `records`, `protocol` |
+//! | [`virtual_controller`] | the bundled mock controller with its real OPC UA server; uses `model`, `pki`, `records`, `protocol`, `remote` |
 //!
 //! `ui` and `cli` never reach past [`jobs`], [`workspace`] and [`session`]; only `main` and [`cli`] know both the
 //! configurator and the virtual controller, because the demo needs both.
@@ -40,6 +41,7 @@ pub mod platform;
 pub mod protocol;
 pub mod recorder;
 pub mod records;
+pub mod remote;
 pub mod session;
 pub mod texts;
 pub mod ui;

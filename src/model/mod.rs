@@ -19,6 +19,7 @@ mod client_list;
 pub mod clock;
 mod connection_kind;
 mod controller;
+mod controller_text;
 mod country;
 mod credentials;
 mod crl_summary;
@@ -31,6 +32,8 @@ pub mod opcua;
 mod problem;
 mod revision;
 mod settings;
+mod spel_value;
+mod status_flags;
 mod stored_server_certificates;
 pub mod text;
 pub mod text_table;
@@ -55,6 +58,7 @@ pub use controller::{
     ControllerName, ControllerSeries, FirmwareGeneration, FirmwareVersion, NameError, SerialNumber,
     UnsupportedFirmware, VersionError,
 };
+pub use controller_text::controller_text;
 pub use country::Country;
 pub use credentials::Credentials;
 pub use crl_summary::CrlSummary;
@@ -67,6 +71,8 @@ pub use revision::{RevisionToken, Revisioned};
 pub use settings::{
     PortError, SecurityPolicy, ServerPort, ServerSettings, SettingsError, SettingsWarning, StartupMode, UserTokenPolicy,
 };
+pub use spel_value::{SpelType, SpelValue};
+pub use status_flags::{StatusFlag, StatusFlags};
 pub use stored_server_certificates::{StoredServerCertificate, StoredServerCertificates};
 pub use trust_lists::{DisconnectedClient, ListedCertificate, ListedCrl, TrustStamp, TrustStep};
 pub use user::{MAX_USERS, UserCredential, UserCredentialError, UserName, UserPassword};

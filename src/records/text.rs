@@ -1,6 +1,6 @@
 use std::fmt;
 
-use crate::model::untrusted_text;
+use crate::model::{controller_text, untrusted_text};
 
 use super::layout::Wire;
 
@@ -55,7 +55,7 @@ impl<const N: usize> Default for Label<N> {
 
 impl<const N: usize> fmt::Display for Label<N> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.pad(&untrusted_text::one_line(&decoded(self.as_bytes()), N))
+        f.pad(&untrusted_text::one_line(&controller_text(self.as_bytes()), N))
     }
 }
 
@@ -75,17 +75,6 @@ impl<const N: usize> Wire for Label<N> {
     fn write(self, bytes: &mut [u8], at: usize) {
         bytes[at] = self.length;
         self.bytes.write(bytes, at + 1);
-    }
-}
-
-/// UTF-8 where the bytes are UTF-8, Shift-JIS where they are Shift-JIS, otherwise UTF-8 with `�` for what is neither.
-fn decoded(bytes: &[u8]) -> String {
-    if let Ok(text) = std::str::from_utf8(bytes) {
-        return text.to_owned();
-    }
-    match encoding_rs::SHIFT_JIS.decode_without_bom_handling(bytes) {
-        (text, false) => text.into_owned(),
-        (_, true) => String::from_utf8_lossy(bytes).into_owned(),
     }
 }
 

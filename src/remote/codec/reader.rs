@@ -117,7 +117,8 @@ impl<'a> Reader<'a> {
     }
 
     /// Nothing may follow.
-    pub fn finish(&self) -> Result<(), DecodeError> {
+    pub fn finish(&mut self) -> Result<(), DecodeError> {
+        self.field = "end";
         if self.is_at_end() { Ok(()) } else { Err(self.error(Fault::Trailing)) }
     }
 }

@@ -95,12 +95,12 @@ impl ExpectedReply {
             }
             // The first digit of the code stands in the place of the eleventh flag if there are ten.
             ReplyKind::Status => match data.get(OLD_FLAGS) {
-                None => DataLength::AtLeast(OLD_FLAGS + 1),
+                None => DataLength::Unknown,
                 Some(digit) if digit.is_ascii_digit() => DataLength::Exactly(OLD_FLAGS + 4),
                 Some(_) => DataLength::Exactly(OLD_FLAGS + 5),
             },
             ReplyKind::Alarms => match data.first() {
-                None => DataLength::AtLeast(1),
+                None => DataLength::Unknown,
                 Some(count) => DataLength::Exactly(1 + usize::from(*count)),
             },
             ReplyKind::Output | ReplyKind::Text | ReplyKind::List => DataLength::UpToEtx,
@@ -251,8 +251,8 @@ impl ExpectedReply {
 /// How long the data of a frame is.
 pub(super) enum DataLength {
     Exactly(usize),
-    /// So many bytes are needed to tell.
-    AtLeast(usize),
+    /// More bytes are needed to tell.
+    Unknown,
     /// A text: it ends where ETX and the right checksum follow.
     UpToEtx,
 }

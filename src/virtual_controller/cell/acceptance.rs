@@ -1,6 +1,5 @@
-//! Commands to the cell, and when they are accepted: the conditions of the remote commands (Start: Auto, Ready, no error, no
-//! emergency stop, safeguard closed; Stop: Auto; Pause: Auto, Running; Continue: Auto, Paused; Reset, motors off, I/O: Auto,
-//! Ready; motors on: besides, no emergency stop, safeguard closed; Home: as Start).
+//! Commands to the cell, and when they are accepted: under the conditions of the table of remote commands
+//! ([`Command::conditions`]). Continue besides wants the safeguard closed and no emergency stop, motors on no error.
 
 use super::command::{CellCommand, CommandRefusal, RobotChoice};
 use super::io::IoDirection;
@@ -10,6 +9,7 @@ use super::status::OperatingMode;
 use super::task::Task;
 use super::time::CellTime;
 use crate::records::force::EndCondition;
+use crate::remote::Command;
 
 /// How hard a robot brakes: on Pause and Stop, and in emergencies.
 const NORMAL_BRAKE: f64 = 1.0;
@@ -28,39 +28,32 @@ impl Cell {
     fn act(&mut self, command: CellCommand) -> Result<(), CommandRefusal> {
         match command {
             CellCommand::Start { function } => {
-                self.check_start()?;
+                self.check(Command::Start)?;
                 let entry = self.program.entries.get(usize::from(function));
                 let entry = entry.cloned().ok_or(CommandRefusal::UnknownFunction)?;
                 self.start(entry);
             }
             CellCommand::Home(robot) => {
-                self.check_start()?;
+                self.check(Command::Home)?;
                 let robot = self.one(robot)?;
                 let function = self.program.home(robot).ok_or(CommandRefusal::UnknownRobot)?;
                 self.start(function);
             }
             CellCommand::Stop => {
-                self.check_auto()?;
+                self.check(Command::Stop)?;
                 self.stop_all(NORMAL_BRAKE, EndCondition::StopRequested, Task::finish);
             }
             CellCommand::Pause => {
-                self.check_auto()?;
-                if !self.normal_tasks().any(|task| task.is_loaded() && !task.is_paused()) {
-                    return Err(CommandRefusal::NotRunning);
-                }
+                self.check(Command::Pause)?;
                 self.pause(NORMAL_BRAKE);
             }
             CellCommand::Continue => {
-                self.check_auto()?;
-                if !self.normal_tasks().any(Task::is_paused) {
-                    return Err(CommandRefusal::NotPaused);
-                }
+                self.check(Command::Continue)?;
                 self.check_safe()?;
                 self.resume();
             }
             CellCommand::Reset => {
-                self.check_auto()?;
-                self.check_ready()?;
+                self.check(Command::Reset)?;
                 if self.safety.switch_pressed {
                     return Err(CommandRefusal::EmergencyStop);
                 }
@@ -69,9 +62,7 @@ impl Cell {
                 self.safety.warning = 0;
             }
             CellCommand::MotorsOn(choice) => {
-                self.check_auto()?;
-                self.check_ready()?;
-                self.check_safe()?;
+                self.check(Command::SetMotorsOn)?;
                 if self.safety.error != 0 {
                     return Err(CommandRefusal::InError);
                 }
@@ -79,8 +70,7 @@ impl Cell {
                 self.each(choice, |cell, robot| cell.robots[robot].switch_on(now, false))?;
             }
             CellCommand::MotorsOff(choice) => {
-                self.check_auto()?;
-                self.check_ready()?;
+                self.check(Command::SetMotorsOff)?;
                 let now = self.now;
                 self.each(choice, |cell, robot| cell.robots[robot].switch_off(now))?;
             }
@@ -165,12 +155,8 @@ impl Cell {
         Ok(())
     }
 
-    fn check_auto(&self) -> Result<(), CommandRefusal> {
-        if self.safety.mode == OperatingMode::Auto { Ok(()) } else { Err(CommandRefusal::NotAuto) }
-    }
-
-    fn check_ready(&self) -> Result<(), CommandRefusal> {
-        if self.normal_tasks().any(Task::is_loaded) { Err(CommandRefusal::NotReady) } else { Ok(()) }
+    fn check(&self, command: Command) -> Result<(), CommandRefusal> {
+        command.unmet(self.flags()).next().map_or(Ok(()), |condition| Err(condition.into()))
     }
 
     fn check_safe(&self) -> Result<(), CommandRefusal> {
@@ -179,15 +165,6 @@ impl Cell {
             (false, true) => Err(CommandRefusal::SafeguardOpen),
             (false, false) => Ok(()),
         }
-    }
-
-    fn check_start(&self) -> Result<(), CommandRefusal> {
-        self.check_auto()?;
-        self.check_ready()?;
-        if self.safety.error != 0 {
-            return Err(CommandRefusal::InError);
-        }
-        self.check_safe()
     }
 
     fn one(&self, number: u8) -> Result<usize, CommandRefusal> {
@@ -205,10 +182,8 @@ impl Cell {
         match port.ok_or(CommandRefusal::UnknownPort)?.direction {
             // The plant drives inputs at any time; outputs and memory are those of the remote commands.
             IoDirection::Input => Ok(()),
-            IoDirection::Output | IoDirection::Memory => {
-                self.check_auto()?;
-                self.check_ready()
-            }
+            IoDirection::Output => self.check(Command::SetIO),
+            IoDirection::Memory => self.check(Command::SetMemIO),
         }
     }
 

@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use super::status::OperatingMode;
+use crate::remote::Condition;
 
 /// What can be asked of a cell: by the plant around it, by its operator, and by remote commands.
 #[derive(Debug, Clone, PartialEq)]
@@ -148,6 +149,21 @@ pub enum CommandRefusal {
     /// This firmware has no motion log.
     #[error("this firmware does not support the function")]
     NotSupported,
+}
+
+impl From<Condition> for CommandRefusal {
+    /// The refusal of a command for which this condition is not met.
+    fn from(unmet: Condition) -> Self {
+        match unmet {
+            Condition::Auto => Self::NotAuto,
+            Condition::Ready => Self::NotReady,
+            Condition::Running => Self::NotRunning,
+            Condition::Paused => Self::NotPaused,
+            Condition::NoError => Self::InError,
+            Condition::NoEStop => Self::EmergencyStop,
+            Condition::NoSafeguard => Self::SafeguardOpen,
+        }
+    }
 }
 
 /// A write to a node that clients may write, with the value in the node's data type (manual 3.2.3.2, 3.2.3.4).

@@ -76,7 +76,7 @@ impl AnswerDecoder {
         let length = if *first == NAK { DataLength::Exactly(CODE) } else { self.expected.data_length(data) };
         let length = match length {
             DataLength::Exactly(length) => length,
-            DataLength::AtLeast(_) => return None,
+            DataLength::Unknown => return None,
             DataLength::UpToEtx => {
                 let mut right = ends(bytes).filter(|(_, is_right)| *is_right);
                 return right.find_map(|(length, _)| self.good(bytes, length).ok().map(|answer| (length, Ok(answer))));

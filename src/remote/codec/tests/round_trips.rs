@@ -204,7 +204,7 @@ proptest! {
     fn a_tipped_bit_never_makes_the_same_request(request in request(), at in any::<usize>(), bit in 0..8) {
         let mut sent = frame::encode_request(&request).unwrap().to_vec();
         let at = at % sent.len();
-        sent[at] ^= 1 << bit;
+        sent[at] ^= 1_u8 << bit;
         let events = received([&sent[..]]);
         prop_assert!(!events.contains(&frame::RequestEvent::Request(request)));
     }

@@ -60,7 +60,7 @@ fn requests() -> Vec<(Request, &'static str, &'static str)> {
         ),
         (
             Request::GetVariable { variable: elements("gby2", SpelType::Byte, &[3, 0], 3) },
-            "02 76 67 62 79 32 2C 00 03 2C 00 00 2C 01 2C 00 03 03 56",
+            "02 76 67 62 79 32 2C 00 03 2C 00 00 2C 01 2C 00 03 03 3A",
             "$GetVariable,gby2(3,0),Byte,3",
         ),
         (

@@ -1,0 +1,10 @@
+//! The remote commands that every controller of this vendor understands: over a serial line as frames, over Ethernet as
+//! text (SPEL+ guide, remote RS232 and remote Ethernet).
+//!
+//! | part | content |
+//! |---|---|
+//! | [`codec`] | the commands, and both forms of them, for client and server: bytes in, messages out; no I/O |
+
+pub mod codec;
+
+pub use codec::*;
