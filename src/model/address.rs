@@ -87,6 +87,15 @@ impl FromStr for Address {
     type Err = AddressError;
 
     fn from_str(text: &str) -> Result<Self, AddressError> {
+        Self::with_default_port(text, DEFAULT_MANAGEMENT_PORT)
+    }
+}
+
+impl Address {
+    /// The address of another protocol than the management protocol, with that protocol's port if the text names none.
+    ///
+    /// Errors: as those of the text of an [`Address`].
+    pub fn with_default_port(text: &str, default: u16) -> Result<Self, AddressError> {
         let text = text.trim();
         if text.is_empty() {
             return Err(AddressError::Empty);
@@ -98,7 +107,7 @@ impl FromStr for Address {
         // The root of all names (RFC 1034 §3.1) makes no difference.
         let host = host.strip_suffix('.').filter(|host| !host.is_empty()).unwrap_or(host);
         let port = match port {
-            None => DEFAULT_MANAGEMENT_PORT,
+            None => default,
             Some(port) => port.parse().ok().filter(|p| *p != 0).ok_or_else(|| AddressError::Port(port.to_owned()))?,
         };
         match host.parse::<IpAddr>() {

@@ -76,6 +76,10 @@ impl ErrorCode {
                 | OpcUaLoginRefused
                 | FileUnreadable
                 | WorkspaceReadOnly
+                | RemoteWrongPassword
+                | RemotePasswordRequired
+                | RemoteCommandUnknown
+                | RemoteRequestInvalid
         )
     }
 }
@@ -183,6 +187,23 @@ error_codes! {
     // recording
     NoDataNodes "no-data-nodes" Pc,
     DataSettingsRefused "data-settings-refused" Pc,
+    // remote commands
+    SerialPortUnavailable "serial-port-unavailable" Pc,
+    RemoteNoAnswer "remote-no-answer" Pc,
+    RemoteOccupied "remote-occupied" Pc,
+    RemoteAnswerUnreadable "remote-answer-unreadable" Pc,
+    RemoteCommandUnknown "remote-command-unknown" Controller,
+    RemoteWrongPassword "remote-wrong-password" Controller,
+    RemotePasswordRequired "remote-password-required" Controller,
+    RemoteRequestRefused "remote-request-refused" Controller,
+    RemoteVariableUnknown "remote-variable-unknown" Controller,
+    RemoteLineDisturbed "remote-line-disturbed" Controller,
+    RemoteExecuteRunning "remote-execute-running" Controller,
+    RemoteSystemError "remote-system-error" Controller,
+    RemoteNotReady "remote-not-ready" Controller,
+    RemoteOutcomeUnknown "remote-outcome-unknown" Pc,
+    RemoteRequestInvalid "remote-request-invalid" Pc,
+    BadRemoteTarget "bad-remote-target" Pc,
     // activation (2.6.3)
     WrongKeys "wrong-keys" Both,
     NotInFile "not-in-file" Pc,

@@ -85,6 +85,7 @@ const MAKES_PROBLEMS: &[&str] = &[
     "protocol::messages",
     "protocol::settings_export",
     "recorder::problem",
+    "remote::problem",
     "virtual_controller::api::failed",
     "workspace::problem",
 ];

@@ -373,6 +373,70 @@ error_texts! {
         "The controller does not accept the settings of the recording",
         "The server refused to set DataType, DataNum, SamplingInterval or Port.",
         "Log in as a user who may write, or choose other settings. Another client may be recording already.";
+    SerialPortUnavailable:
+        "The serial port cannot be opened",
+        "It does not exist, another program uses it, or this user may not open it.",
+        "Check the name of the port and the cable, close other programs that use the port, and give this user the right to open it (on Linux: the group of the device, often dialout).";
+    RemoteNoAnswer:
+        "The controller does not answer the remote command",
+        "The connection is there, but no complete answer came in time. On a serial line the speed, the parity or the wiring may be wrong, or the remote function is switched off in the controller.",
+        "Check that remote Ethernet or remote RS232 is switched on in the controller, and compare its settings with those of this command. A longer limit is set with --timeout.";
+    RemoteOccupied:
+        "The controller closed the remote connection before the login",
+        "It talks to one remote client at a time, and another one is connected, or remote Ethernet is not switched on.",
+        "Disconnect the other client, or wait until its time-out in the controller is over. Check the remote settings of the controller.";
+    RemoteAnswerUnreadable:
+        "The answer to the remote command cannot be read",
+        "What answers is not a controller with remote commands, uses the other form (text or frames), or the line damages bytes.",
+        "Check the address and the port. On a serial line, check speed, parity and shielding.";
+    RemoteCommandUnknown:
+        "The controller does not know the remote command, or nobody is logged in",
+        "The firmware is too old for the command, or the session ended in the meantime.",
+        "Repeat the command. If it is refused again, update the firmware of the controller or do without the command.";
+    RemoteWrongPassword:
+        "The password for remote commands is wrong",
+        "The controller has another password for remote Ethernet or remote RS232. It has up to 16 printable characters.",
+        "Give the password that is set in the controller with --password-file.";
+    RemotePasswordRequired:
+        "The controller wants a password for remote commands",
+        "It has a global IP address, and lets nobody in there without a password.",
+        "Set a password for remote Ethernet in the controller and give it with --password-file.";
+    RemoteRequestRefused:
+        "The controller refused the form of the remote command",
+        "A number, a count or a text in it is not what this firmware expects.",
+        "Check the values against the manual of the controller, such as the numbers of I/O, robots and functions that exist there.";
+    RemoteVariableUnknown:
+        "The controller has no such variable",
+        "The project declares no Global Preserve variable of that name and type, or the array has other dimensions or fewer elements.",
+        "Check name, type and elements against the project in the controller. Build and transfer the project after a change.";
+    RemoteLineDisturbed:
+        "The remote command arrived damaged or incomplete",
+        "Bytes were lost or changed on the line, so that the controller did nothing.",
+        "Check speed, parity, wiring and shielding of the serial line, then repeat the command.";
+    RemoteExecuteRunning:
+        "The controller still executes a command",
+        "While Execute runs, only abort, status and setting outputs are accepted.",
+        "Wait until the command has ended, or end it with abort.";
+    RemoteSystemError:
+        "The controller reports a system error for the remote command",
+        "The controller met an internal or communication error (code 99). An Execute may have a wrong command text.",
+        "Look at the error in the controller. Correct the text of an Execute. Restart the controller if it happens again.";
+    RemoteNotReady:
+        "The controller does not accept the remote command in its present state",
+        "A condition for this command is not met; the states that it needs are named.",
+        "Bring the controller into these states, then repeat the command.";
+    RemoteOutcomeUnknown:
+        "It is not known whether the remote command was done",
+        "It was sent, and its answer was lost or damaged. It was not sent again, since it may move or switch something.",
+        "Look at the machine and at its status before you repeat the command.";
+    RemoteRequestInvalid:
+        "The remote command cannot be sent",
+        "A name, a number or a text in it has a form that the protocol cannot carry, or the command does not exist over this connection.",
+        "Correct the argument that is named. Monitoring commands need a connection with tcp://.";
+    BadRemoteTarget:
+        "The connection for remote commands is written wrongly",
+        "It is neither tcp://HOST[:PORT], raw-tcp://HOST:PORT nor serial:DEVICE, and no controller in the list has this name.",
+        "Correct it, such as tcp://192.168.0.1, raw-tcp://192.168.0.7:4001 or serial:/dev/ttyS0?baud=19200.";
     WrongKeys:
         "The controller does not accept the keys",
         "The licence key or the activation key was made for another serial number, or has a typing mistake.",
