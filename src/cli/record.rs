@@ -35,10 +35,10 @@ pub enum RecordCommand {
         /// File of a recording: CSV, Parquet, or packets
         file: PathBuf,
     },
-    /// Make a CSV or Parquet file from kept packets
+    /// Make a CSV or Parquet file from a recording
     Convert {
-        /// File with packets
-        packets: PathBuf,
+        /// File of a recording: CSV, Parquet, or packets
+        recording: PathBuf,
         /// File to make; its extension is .csv or .parquet
         file: PathBuf,
     },
@@ -135,8 +135,8 @@ pub fn run(cli: &CommandContext, command: RecordCommand) -> Result<CommandOutcom
             cli.output.finished(&json!(sidecar), &summary(&sidecar, cli.output.language()));
             Ok(CommandOutcome::AllDone)
         }
-        RecordCommand::Convert { packets, file } => {
-            let sidecar = recorder::convert(&packets, &file)?;
+        RecordCommand::Convert { recording, file } => {
+            let sidecar = recorder::convert(&recording, &file)?;
             let text = ended(&file, &sidecar, cli.output.language());
             cli.output.finished(&json!({ "file": json_path(&file), "recording": sidecar }), &text);
             Ok(CommandOutcome::AllDone)

@@ -16,11 +16,7 @@ pub struct CsvFile {
 impl CsvFile {
     /// Begins the file with the names of the columns.
     pub fn new(file: File, columns: &[Column<'_>]) -> Self {
-        let names = columns.iter().map(|column| match column.unit {
-            "" => column.name.clone(),
-            unit => format!("{} [{unit}]", column.name),
-        });
-        let mut buffer = names.collect::<Vec<_>>().join(",").into_bytes();
+        let mut buffer = columns.iter().map(title).collect::<Vec<_>>().join(",").into_bytes();
         buffer.extend_from_slice(b"\r\n");
         Self { file, buffer }
     }
@@ -58,6 +54,17 @@ impl CsvFile {
     }
 }
 
+/// What stands above a column: `Fx [N]`.
+pub fn title(column: &Column<'_>) -> String {
+    match column.unit {
+        "" => column.name.clone(),
+        unit => format!("{} [{unit}]", column.name),
+    }
+}
+
+/// By the controller's clock, whose zone is not known.
+pub const TIME_FORMAT: &str = "%Y-%m-%dT%H:%M:%S%.3f";
+
 const MAX_BUFFER: usize = 1 << 20;
 
 fn cell(line: &mut Vec<u8>, values: &Values<'_>, index: usize) -> io::Result<()> {
@@ -74,7 +81,7 @@ fn cell(line: &mut Vec<u8>, values: &Values<'_>, index: usize) -> io::Result<()>
         Values::F64(values) => write!(line, "{}", values[index]),
         Values::Time(values) if values[index] == NO_TIME => Ok(()),
         Values::Time(values) => match DateTime::from_timestamp_millis(values[index]) {
-            Some(time) => write!(line, "{}", time.format("%Y-%m-%dT%H:%M:%S%.3f")),
+            Some(time) => write!(line, "{}", time.format(TIME_FORMAT)),
             None => Ok(()),
         },
     }

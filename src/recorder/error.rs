@@ -3,6 +3,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::table_fault::TableFault;
+
 /// Why a recording cannot be written or read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -38,6 +40,14 @@ pub enum RecorderError {
         path: PathBuf,
         /// What is wrong with it.
         what: &'static str,
+    },
+    /// A CSV or Parquet file is not as this program writes it.
+    #[error("{}: {source}", path.display())]
+    DamagedTable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        source: TableFault,
     },
     /// The file has an extension that is not one of a recording.
     #[error("{}: the extension has to be .csv or .parquet", .0.display())]

@@ -10,9 +10,14 @@
 //! | `acquisition` | [`Acquisition`]: follows a source, connects again, stops at limits |
 //! | `decoder` | packets → columns, and what is missing |
 //! | `journal` | every packet as it came, safe each second |
-//! | `csv_file`, `parquet_file`, `table_file` | columns → files |
+//! | `format` | [`Format`]: CSV or Parquet |
+//! | `csv_file`, `parquet_file`, `table_writer` | columns → files |
+//! | `table_file` | entries of a recording → file and sidecar |
+//! | `csv_reader`, `parquet_reader`, `table_reader` | files → columns, part by part |
+//! | `stored_columns` | columns whose values come from a file, checked |
 //! | `sidecar` | [`Sidecar`]: what a recording holds, as JSON beside the file |
-//! | `recording_files` | the files of one recording together; converting, summarising, recovering them |
+//! | `recording_files` | the files of one recording while they are written; recovering them |
+//! | `stored_recording` | a recording of any kind: summarised, converted, loaded for plots |
 //! | `recording` | [`Recording`]: acquisition and files together |
 //! | `series`, `live` | values for plots while they are recorded |
 //!
@@ -23,13 +28,16 @@
 
 mod acquisition;
 mod csv_file;
+mod csv_reader;
 mod decoder;
 mod error;
+mod format;
 mod journal;
 mod live;
 mod nodes;
 mod opcua_source;
 mod parquet_file;
+mod parquet_reader;
 mod problem;
 mod recording;
 mod recording_files;
@@ -38,21 +46,28 @@ mod settings;
 mod sidecar;
 mod source;
 mod stop_reason;
+mod stored_columns;
+mod stored_recording;
+mod table_fault;
 mod table_file;
+mod table_reader;
+mod table_writer;
 
 pub use acquisition::{Acquisition, AcquisitionError, StopLimits};
 pub use error::RecorderError;
-pub use journal::{Entry, JournalReader, RecordingHeader};
+pub use format::{Format, sidecar_path};
+pub use journal::{Entry, JournalReader, JournalWriter, RecordingHeader};
 pub use live::{LiveColumn, LiveTap, LiveValues};
 pub use opcua_source::{OpcUaConnector, OpcUaSource};
 pub use recording::{Recording, RecordingEnd, RecordingError};
-pub use recording_files::{PACKETS, Recorded, convert, recover, summarise};
+pub use recording_files::{PACKETS, Recorded, recover};
 pub use series::{Bar, Series};
 pub use settings::{RecordSettings, SettingsError, Source};
 pub use sidecar::{ColumnInfo, ForceRecording, Gap, GapCause, Sidecar, TimeBase};
 pub use source::{Delivery, ErrorStatus, PacketSource, SourceConnector, SourceError, SourceStatus};
 pub use stop_reason::StopReason;
-pub use table_file::{Format, sidecar_path};
+pub use stored_recording::{convert, load, summarise};
+pub use table_fault::{CellFault, TableFault};
 
 #[cfg(test)]
 mod tests;

@@ -66,7 +66,8 @@ impl ParquetFile {
     }
 }
 
-fn field(column: &Column<'_>) -> Result<Arc<Type>> {
+/// The column as the schema describes it.
+pub fn field(column: &Column<'_>) -> Result<Arc<Type>> {
     let integer = |bit_width, is_signed| Some(LogicalType::integer(bit_width, is_signed));
     let (physical, logical) = match column.values {
         Values::U8(_) => (PhysicalType::INT32, integer(8, false)),

@@ -36,7 +36,7 @@ impl From<RecorderError> for Problem {
             RecorderError::Write { .. } | RecorderError::Parquet { .. } => ErrorCode::WorkspaceReadOnly,
             RecorderError::Read { source, .. } if source.kind() == io::ErrorKind::NotFound => ErrorCode::FileNotFound,
             RecorderError::Read { .. } => ErrorCode::FileUnreadable,
-            RecorderError::NotARecording { .. } => ErrorCode::FileFormat,
+            RecorderError::NotARecording { .. } | RecorderError::DamagedTable { .. } => ErrorCode::FileFormat,
             RecorderError::UnknownFormat(_) => ErrorCode::BadFileName,
             RecorderError::BrokenOff => ErrorCode::Internal,
         };

@@ -10,12 +10,12 @@ use tokio_util::sync::CancellationToken;
 
 use super::acquisition::{Acquisition, AcquisitionError, StopLimits};
 use super::error::RecorderError;
+use super::format::Format;
 use super::journal::{self, Entry, RecordingHeader};
 use super::live::LiveTap;
 use super::recording_files::{Recorded, RecordingFiles};
 use super::source::{SourceConnector, SourceError};
 use super::stop_reason::StopReason;
-use super::table_file::Format;
 use crate::model::clock;
 
 /// One recording of one controller: acquisition and files.

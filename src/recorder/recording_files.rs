@@ -3,11 +3,14 @@ use std::path::{Path, PathBuf};
 use chrono::{DateTime, Utc};
 
 use super::error::RecorderError;
+use super::format::{Format, sidecar_path, unfinished_path};
 use super::journal::{Entry, JournalReader, JournalWriter, RecordingHeader};
 use super::live::LiveTap;
 use super::sidecar::Sidecar;
 use super::stop_reason::StopReason;
-use super::table_file::{Format, TableFile, sidecar, sidecar_path};
+use super::stored_recording::convert;
+use super::table_file::TableFile;
+use super::table_writer::Appearance;
 use crate::model::file_names;
 use crate::platform::{private, replace};
 
@@ -46,7 +49,7 @@ impl RecordingFiles {
         let journal_path = folder.join(format!("{stem}.{PACKETS}"));
         let table_path = folder.join(format!("{stem}.{}", format.extension()));
         let journal = JournalWriter::create(&journal_path, header)?;
-        let table = TableFile::create(&table_path, format, header)?;
+        let table = TableFile::create(&table_path, format, Appearance::WhileWritten, header)?;
         Ok(Self { journal, journal_path, table, table_path, keep_packets: header.keep_packets })
     }
 
@@ -97,55 +100,6 @@ fn file_stem(header: &RecordingHeader) -> String {
     format!("{controller}-{}-{}", header.settings.name(), header.started_at.format("%Y%m%d-%H%M%S-%3f"))
 }
 
-/// Makes a CSV or Parquet file, by the extension of `to`, and its sidecar from the packets of a recording.
-///
-/// # Errors
-/// If `from` is no packet file, if the extension is another one, or if `to` exists.
-pub fn convert(from: &Path, to: &Path) -> Result<Sidecar, RecorderError> {
-    let format = Format::of(to).ok_or_else(|| RecorderError::UnknownFormat(to.to_owned()))?;
-    let mut journal = JournalReader::open(from)?;
-    let mut table = TableFile::create(to, format, journal.header())?;
-    let (last, reason) = replay(&mut journal, |at, entry| table.push(at, entry))?;
-    table.finish(last, reason)
-}
-
-/// What a recording holds: of a packet file by decoding it, of a CSV or Parquet file by the sidecar beside it.
-pub fn summarise(path: &Path) -> Result<Sidecar, RecorderError> {
-    let extension = path.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-    if extension.eq_ignore_ascii_case("json") {
-        return Sidecar::read(path);
-    }
-    if Format::of(path).is_some() {
-        // A name that is mistyped is reported, not that of the sidecar.
-        std::fs::metadata(path).map_err(RecorderError::read(path))?;
-        return Sidecar::read(&sidecar_path(path));
-    }
-    let mut journal = JournalReader::open(path)?;
-    let mut decoder = super::decoder::Decoder::new(&journal.header().settings);
-    let (last, reason) = replay(&mut journal, |at, entry| {
-        decoder.push(at, entry);
-        decoder.clear();
-        Ok(())
-    })?;
-    Ok(sidecar(journal.header(), decoder.facts(), &decoder.columns(), last, reason))
-}
-
-/// Goes through a journal. When the last entry came, and why the recording ended.
-fn replay(
-    journal: &mut JournalReader,
-    mut each: impl FnMut(DateTime<Utc>, &Entry) -> Result<(), RecorderError>,
-) -> Result<(DateTime<Utc>, StopReason), RecorderError> {
-    let (mut last, mut reason) = (journal.header().started_at, StopReason::Killed);
-    while let Some((at, entry)) = journal.next_entry()? {
-        last = at;
-        if let Entry::End(end) = entry {
-            reason = end;
-        }
-        each(at, &entry)?;
-    }
-    Ok((last, reason))
-}
-
 /// Finishes the recordings that a program which was killed left in a folder: their files are made again from the
 /// journals. Journals that another process is writing, that are complete, or that cannot be read are left alone.
 pub fn recover(folder: &Path) -> Vec<Result<Recorded, RecorderError>> {
@@ -163,12 +117,17 @@ fn recover_one(path: &Path) -> Result<Option<Recorded>, RecorderError> {
     }
     let Ok(journal) = JournalReader::open(path) else { return Ok(None) };
     let header = journal.header().clone();
-    let table = path.with_extension(&header.format);
-    let is_complete = sidecar_path(&table).exists();
-    let Some(format) = Format::of(&table).filter(|_| !is_complete) else { return Ok(None) };
+    // A journal from elsewhere may have anything there.
+    let Some(format) = Format::ALL.into_iter().find(|format| format.extension() == header.format) else {
+        return Ok(None);
+    };
+    let table = path.with_extension(format.extension());
+    if sidecar_path(&table).exists() {
+        return Ok(None);
+    }
     drop(journal);
-    for unfinished in [table.clone(), path.with_extension(format!("{}.part", format.extension()))] {
-        replace::remove_if_there(&unfinished).map_err(RecorderError::write(&unfinished))?;
+    for unfinished in [&table, &unfinished_path(&table)] {
+        replace::remove_if_there(unfinished).map_err(RecorderError::write(unfinished))?;
     }
     let sidecar = convert(path, &table)?;
     // Windows removes no file that is open.

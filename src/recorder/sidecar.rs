@@ -31,7 +31,7 @@ pub struct Sidecar {
     pub packets: u64,
     /// Bytes of the packets.
     pub bytes: u64,
-    /// Seconds of the controller's time from the first sample to the last.
+    /// Seconds of the controller's time from the first sample to the last, to the microsecond.
     pub seconds: f64,
     /// Packets that could not be decoded. They are in the packet file only.
     pub undecodable: u64,

@@ -5,6 +5,7 @@ use chrono::DateTime;
 
 use super::*;
 use crate::recorder::settings::RecordSettings;
+use crate::recorder::stored_recording::summarise;
 use crate::records::Ticks;
 use crate::records::motion::MotionBlock;
 

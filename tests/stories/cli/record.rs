@@ -104,7 +104,14 @@ fn a_motion_log_is_recorded_shown_converted_and_survives_a_kill() {
     let (code, converted) = line.cli.json(&["record", "convert", packets, &again]);
     assert_eq!((code, &converted[0]["result"]["recording"]), (Some(0), recording));
     assert_eq!(std::fs::read(&again).unwrap(), std::fs::read(file).unwrap());
-    let (code, refused) = line.cli.json(&["record", "convert", &again, &line.cli.file("other.parquet")]);
+    let (parquet, third) = (line.cli.file("other.parquet"), line.cli.file("third.csv"));
+    for (from, to) in [(&again, &parquet), (&parquet, &third)] {
+        let (code, converted) = line.cli.json(&["record", "convert", from, to]);
+        assert_eq!((code, &converted[0]["result"]["recording"]), (Some(0), recording));
+    }
+    assert_eq!(std::fs::read(&third).unwrap(), std::fs::read(file).unwrap());
+    std::fs::write(&third, "Time,Value\r\n1,2\r\n").unwrap();
+    let (code, refused) = line.cli.json(&["record", "convert", &third, &line.cli.file("fourth.csv")]);
     assert_eq!(code, Some(2));
     assert_error(&refused, "file-format");
 
