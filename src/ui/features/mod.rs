@@ -10,7 +10,8 @@
 //! | `add_controller`, `delete_controllers`, `connection_list` | the list of controllers |
 //! | `server_control` | information, start and stop |
 //! | `basic_settings`, `users`, `server_log`, `activation`, `settings_transfer` | the server's settings |
-//! | `self_signed`, `certificate_import`, `export_self_signed`, `type_select` | the server's certificates |
+//! | `self_signed`, `create_csr`, `import_ca_signed`, `user_specified`, `restore_backup`, `export_self_signed`, `type_select` | the server's certificates |
+//! | `subject_fields`, `certificate_import` | what some of these share |
 //! | [`client_certificates`] | client certificates and CRLs |
 //! | `certificate_authority`, `verify`, [`live_values`] | tools |
 //! | `backup`, `options`, [`vault`] | how this program works |
@@ -27,17 +28,22 @@ pub mod certificate_authority;
 pub mod certificate_import;
 pub mod client_certificates;
 pub mod connection_list;
+pub mod create_csr;
 pub mod delete_controllers;
 mod dropped_files;
 pub mod export_self_signed;
+pub mod import_ca_signed;
 pub mod licences;
 pub mod live_values;
 mod options;
+pub mod restore_backup;
 pub mod self_signed;
 mod server_control;
 pub mod server_log;
 pub mod settings_transfer;
+mod subject_fields;
 pub mod type_select;
+pub mod user_specified;
 pub mod users;
 pub mod vault;
 pub mod verify;

@@ -1,21 +1,39 @@
-//! A self-signed server certificate (manual 2.7.1.2), and the request for one that a CA signs (2.7.1.5).
+//! A self-signed server certificate (manual 2.7.1.2).
 
-mod form;
 mod view;
 
 use egui::Ui;
 
-use crate::jobs;
-use crate::model::FileFormat;
+use crate::jobs::{self, CsrFields, SelfSignedFields};
+use crate::model::Validity;
 use crate::texts::TextKey;
+use crate::ui::features::subject_fields::{SubjectFields, SubjectForm, read_policies};
 use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, Task, UiCommand};
 
-pub use form::SelfSignedForm;
+/// A self-signed server certificate (manual 2.7.1.2).
+#[derive(Debug)]
+pub struct SelfSignedForm {
+    pub subject: SubjectFields,
+    /// How long it is valid. Default 5.
+    pub years: u8,
+}
+
+impl SelfSignedForm {
+    /// What Apply does; `None` while something is wrong.
+    fn task(&self, model: &Model) -> Option<Task> {
+        let CsrFields { common_name, country, state, locality, organisation, key_length } = self.subject.request()?;
+        let validity = Validity::try_from(self.years).ok()?;
+        let fields = SelfSignedFields { common_name, country, state, locality, organisation, key_length, validity };
+        let backup = model.options.backup.then(|| model.workspace.certificate_files());
+        let task = Task::new(TextKey::SelfSignedTitle, jobs::SelfSigned { fields, backup });
+        Some(task.act(TextKey::ActSelfSigned).restarts_server())
+    }
+}
 
 impl UiCommand {
     /// Makes a self-signed certificate.
     pub const SELF_SIGNED: Self =
-        Self::new(TextKey::SelfSigned, TextKey::SelfSignedTip, |model, rows| model.open_self_signed(rows, None))
+        Self::new(TextKey::SelfSigned, TextKey::SelfSignedTip, |model, rows| model.open_self_signed(rows))
             .in_menu(TextKey::MenuCertificate)
             .for_controllers();
 }
@@ -26,7 +44,7 @@ impl Dialog for SelfSignedForm {
     }
 
     fn submit(self: Box<Self>, model: &mut Model) -> Vec<BackendCommand> {
-        let planned = self.task(model).map(|task| (task, self.rows.clone()));
+        let planned = self.task(model).map(|task| (task, self.subject.rows.clone()));
         model.ask(self, planned)
     }
 
@@ -39,31 +57,17 @@ impl Dialog for SelfSignedForm {
     }
 }
 
-impl Model {
-    /// For a certificate, or for a request in this format.
-    pub(in crate::ui) fn open_self_signed(
-        &mut self,
-        rows: Vec<RowId>,
-        request: Option<FileFormat>,
-    ) -> Vec<BackendCommand> {
-        let form = SelfSignedForm::new(rows.clone(), request, self);
-        let reading = form.reading;
-        self.open(form);
-        if reading { self.start(read_policies(), rows, None) } else { vec![] }
+impl SubjectForm for SelfSignedForm {
+    fn subject_fields(&mut self) -> &mut SubjectFields {
+        &mut self.subject
     }
 }
 
-fn read_policies() -> Task {
-    Task::with_results(TextKey::SettingsTitle, jobs::ReadBasicSettings, |model, row, result| {
-        let name = model.rows.get(row).and_then(|row| row.info()).map(|info| info.application_name.clone());
-        if let (Ok(settings), Some(form)) = (result, model.dialog::<SelfSignedForm>()) {
-            form.reading = false;
-            form.offer(&settings.value.security_policies);
-            if let Some(name) = name.filter(|_| form.common_name.is_empty()) {
-                form.common_name = name;
-            }
-        }
-        vec![]
-    })
-    .for_dialog::<SelfSignedForm>()
+impl Model {
+    pub(in crate::ui) fn open_self_signed(&mut self, rows: Vec<RowId>) -> Vec<BackendCommand> {
+        let subject = SubjectFields::new(rows.clone(), self);
+        let reading = subject.reading;
+        self.open(SelfSignedForm { subject, years: 5 });
+        if reading { self.start(read_policies::<SelfSignedForm>(), rows, None) } else { vec![] }
+    }
 }

@@ -1,7 +1,7 @@
 use egui::{Frame, Label, RichText, Stroke, Ui};
 
 use crate::texts::{self, TextKey as T};
-use crate::ui::features::certificate_import::CaSignedForm;
+use crate::ui::features::import_ca_signed::CaSignedForm;
 use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};

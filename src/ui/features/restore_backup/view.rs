@@ -1,7 +1,7 @@
 use egui::{Label, RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
-use crate::ui::features::certificate_import::RestoreForm;
+use crate::ui::features::restore_backup::RestoreForm;
 use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};

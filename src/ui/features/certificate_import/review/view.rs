@@ -1,10 +1,10 @@
 use egui::{Frame, Label, RichText, Stroke, Ui};
 
+use super::ImportReview;
 use crate::jobs::CertificateChecked;
 use crate::model::Problem;
 use crate::pki::{CertificateFinding, Issuers, Severity};
 use crate::texts::{self, TextKey as T};
-use crate::ui::features::certificate_import::ImportReview;
 use crate::ui::model::{DialogAnswer, Model};
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, note, small_note, word};

@@ -1,7 +1,7 @@
 use egui::{RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
-use crate::ui::features::certificate_import::{UserFiles, UserSpecifiedForm};
+use crate::ui::features::user_specified::{UserFiles, UserSpecifiedForm};
 use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};

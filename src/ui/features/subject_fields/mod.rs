@@ -1,15 +1,23 @@
+//! What a self-signed server certificate (manual 2.7.1.2) and a CSR (manual 2.7.1.5) are asked for: the subject and the
+//! key length. Not a command of its own: `self_signed` and `create_csr` show these fields.
+
+mod view;
+
 use std::collections::BTreeSet;
 
-use crate::jobs::{self, CsrFields, SelfSignedFields};
-use crate::model::{FileFormat, KeyLength, SecurityPolicy, Subject, SubjectError, Validity, offered_key_lengths};
+use crate::jobs::{self, CsrFields};
+use crate::model::{KeyLength, SecurityPolicy, Subject, SubjectError, offered_key_lengths};
 use crate::texts::TextKey;
-use crate::ui::model::{Model, RowId, Task};
+use crate::ui::model::{Dialog, Model, RowId, Task};
 
-/// A self-signed server certificate (manual 2.7.1.2), or the request for one that a CA signs (2.7.1.5).
+pub use view::show;
+
+/// The subject and the key length of one certificate, or of one for each of several controllers.
 #[derive(Debug)]
-pub struct SelfSignedForm {
+pub struct SubjectFields {
     pub rows: Vec<RowId>,
     pub names: Vec<String>,
+    /// The policies, which decide what key lengths are offered, are being read.
     pub reading: bool,
     /// Used for one controller only; several make their own.
     pub common_name: String,
@@ -21,14 +29,16 @@ pub struct SelfSignedForm {
     pub organisation: String,
     pub key_length: KeyLength,
     pub offered: Vec<KeyLength>,
-    /// Of a self-signed certificate.
-    pub years: u8,
-    /// It is a request, to be saved in this format.
-    pub request: Option<FileFormat>,
 }
 
-impl SelfSignedForm {
-    pub fn new(rows: Vec<RowId>, request: Option<FileFormat>, model: &Model) -> Self {
+/// A dialog with these fields.
+pub trait SubjectForm: Dialog {
+    fn subject_fields(&mut self) -> &mut SubjectFields;
+}
+
+impl SubjectFields {
+    /// Empty fields for a certificate of these controllers.
+    pub fn new(rows: Vec<RowId>, model: &Model) -> Self {
         let one = (rows.len() == 1).then(|| model.rows.get(rows[0])).flatten();
         let common_name = one.and_then(|row| row.info()).map(|i| i.application_name.clone()).unwrap_or_default();
         let reading = rows.len() == 1;
@@ -44,15 +54,15 @@ impl SelfSignedForm {
             organisation: String::new(),
             key_length: KeyLength::Rsa2048,
             offered: if reading { vec![KeyLength::Rsa2048] } else { KeyLength::ALL.to_vec() },
-            years: 5,
-            request,
         }
     }
 
+    /// It is for one controller.
     pub fn is_single(&self) -> bool {
         self.rows.len() == 1
     }
 
+    /// Offers the key lengths that these policies allow.
     pub fn offer(&mut self, policies: &BTreeSet<SecurityPolicy>) {
         self.offered = offered_key_lengths(policies);
         if !self.offered.contains(&self.key_length) {
@@ -95,34 +105,44 @@ impl SelfSignedForm {
         }
     }
 
-    /// What Apply does; `None` while something is wrong.
-    pub fn task(&self, model: &Model) -> Option<Task> {
-        let fields = self.fields()?;
-        let (files, backup) = (model.workspace.certificate_files(), model.options.backup);
-        let Some(format) = self.request else {
-            let operation = jobs::SelfSigned { fields, backup: backup.then_some(files) };
-            let task = Task::new(TextKey::SelfSignedTitle, operation);
-            return Some(task.act(TextKey::ActSelfSigned).restarts_server());
-        };
-        let SelfSignedFields { common_name, country, state, locality, organisation, key_length, validity: _ } = fields;
-        let fields = CsrFields { common_name, country, state, locality, organisation, key_length };
-        let operation = jobs::CreateCsr { fields, format, files, backup };
-        Some(Task::new(TextKey::CsrTitle, operation).act(TextKey::ActCreateCsr))
-    }
-
-    fn fields(&self) -> Option<SelfSignedFields> {
+    /// What is asked for; `None` while something is wrong or missing.
+    pub fn request(&self) -> Option<CsrFields> {
         if self.reading {
             return None;
         }
         self.subject().check().ok()?;
-        Some(SelfSignedFields {
+        Some(CsrFields {
             common_name: self.is_single().then(|| self.common_name.clone()),
             country: self.country.to_owned(),
             state: self.state.clone(),
             locality: self.locality.clone(),
             organisation: self.organisation.clone(),
             key_length: self.key_length,
-            validity: Validity::try_from(self.years).ok()?,
         })
     }
+
+    /// Why there is no request.
+    pub fn why_not(&self) -> Option<TextKey> {
+        if self.reading {
+            return Some(TextKey::Reading);
+        }
+        ["common name", "state", "locality", "organisation"].iter().find_map(|field| self.error(field))
+    }
+}
+
+/// Reads which policies the controller has on, for a form that waits for them.
+pub fn read_policies<F: SubjectForm>() -> Task {
+    Task::with_results(TextKey::SettingsTitle, jobs::ReadBasicSettings, |model, row, result| {
+        let name = model.rows.get(row).and_then(|row| row.info()).map(|info| info.application_name.clone());
+        if let (Ok(settings), Some(form)) = (result, model.dialog::<F>()) {
+            let fields = form.subject_fields();
+            fields.reading = false;
+            fields.offer(&settings.value.security_policies);
+            if let Some(name) = name.filter(|_| fields.common_name.is_empty()) {
+                fields.common_name = name;
+            }
+        }
+        vec![]
+    })
+    .for_dialog::<F>()
 }
