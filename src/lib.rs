@@ -29,7 +29,7 @@
 //! checks it, stages it and applies it whole or not at all; events report progress and result to the row, the progress
 //! dialog and the summary.
 
-#![warn(missing_debug_implementations, clippy::unwrap_used, clippy::dbg_macro)]
+#![warn(missing_debug_implementations, missing_docs, clippy::unwrap_used, clippy::dbg_macro)]
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod cli;

@@ -19,8 +19,11 @@ pub struct FindServer {
 /// The server of a controller, and what this program connects with.
 #[derive(Debug, Clone)]
 pub struct FoundServer {
+    /// Of the controller.
     pub serial: SerialNumber,
+    /// Where it listens, and which certificate it must show.
     pub server: ControllerServer,
+    /// What this program shows to it.
     pub own: ConfiguratorIdentity,
 }
 

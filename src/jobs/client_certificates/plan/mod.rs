@@ -3,19 +3,18 @@ mod sorter;
 mod tests;
 
 use std::collections::BTreeSet;
-use std::fmt;
 
 use chrono::{DateTime, Utc};
 
 use super::TrustSnapshot;
-use super::notes::{self, TrustNote};
+use super::notes::TrustNote;
 use super::target_list::TargetList;
 use crate::model::{
-    Base64Bytes, Capabilities, CertificateSummary, ClientList, CrlSummary, ErrorCode, Feature, ListLimits,
-    MissingReason, Problem, TrustStep,
+    Base64Bytes, Capabilities, CertificateSummary, ClientList, CrlSummary, ErrorCode, Feature, ListLimits, Problem,
+    TrustStep,
 };
 use crate::pki::{Bundle, Certificate, Crl, is_authority};
-use crate::session::{MAX_REQUEST_BYTES, MAX_SENT_CRL_BYTES};
+use crate::session::MAX_REQUEST_BYTES;
 
 /// A file with certificates and CRLs, read and parsed.
 #[derive(Debug, Clone, PartialEq)]

@@ -6,7 +6,6 @@ use std::path::PathBuf;
 
 use egui::Ui;
 
-use crate::model::FileFormat;
 use crate::texts::TextKey;
 use crate::ui::features::certificate_import::{ImportChecks, ImportForm, ImportSource, typed_path};
 use crate::ui::model::{
