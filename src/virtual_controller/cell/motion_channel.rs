@@ -181,6 +181,45 @@ mod tests {
         assert_eq!(channel.values(at(last + 4)).error, QueueStatus::None);
     }
 
+    /// A day at the shortest interval, by a reader whose pauses are of any length up to twice what the queue holds.
+    #[test]
+    fn in_a_day_nothing_is_lost_until_the_queue_is_full_and_then_exactly_what_it_did_not_hold() {
+        const DAY_MILLIS: u64 = 24 * 3600 * 1000;
+        const BLOCK_MILLIS: u64 = 4;
+        const FULL_MILLIS: u64 = CAPACITY * BLOCK_MILLIS;
+        let mut channel = MotionChannel::new(at(0), 0);
+        let (mut now, mut next, mut lost, mut warnings) = (0, 0, 0, 0);
+        for look in 0_u64.. {
+            let pause = match look % 50 {
+                48 => FULL_MILLIS,
+                49 => FULL_MILLIS + 1 + look * 7919 % FULL_MILLIS,
+                // Mostly the pace of a recorder, sometimes nearly a full queue.
+                turn => 1 + look * 7919 % if turn % 8 == 0 { FULL_MILLIS } else { 500 },
+            };
+            now += pause;
+            if now > DAY_MILLIS {
+                break;
+            }
+            let produced = now / BLOCK_MILLIS;
+            let overwritten = (produced - next).saturating_sub(CAPACITY);
+            let values = channel.values(at(now));
+            // Before its first read nobody is warned.
+            let is_late = overwritten > 0 && next > 0;
+            assert_eq!(values.error == QueueStatus::Warning, is_late, "{pause} ms after the read before");
+            warnings += u32::from(is_late);
+            assert_eq!(values.data == DataStatus::Ready, produced > next);
+            (next, lost) = (next + overwritten, lost + overwritten);
+            while let Some(MotionRead { first, count }) = channel.read(at(now), 0, usize::MAX) {
+                assert_eq!(first, next, "blocks follow each other");
+                assert!(count <= MAX_BLOCKS_PER_READ as u64);
+                next += count;
+                assert_eq!(channel.values(at(now)).error, QueueStatus::None, "one read ends the warning");
+            }
+            assert_eq!(next, produced, "everything else was read");
+        }
+        assert!(warnings > 1000 && lost > 100_000 && next > DAY_MILLIS / BLOCK_MILLIS - 2 * CAPACITY);
+    }
+
     #[test]
     fn stopping_leaves_the_rest_and_breaking_off_does_not() {
         let mut channel = MotionChannel::new(at(0), 0);
