@@ -18,7 +18,8 @@ pub struct CellArgs {
     /// What to do, in this order: start N, stop, pause, continue, reset, motors-on ROBOT, motors-off ROBOT, home ROBOT, power
     /// ROBOT high|low, speed PERCENT, step-mode on|off, step, emergency-stop on|off, door open|closed, mode auto|teach|test,
     /// error NUMBER, warning NUMBER, bit PORT OFFSET on|off, byte PORT OFFSET VALUE, record-start ROBOT SECONDS INTERVAL,
-    /// record-end MONITOR, record-break MONITOR, motion-log on|off|break; robot 0 stands for all robots
+    /// record-end MONITOR, record-break MONITOR, motion-log on|off|break, wear-out ALARM, reset-alarm ALARM, abort; robot 0
+    /// stands for all robots
     #[arg(long = "do", value_name = "COMMAND", value_parser = checked)]
     commands: Vec<String>,
     #[command(flatten)]

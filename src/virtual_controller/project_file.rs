@@ -1,10 +1,11 @@
-//! The file of a controller's project that declares the SPEL variables for OPC UA (manual 4.2), in the controller's folder.
+//! The file of a controller's project that declares the backup variables for OPC UA (manual 4.2) and for remote commands, in
+//! the controller's folder.
 
 use std::fs::File;
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-use super::cell::{MAX_DECLARATION_BYTES, SpelDeclarations};
+use super::cell::{MAX_DECLARATION_BYTES, SpelDeclaration, SpelDeclarations};
 use crate::platform::private;
 
 /// The file with the declarations. An engineer may edit it; the OPC UA server reads it when it starts.
@@ -34,10 +35,15 @@ pub(super) fn load(folder: &Path) -> io::Result<SpelDeclarations> {
     Ok(SpelDeclarations::parse(&content))
 }
 
-/// The example of the manual (4.2.2), and one variable of each other type. The program of the cell assigns them.
+/// The variables of a new virtual controller.
+pub fn usual_variables() -> Vec<SpelDeclaration> {
+    SpelDeclarations::parse(USUAL.as_bytes()).variables
+}
+
+/// The example of the manual (4.2.2), one variable of each other type, and those of the remote commands' examples. The program of the cell assigns them.
 const USUAL: &str = "\
 ' Variables that OPC UA clients can read: Global Preserve, with the prefix OPCUA_, no arrays, 256 at most.
-' The OPC UA server reads this file when it starts.
+' Remote commands read and set every Global Preserve variable. The OPC UA server reads this file when it starts.
 Global Preserve UShort OPCUA_ItemCode
 Global Preserve UInt32 OPCUA_ElectricPower
 Global Preserve UInt32 OPCUA_NumOfProduced
@@ -58,6 +64,7 @@ Global Preserve UInt64 OPCUA_PartSerial
 Global Preserve Real OPCUA_CycleSeconds
 Global Preserve Double OPCUA_Load
 Global Preserve String OPCUA_Recipe
+Global Preserve Integer g_Status, g_intArray(10), g_int3Array(10, 10, 10)
 ";
 
 #[cfg(test)]

@@ -23,7 +23,9 @@ use opcua_configurator::model::{
     ControllerSeries, FirmwareVersion, KeyLength, SecurityPolicy, SelfSignedRequest, Subject, UserTokenPolicy, Validity,
 };
 use opcua_configurator::pki::{Certificate, PrivateKey, ServerNames, TrustLists, TrustPolicy, self_signed};
-use opcua_configurator::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
+use opcua_configurator::virtual_controller::cell::{
+    BackupMemory, Cell, CellClock, CellConfig, CellHandle, CellOptions,
+};
 use opcua_configurator::virtual_controller::opcua::{CertificateClock, OpcUaConfig, OpcUaServer, ServerEvents};
 use report::{Spread, line};
 use rsa::RsaPrivateKey;
@@ -129,6 +131,7 @@ fn cell() -> Result<CellHandle, Failure> {
         firmware: FirmwareVersion::new(8, 1, 0),
         started: Utc::now(),
         variables: Vec::new(),
+        backup: BackupMemory::default(),
         options: CellOptions::default(),
     };
     Ok(CellHandle::new(Cell::new(config), CellClock::manual()))

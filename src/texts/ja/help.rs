@@ -247,7 +247,7 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     (
         "virtual cell",
         "commands",
-        "指定した順に実行するコマンド：start N、stop、pause、continue、reset、motors-on ROBOT、motors-off ROBOT、home ROBOT、power ROBOT high|low、speed PERCENT、step-mode on|off、step、emergency-stop on|off、door open|closed、mode auto|teach|test、error NUMBER、warning NUMBER、bit PORT OFFSET on|off、byte PORT OFFSET VALUE、record-start ROBOT SECONDS INTERVAL、record-end MONITOR、record-break MONITOR、motion-log on|off|break。ロボット番号0はすべてのロボットを表す",
+        "指定した順に実行するコマンド：start N、stop、pause、continue、reset、motors-on ROBOT、motors-off ROBOT、home ROBOT、power ROBOT high|low、speed PERCENT、step-mode on|off、step、emergency-stop on|off、door open|closed、mode auto|teach|test、error NUMBER、warning NUMBER、bit PORT OFFSET on|off、byte PORT OFFSET VALUE、record-start ROBOT SECONDS INTERVAL、record-end MONITOR、record-break MONITOR、motion-log on|off|break、wear-out ALARM、reset-alarm ALARM、abort。ロボット番号0はすべてのロボットを表す",
     ),
     ("virtual cell", "all", "フォルダー内のすべてのコントローラー"),
     ("virtual cell", "serials", "シリアル番号"),

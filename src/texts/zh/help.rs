@@ -184,7 +184,7 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     (
         "virtual cell",
         "commands",
-        "按此顺序执行的命令：start N、stop、pause、continue、reset、motors-on ROBOT、motors-off ROBOT、home ROBOT、power ROBOT high|low、speed PERCENT、step-mode on|off、step、emergency-stop on|off、door open|closed、mode auto|teach|test、error NUMBER、warning NUMBER、bit PORT OFFSET on|off、byte PORT OFFSET VALUE、record-start ROBOT SECONDS INTERVAL、record-end MONITOR、record-break MONITOR、motion-log on|off|break；机器人编号 0 表示全部机器人",
+        "按此顺序执行的命令：start N、stop、pause、continue、reset、motors-on ROBOT、motors-off ROBOT、home ROBOT、power ROBOT high|low、speed PERCENT、step-mode on|off、step、emergency-stop on|off、door open|closed、mode auto|teach|test、error NUMBER、warning NUMBER、bit PORT OFFSET on|off、byte PORT OFFSET VALUE、record-start ROBOT SECONDS INTERVAL、record-end MONITOR、record-break MONITOR、motion-log on|off|break、wear-out ALARM、reset-alarm ALARM、abort；机器人编号 0 表示全部机器人",
     ),
     ("virtual cell", "all", "文件夹中的全部控制器"),
     ("virtual cell", "serials", "序列号"),

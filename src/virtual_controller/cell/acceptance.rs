@@ -4,6 +4,7 @@
 use super::command::{CellCommand, CommandRefusal, RobotChoice};
 use super::io::IoDirection;
 use super::program::Function;
+use super::robot_unit::DEFAULT_SPEED;
 use super::simulation::Cell;
 use super::status::OperatingMode;
 use super::task::Task;
@@ -60,19 +61,38 @@ impl Cell {
                 self.safety.emergency_stop = false;
                 self.safety.error = 0;
                 self.safety.warning = 0;
+                self.reset_outputs_and_robots();
             }
             CellCommand::MotorsOn(choice) => {
                 self.check(Command::SetMotorsOn)?;
                 if self.safety.error != 0 {
                     return Err(CommandRefusal::InError);
                 }
-                let now = self.now;
-                self.each(choice, |cell, robot| cell.robots[robot].switch_on(now, false))?;
+                self.switch_motors(choice, true)?;
             }
             CellCommand::MotorsOff(choice) => {
                 self.check(Command::SetMotorsOff)?;
-                let now = self.now;
-                self.each(choice, |cell, robot| cell.robots[robot].switch_off(now))?;
+                self.switch_motors(choice, false)?;
+            }
+            CellCommand::CurrentRobot(number) => {
+                self.check(Command::SetCurRobot)?;
+                let robot = self.one(number)?;
+                self.select_robot(robot);
+            }
+            CellCommand::SetVariable { name, kind, element, value } => {
+                self.check(Command::SetVariable)?;
+                self.variables.write(&name, kind, &element, value)?;
+            }
+            CellCommand::ResetAlarm(alarm) => {
+                self.check(Command::ResetAlm)?;
+                self.replace_parts(alarm)?;
+            }
+            CellCommand::WearOut(alarm) => self.wear_out(alarm)?,
+            CellCommand::Abort => {
+                self.check(Command::Abort)?;
+                if self.is_executing() {
+                    self.brake(NORMAL_BRAKE);
+                }
             }
             CellCommand::Power { robots, high } => {
                 let now = self.now;
@@ -135,6 +155,13 @@ impl Cell {
                 self.check_port(port, offset)?;
                 self.io.set_byte(port, offset, value);
             }
+            CellCommand::SetWord { port, offset, value } => {
+                let first = offset.checked_mul(2).ok_or(CommandRefusal::UnknownPort)?;
+                self.check_port(port, first.saturating_add(1))?;
+                let [low, high] = value.to_le_bytes();
+                self.io.set_byte(port, first, low);
+                self.io.set_byte(port, first + 1, high);
+            }
             CellCommand::RecordStart(recording) => {
                 self.record_start(recording)?;
             }
@@ -155,7 +182,11 @@ impl Cell {
         Ok(())
     }
 
-    fn check(&self, command: Command) -> Result<(), CommandRefusal> {
+    /// Whether a remote command is accepted now.
+    pub(super) fn check(&self, command: Command) -> Result<(), CommandRefusal> {
+        if self.is_executing() && !command.is_accepted_during_execute() {
+            return Err(CommandRefusal::ExecuteRunning);
+        }
         command.unmet(self.flags()).next().map_or(Ok(()), |condition| Err(condition.into()))
     }
 
@@ -196,6 +227,30 @@ impl Cell {
             }
         }
         Ok(())
+    }
+
+    /// Motors of one robot or all on, with power low, or off.
+    pub(super) fn switch_motors(&mut self, choice: RobotChoice, on: bool) -> Result<(), CommandRefusal> {
+        let now = self.now;
+        self.each(choice, |cell, robot| {
+            let unit = &mut cell.robots[robot];
+            if on { unit.switch_on(now, false) } else { unit.switch_off(now) }
+        })
+    }
+
+    /// Outputs off, except for those that show the status, and the speeds and powers of the robots set back (*5 of the remote
+    /// commands).
+    fn reset_outputs_and_robots(&mut self) {
+        let ports = self.description.io;
+        for (index, port) in ports.iter().enumerate().filter(|(_, port)| port.direction == IoDirection::Output) {
+            (0..port.bytes()).for_each(|byte| self.io.set_byte(index, byte, 0));
+        }
+        self.shown = None;
+        let now = self.now;
+        for unit in &mut self.robots {
+            unit.speed = DEFAULT_SPEED;
+            unit.robot.set(now, |state| state.power_high = false);
+        }
     }
 
     fn start(&mut self, function: Function) {
@@ -239,7 +294,9 @@ impl Cell {
         self.run_due();
     }
 
+    /// Slows everything down to a stop, and ends what Execute runs.
     fn brake(&mut self, hardness: f64) {
+        self.abort_immediate();
         let now = self.now;
         for unit in &mut self.robots {
             unit.robot.brake(now, hardness);

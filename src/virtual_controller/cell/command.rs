@@ -1,6 +1,8 @@
 use thiserror::Error;
 
 use super::status::OperatingMode;
+use super::variables::VariableError;
+use crate::model::{SpelType, SpelValue};
 use crate::remote::Condition;
 
 /// What can be asked of a cell: by the plant around it, by its operator, and by remote commands.
@@ -25,6 +27,26 @@ pub enum CellCommand {
     MotorsOff(RobotChoice),
     /// Remote command Home: moves the robot to its home position.
     Home(u8),
+    /// Remote command SetCurRobot: the robot that Execute moves.
+    CurrentRobot(u8),
+    /// Remote command SetVariable.
+    SetVariable {
+        /// The name; compared without case.
+        name: String,
+        /// The type the variable must have been declared with; `None` accepts any.
+        kind: Option<SpelType>,
+        /// The element of an array; empty for a scalar.
+        element: Vec<u16>,
+        /// A value of the declared type.
+        value: SpelValue,
+    },
+    /// Remote command ResetAlm: the parts behind an alarm were replaced.
+    ResetAlarm(u8),
+    /// The parts behind an alarm are worn out, which raises it: 1 is the battery of the controller, 2 n the battery of robot n,
+    /// 2 n + 1 its grease.
+    WearOut(u8),
+    /// Remote command Abort: ends what Execute runs.
+    Abort,
     /// Power high or low of a robot. Power low limits the speed.
     Power {
         /// Which robots.
@@ -69,6 +91,15 @@ pub enum CellCommand {
         /// The new value.
         value: u8,
     },
+    /// As [`CellCommand::SetByte`], for two bytes at once.
+    SetWord {
+        /// Index into the I/O ports.
+        port: usize,
+        /// Word from the port's first on.
+        offset: u16,
+        /// The new value; bit 0 is the first bit of the word.
+        value: u16,
+    },
     /// RecordStart of the force sensor of a robot.
     RecordStart(ForceRecording),
     /// RecordEnd of the force sensor's recording on a monitor: 1 or 2.
@@ -101,7 +132,7 @@ pub struct ForceRecording {
     pub interval: f32,
 }
 
-/// Why a command is refused. The first nine are the acceptance conditions of the remote commands.
+/// Why a command is refused. The first seven are the acceptance conditions of the remote commands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
 pub enum CommandRefusal {
     /// The mode is not Auto.
@@ -149,6 +180,15 @@ pub enum CommandRefusal {
     /// This firmware has no motion log.
     #[error("this firmware does not support the function")]
     NotSupported,
+    /// Execute runs a command.
+    #[error("a command that Execute has started is still running")]
+    ExecuteRunning,
+    /// No part of the cell has an alarm with this number.
+    #[error("there is no such alarm")]
+    UnknownAlarm,
+    /// The variable is not written.
+    #[error(transparent)]
+    Variable(#[from] VariableError),
 }
 
 impl From<Condition> for CommandRefusal {

@@ -16,7 +16,8 @@ pub struct UnknownCommand(pub String);
 pub const COMMANDS: &str = "start N, stop, pause, continue, reset, motors-on ROBOT, motors-off ROBOT, home ROBOT, \
      power ROBOT high|low, speed PERCENT, step-mode on|off, step, emergency-stop on|off, door open|closed, \
      mode auto|teach|test, error NUMBER, warning NUMBER, bit PORT OFFSET on|off, byte PORT OFFSET VALUE, \
-     record-start ROBOT SECONDS INTERVAL, record-end MONITOR, record-break MONITOR, motion-log on|off|break";
+     record-start ROBOT SECONDS INTERVAL, record-end MONITOR, record-break MONITOR, motion-log on|off|break, \
+     wear-out ALARM, reset-alarm ALARM, abort";
 
 impl FromStr for CellCommand {
     type Err = UnknownCommand;
@@ -66,6 +67,9 @@ fn parse(words: &[&str]) -> Option<CellCommand> {
         ["record-break", monitor] => CellCommand::BreakForceRecording(number(monitor)?),
         ["motion-log", "break"] => CellCommand::BreakMotionLogging,
         ["motion-log", on] => CellCommand::MotionLogging(switch(on)?),
+        ["wear-out", alarm] => CellCommand::WearOut(number(alarm)?),
+        ["reset-alarm", alarm] => CellCommand::ResetAlarm(number(alarm)?),
+        ["abort"] => CellCommand::Abort,
         _ => return None,
     })
 }
@@ -108,7 +112,7 @@ mod tests {
     #[test]
     fn every_command_of_the_list_is_understood() {
         let samples = samples();
-        assert_eq!(samples.len(), 23);
+        assert_eq!(samples.len(), 26);
         for sample in samples {
             let command: CellCommand = sample.parse().unwrap_or_else(|error| panic!("{error}"));
             assert!(format!("{sample} 1").parse::<CellCommand>().is_err(), "{command:?} takes no more");

@@ -1,7 +1,8 @@
 use chrono::{DateTime, Utc};
 
+use super::backup_memory::BackupMemory;
 use super::robot_model::RobotModel;
-use super::spel_value::SpelDeclaration;
+use super::spel_declaration::SpelDeclaration;
 use super::time::ClockRate;
 use crate::model::{ControllerName, ControllerSeries, FirmwareVersion, SerialNumber};
 
@@ -19,8 +20,10 @@ pub struct CellConfig {
     pub firmware: FirmwareVersion,
     /// The moment of switching on, by the controller's clock.
     pub started: DateTime<Utc>,
-    /// The SPEL variables; those beyond 256 are not taken.
+    /// The backup variables of the project. The address space shows at most 256 of them.
     pub variables: Vec<SpelDeclaration>,
+    /// What the battery has kept since the last power-off.
+    pub backup: BackupMemory,
     /// What a person chooses.
     pub options: CellOptions,
 }

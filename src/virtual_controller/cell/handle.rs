@@ -4,12 +4,30 @@ use std::time::Duration;
 
 use parking_lot::Mutex;
 
+use super::backup_memory::BackupMemory;
 use super::command::{CellCommand, CommandRefusal, Setting, SettingRefusal};
 use super::record::CellRecord;
 use super::simulation::Cell;
 use super::snapshot::{CellDescription, CellSnapshot};
-use super::spel_value::SpelDeclaration;
+use super::spel::error::SpelError;
+use super::spel_declaration::SpelDeclaration;
 use super::time::CellClock;
+use super::variables::VariableError;
+use crate::model::{SpelType, SpelValue};
+
+/// How an Execute stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Execution {
+    /// It still runs. Nothing changes before so much time has passed, unless something else acts on the cell.
+    Running {
+        /// At least a millisecond, at most a second.
+        ask_again: Duration,
+    },
+    /// It has ended: what it printed, empty for nothing, or why it ended before its end.
+    Ended(Result<String, SpelError>),
+    /// Another one was begun since.
+    Superseded,
+}
 
 /// A cell with its clock, shared between the OPC UA server and what else acts on the cell. Clones are the same cell.
 ///
@@ -70,6 +88,71 @@ impl CellHandle {
     /// Does what is asked now, or nothing if it is refused.
     pub fn command(&self, command: CellCommand) -> Result<(), CommandRefusal> {
         self.change(|cell| cell.command(command))
+    }
+
+    /// Begins to run a text of the SPEL+ subset, as the remote command Execute does. [`CellHandle::execution`] then says how
+    /// the Execute with the returned number stands; a text that is not understood ends at once.
+    pub fn execute(&self, text: &str) -> Result<u64, CommandRefusal> {
+        self.change(|cell| cell.execute_text(text))
+    }
+
+    /// How an Execute stands.
+    pub fn execution(&self, number: u64) -> Execution {
+        let mut inner = self.0.inner.lock();
+        inner.cell.advance_to(self.0.clock.now());
+        let cell = &inner.cell;
+        match cell.immediate_result(number) {
+            Some(result) => Execution::Ended(result.clone()),
+            None if cell.is_executing_number(number) => {
+                let left = cell.next_event().map_or(0, |event| event.nanos_since(cell.now()));
+                let ask_again = self.0.clock.real_time(Duration::from_nanos(left));
+                Execution::Running { ask_again: ask_again.clamp(Duration::from_millis(1), Duration::from_secs(1)) }
+            }
+            None => Execution::Superseded,
+        }
+    }
+
+    /// Whether an Execute still runs.
+    pub fn is_executing(&self) -> bool {
+        let mut inner = self.0.inner.lock();
+        inner.cell.advance_to(self.0.clock.now());
+        inner.cell.is_executing()
+    }
+
+    /// `count` values of a backup variable: of an array from an element on, of a scalar (1 value) with no element number. With
+    /// a type, the variable must have been declared with it.
+    pub fn variable(
+        &self,
+        name: &str,
+        kind: Option<SpelType>,
+        element: &[u16],
+        count: usize,
+    ) -> Result<Vec<SpelValue>, VariableError> {
+        let mut inner = self.0.inner.lock();
+        inner.cell.advance_to(self.0.clock.now());
+        inner.cell.variable(name, kind, element, count).map(<[SpelValue]>::to_vec)
+    }
+
+    /// The type that a backup variable was declared with.
+    pub fn variable_kind(&self, name: &str) -> Result<SpelType, VariableError> {
+        self.0.inner.lock().cell.variable_kind(name)
+    }
+
+    /// The number of the robot that remote commands without a robot number are about, from 1 on.
+    pub fn current_robot(&self) -> u8 {
+        self.0.inner.lock().cell.current_robot()
+    }
+
+    /// The numbers of the alarms that last, in ascending order.
+    pub fn alarms(&self) -> Vec<u8> {
+        let mut inner = self.0.inner.lock();
+        inner.cell.advance_to(self.0.clock.now());
+        inner.cell.alarms()
+    }
+
+    /// What a power-off must not lose.
+    pub fn backup(&self) -> BackupMemory {
+        self.0.inner.lock().cell.backup()
     }
 
     /// Replaces the declared SPEL variables, as at a start of the OPC UA server. See [`Cell::declare_variables`].

@@ -15,8 +15,18 @@ pub enum IoGroup {
     FieldbusSlave,
     /// Fieldbus master I/O; current firmware only.
     FieldbusMaster,
-    /// Memory I/O, neither input nor output; current firmware only.
+    /// Memory I/O, neither input nor output. Legacy firmware has it too, but does not show it to OPC UA clients.
     Memory,
+}
+
+impl IoGroup {
+    /// Whether the address space of this firmware shows the group (manual 3.2.3.1).
+    pub const fn is_shown(self, generation: FirmwareGeneration) -> bool {
+        match (generation, self) {
+            (FirmwareGeneration::Legacy, group) => matches!(group, Self::Standard | Self::Extended),
+            (FirmwareGeneration::Current, _) => true,
+        }
+    }
 }
 
 /// The direction of an I/O port.
@@ -76,7 +86,9 @@ const STANDARD_OUT: IoPort = port(IoGroup::Standard, IoDirection::Output, 0, 16)
 const EXTENDED_IN: IoPort = port(IoGroup::Extended, IoDirection::Input, 64, 24);
 const EXTENDED_OUT: IoPort = port(IoGroup::Extended, IoDirection::Output, 64, 16);
 
-const LEGACY_PORTS: [IoPort; 4] = [STANDARD_IN, STANDARD_OUT, EXTENDED_IN, EXTENDED_OUT];
+const MEMORY: IoPort = port(IoGroup::Memory, IoDirection::Memory, 0, 1024);
+
+const LEGACY_PORTS: [IoPort; 5] = [STANDARD_IN, STANDARD_OUT, EXTENDED_IN, EXTENDED_OUT, MEMORY];
 const CURRENT_PORTS: [IoPort; 11] = [
     STANDARD_IN,
     STANDARD_OUT,
@@ -88,8 +100,16 @@ const CURRENT_PORTS: [IoPort; 11] = [
     port(IoGroup::FieldbusSlave, IoDirection::Output, 512, 256),
     port(IoGroup::FieldbusMaster, IoDirection::Input, 1024, 256),
     port(IoGroup::FieldbusMaster, IoDirection::Output, 1024, 256),
-    port(IoGroup::Memory, IoDirection::Memory, 0, 1024),
+    MEMORY,
 ];
+
+/// Where a bit is, by the number that SPEL+ and the remote commands give it: the index of its port, and the bit's place from
+/// the port's first bit on. Byte n begins with bit 8 n, word n with bit 16 n. `None` if no port of this direction has it.
+pub fn find_bit(ports: &[IoPort], direction: IoDirection, number: u32) -> Option<(usize, u16)> {
+    let number = u16::try_from(number).ok()?;
+    let index = ports.iter().position(|port| port.direction == direction && port.contains(number))?;
+    Some((index, number - ports[index].first_bit))
+}
 
 /// The state of all I/O, one entry a port of [`io_ports`]. Bit n of byte m is bit 8 m + n of the port; 1 = on. Cloning is
 /// cheap.
@@ -148,9 +168,11 @@ mod tests {
     #[test]
     fn legacy_firmware_has_standard_and_extended_io_only() {
         let groups = |generation| io_ports(generation).iter().map(|port| port.group).collect::<Vec<_>>();
-        let legacy = groups(FirmwareGeneration::Legacy);
-        assert!(legacy.iter().all(|group| matches!(group, IoGroup::Standard | IoGroup::Extended)));
+        let legacy = FirmwareGeneration::Legacy;
+        let shown = groups(legacy).into_iter().filter(|group| group.is_shown(legacy));
+        assert!(shown.eq([IoGroup::Standard, IoGroup::Standard, IoGroup::Extended, IoGroup::Extended]));
         let current = groups(FirmwareGeneration::Current);
+        assert!(current.iter().all(|group| group.is_shown(FirmwareGeneration::Current)));
         for group in [IoGroup::DriveUnit, IoGroup::FieldbusSlave, IoGroup::FieldbusMaster, IoGroup::Memory] {
             assert!(current.contains(&group), "{group:?}");
         }
@@ -163,6 +185,18 @@ mod tests {
                 assert!(!clash, "{port:?}");
             }
         }
+    }
+
+    #[test]
+    fn bits_are_found_by_the_numbers_of_spel() {
+        let ports = io_ports(FirmwareGeneration::Current);
+        assert_eq!(find_bit(ports, IoDirection::Input, 23), Some((0, 23)));
+        assert_eq!(find_bit(ports, IoDirection::Input, 24), None);
+        assert_eq!(find_bit(ports, IoDirection::Output, 65), Some((3, 1)));
+        assert_eq!(find_bit(ports, IoDirection::Output, 1024), Some((9, 0)));
+        assert_eq!(find_bit(ports, IoDirection::Memory, 1023), Some((10, 1023)));
+        assert_eq!(find_bit(ports, IoDirection::Memory, 1024), None);
+        assert_eq!(find_bit(ports, IoDirection::Input, 65_536), None);
     }
 
     #[test]

@@ -7,7 +7,9 @@
 //! upper arm stands upright and the forearm is level. GX4-A251S (GX series manual, standard work envelope): arms of 120 mm
 //! and 130 mm; at 0° both look along +X.
 
-use super::robot_model::RobotModel;
+use std::fmt;
+
+use super::robot_model::{RobotKind, RobotModel};
 use super::snapshot::Pose;
 
 /// Joint positions, joint 1 first: degrees, or millimetres for a linear joint. Unused joints are 0.
@@ -160,6 +162,46 @@ pub(super) fn inverse(model: RobotModel, pose: Pose, near: &Joints) -> Option<Jo
         .min_by(|a, b| distance(a).total_cmp(&distance(b)))
 }
 
+/// How an arm reaches a point, where several postures do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Posture {
+    kind: RobotKind,
+    /// The elbow of a SCARA, or the shoulder of a six-axis robot, is to the right.
+    is_right: bool,
+    /// The elbow of a six-axis robot is above.
+    is_above: bool,
+    /// The wrist of a six-axis robot is turned over.
+    is_flipped: bool,
+}
+
+/// As SPEL+ writes it: `/R` or `/L`; for six axes also `/A` or `/B`, and `/NF` or `/F`.
+impl fmt::Display for Posture {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(if self.is_right { "/R" } else { "/L" })?;
+        if self.kind == RobotKind::SixAxis {
+            f.write_str(if self.is_above { " /A" } else { " /B" })?;
+            f.write_str(if self.is_flipped { " /F" } else { " /NF" })?;
+        }
+        Ok(())
+    }
+}
+
+/// The posture at these joint positions.
+pub(super) fn posture(model: RobotModel, joints: &Joints) -> Posture {
+    let [_, second, third, _, fifth, _] = *joints;
+    let kind = model.kind();
+    match kind {
+        RobotKind::Scara => Posture { kind, is_right: second >= 0.0, is_above: true, is_flipped: false },
+        RobotKind::SixAxis => {
+            // At 0° the upper arm stands upright and the forearm is level.
+            let upper_arm = (second + 90.0).to_radians().cos() * UPPER_ARM;
+            let forearm = (second + third).to_radians().cos() * FOREARM;
+            let is_right = SHOULDER_OFFSET + upper_arm + forearm >= 0.0;
+            Posture { kind, is_right, is_above: third <= 90.0, is_flipped: fifth > 0.0 }
+        }
+    }
+}
+
 /// The same direction, by whole turns as near to `near` as the range allows.
 fn turn_near(angle: f64, near: f64, min: f64, max: f64) -> f64 {
     let nearest = angle + ((near - angle) / 360.0).round() * 360.0;
@@ -300,6 +342,18 @@ mod tests {
         close(at([0.0, 90.0, -20.0, -90.0, 0.0, 0.0]), [120.0, 130.0, -20.0, 0.0, 0.0, 0.0]);
         let folded = at([0.0, 141.0, 0.0, 0.0, 0.0, 0.0]);
         assert!((folded.x.hypot(folded.y) - 84.0).abs() < 4.0, "near the inner limit of 87 mm: {folded:?}");
+    }
+
+    #[test]
+    fn postures_are_written_as_in_spel() {
+        let written = |model, joints| posture(model, &joints).to_string();
+        let scara = |second| written(RobotModel::Gx4A251S, [10.0, second, 0.0, 0.0, 0.0, 0.0]);
+        assert_eq!((scara(60.0).as_str(), scara(-60.0).as_str()), ("/R", "/L"));
+        let six = |second, third, fifth| written(RobotModel::C4A601S, [0.0, second, third, 0.0, fifth, 0.0]);
+        assert_eq!(six(0.0, 0.0, -90.0), "/R /A /NF");
+        assert_eq!(six(0.0, 0.0, 10.0), "/R /A /F");
+        assert_eq!(six(0.0, 100.0, -90.0), "/R /B /NF");
+        assert_eq!(six(60.0, 120.0, -90.0), "/L /B /NF");
     }
 
     #[test]

@@ -15,14 +15,16 @@
 //! | `robot_model` | [`RobotModel`]: the figures of the robots |
 //! | `io` | [`IoPort`], [`IoValues`]: ports, bit numbers, bits |
 //! | `status` | states, modes and status texts of nodes |
-//! | `spel_value` | [`SpelType`], [`SpelValue`]: data types of variables |
-//! | `spel_declarations` | [`SpelDeclarations`]: the project file that declares SPEL variables |
+//! | `spel_declaration` | [`SpelDeclaration`]: one backup variable |
+//! | `spel_declarations` | [`SpelDeclarations`]: the project file that declares backup variables |
+//! | `backup_memory` | [`BackupMemory`]: what outlives a power-off |
+//! | `spel` | the SPEL+ subset of Execute: statements, before they are executed |
 //! | `snapshot` | [`CellDescription`] and [`CellSnapshot`]: everything that the address space shows |
 //! | `config` | [`CellConfig`]: what a cell is built from |
 //! | `command` | [`CellCommand`], [`Setting`] and why they are refused |
 //! | `command_text` | commands as text |
 //! | `settings` | the configuration nodes of both data acquisitions |
-//! | `variables` | the declared SPEL variables with their values |
+//! | `variables` | the declared backup variables with their values |
 //! | `kinematics` | joints to pose and back |
 //! | `dynamics` | joint torques |
 //! | `profile` | trapezoidal speed along a path |
@@ -37,9 +39,14 @@
 //! | `force_channel`, `motion_channel` | the queues behind the nodes `Data` |
 //! | `samples` | records and blocks at one moment |
 //! | `record` | [`CellRecord`]: what was read, for tests |
+//! | `immediate` | what Execute runs |
 //! | `simulation` | [`Cell`]: its parts, and how time passes |
 //! | `execution` | of [`Cell`]: executing statements |
 //! | `acceptance` | of [`Cell`]: commands, accepted or refused |
+//! | `alarms` | of [`Cell`]: parts at the end of their life |
+//! | `spel_evaluation` | of [`Cell`]: values and points of the SPEL+ subset |
+//! | `immediate_execution` | of [`Cell`]: Execute |
+//! | `backup` | of [`Cell`]: what outlives a power-off |
 //! | `acquisition` | of [`Cell`]: RecordStart, RecordEnd, reads and writes of clients |
 //! | `observation` | of [`Cell`]: the snapshot |
 //! | `handle` | [`CellHandle`] |
@@ -56,6 +63,9 @@
 
 mod acceptance;
 mod acquisition;
+mod alarms;
+mod backup;
+mod backup_memory;
 mod command;
 mod command_text;
 mod config;
@@ -64,6 +74,8 @@ mod execution;
 mod force;
 mod force_channel;
 mod handle;
+mod immediate;
+mod immediate_execution;
 mod io;
 mod io_history;
 mod kinematics;
@@ -81,8 +93,10 @@ mod samples;
 mod settings;
 mod simulation;
 mod snapshot;
+mod spel;
+mod spel_declaration;
 mod spel_declarations;
-mod spel_value;
+mod spel_evaluation;
 mod status;
 mod task;
 #[cfg(test)]
@@ -91,11 +105,12 @@ mod time;
 mod variables;
 mod wear;
 
+pub use backup_memory::{BackupMemory, KeptVariable};
 pub use command::{CellCommand, CommandRefusal, ForceRecording, RobotChoice, Setting, SettingRefusal};
 pub use command_text::{COMMANDS, UnknownCommand};
 pub use config::{CellConfig, CellOptions, MAX_ROBOTS};
-pub use handle::CellHandle;
-pub use io::{IoDirection, IoGroup, IoPort, IoValues, io_ports};
+pub use handle::{CellHandle, Execution};
+pub use io::{IoDirection, IoGroup, IoPort, IoValues, find_bit, io_ports};
 pub use record::{CellRecord, RecordedPacket};
 pub use robot_model::{AxisModel, MotionProfile, RobotKind, RobotModel, UnknownRobotModel};
 pub use simulation::Cell;
@@ -104,10 +119,14 @@ pub use snapshot::{
     ControllerValues, ForceSensorValues, MotionLogValues, Pose, RobotDescription, RobotValues, SafetyValues,
     TaskDescription, TaskValues,
 };
+pub use spel::error::{SpelError, error_message};
+pub use spel_declaration::{MAX_DIMENSIONS, MAX_SPEL_VARIABLES, SPEL_PREFIX, SpelDeclaration};
 pub use spel_declarations::{MAX_DECLARATION_BYTES, MAX_FINDINGS, SpelDeclarations, SpelFinding, SpelMistake};
-pub use spel_value::{MAX_SPEL_VARIABLES, SPEL_PREFIX, SpelDeclaration, SpelType, SpelValue};
 pub use status::{
     DataStatus, ExecutionMode, OperatingMode, Part, QueueStatus, RecordingStatus, StatusFlag, StatusFlags, TaskKind,
     TaskState,
 };
 pub use time::{CellClock, CellTime, ClockRate, ClockRateError};
+pub use variables::VariableError;
+
+pub use crate::model::{SpelType, SpelValue};

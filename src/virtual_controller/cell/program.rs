@@ -78,6 +78,8 @@ pub(super) struct Program {
     pub background: Function,
     /// Home of each robot.
     pub homes: Vec<Joints>,
+    /// P0 to P4 of each robot: home, above and at the place where the robot takes a part, above and at where it puts it.
+    pub points: Vec<[Joints; 5]>,
 }
 
 /// Standard outputs of the program: grippers of up to four robots, conveyor, lamp. Those before show the controller's status.
@@ -95,8 +97,13 @@ impl Program {
     /// The program for these robots.
     pub fn new(robots: &[RobotModel], seed: u64) -> Self {
         let homes: Vec<Joints> = robots.iter().map(|model| home(*model)).collect();
+        let named = (0..).zip(robots).map(|(robot, model)| {
+            let Points { above_pick, pick, above_place, place, .. } = points(*model, seed_of_points(seed, robot));
+            [home(*model), above_pick, pick, above_place, place]
+        });
+        let named = named.collect();
         let cycles = (0..).zip(robots).zip(CYCLE_NAMES.into_iter().zip(CYCLE_FILES)).map(|((robot, model), names)| {
-            let code = cycle(robot, *model, noise::branch(seed, robot as u64)).into();
+            let code = cycle(robot, *model, seed).into();
             Function { name: names.0, file: names.1, code }
         });
         let go_home = homes
@@ -112,6 +119,7 @@ impl Program {
             cycles: cycles.collect(),
             background: Function { name: "bgMonitor", file: "Monitor.prg", code: background().into() },
             homes,
+            points: named,
         }
     }
 
@@ -187,6 +195,16 @@ struct Points {
 const CLEARANCE: f64 = 60.0;
 const PRESSED: f64 = 2.0;
 
+/// The seed of a robot in a program.
+fn seed_of_robot(seed: u64, robot: usize) -> u64 {
+    noise::branch(seed, robot as u64)
+}
+
+/// The seed of a robot's points.
+fn seed_of_points(seed: u64, robot: usize) -> u64 {
+    noise::branch(seed_of_robot(seed, robot), 1)
+}
+
 fn points(model: RobotModel, seed: u64) -> Points {
     let home = home(model);
     let around = |place: u64, size: f64| noise::signed(seed, place) * size;
@@ -221,8 +239,9 @@ fn cycle(robot: usize, model: RobotModel, seed: u64) -> Vec<Statement> {
     let own = |first: u16| first + robot as u16;
     let input = |first| Signal::new(IoGroup::Standard, IoDirection::Input, own(first));
     let gripper = Signal::new(IoGroup::Standard, IoDirection::Output, own(GRIPPER));
+    let Points { above_pick, pick, above_place, place, fixture } = points(model, seed_of_points(seed, robot));
+    let seed = seed_of_robot(seed, robot);
     let millis = |place: u64, least: u64, more: f64| least + (noise::unit(seed, place) * more) as u64;
-    let Points { above_pick, pick, above_place, place, fixture } = points(model, noise::branch(seed, 1));
     let go = |to: Joints, speed: f64| Statement::Go { robot, to, speed };
     let most = if model.kind() == RobotKind::SixAxis { 2.0 } else { 1.5 };
     let part = 0.3 + most * noise::unit(seed, 30);

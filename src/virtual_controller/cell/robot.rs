@@ -137,6 +137,10 @@ impl Robot {
         let Motion { from, delta, .. } = self.last().motion;
         let progress = self.last().motion.progress(now);
         if progress.speed <= 0.0 {
+            // A motion that begins now is not begun.
+            if self.moving_until.take().is_some() {
+                self.rest(now);
+            }
             return now;
         }
         let axes = self.model.axes().iter().zip(delta).filter(|(_, way)| way.abs() > 1e-9);
@@ -161,9 +165,13 @@ impl Robot {
     pub fn arrive(&mut self, now: CellTime) {
         if self.moving_until.is_some_and(|end| end <= now) {
             self.moving_until = None;
-            let from = self.command(now).position;
-            self.begin(now, Motion { start: now, from, delta: [0.0; 6], profile: Profile::REST }, self.state());
+            self.rest(now);
         }
+    }
+
+    fn rest(&mut self, now: CellTime) {
+        let from = self.command(now).position;
+        self.begin(now, Motion { start: now, from, delta: [0.0; 6], profile: Profile::REST }, self.state());
     }
 
     fn begin(&mut self, now: CellTime, motion: Motion, state: RobotState) {
@@ -302,6 +310,9 @@ mod tests {
         let at = robot.command(stopped).position;
         assert!((at[0] + at[1] * 2.0).abs() < 1e-9 && at[0] > 0.0 && at[0] < 90.0, "{at:?}");
         assert_eq!(robot.brake(stopped, 1.0), stopped);
+        robot.go(CellTime::from_secs(4), &goal, 0.5);
+        robot.brake(CellTime::from_secs(4), 1.0);
+        assert_eq!((robot.moving_until(), robot.command(CellTime::from_secs(5)).position), (None, at));
         let end = robot.go(CellTime::from_secs(5), &goal, 0.5);
         robot.arrive(end);
         assert_eq!(robot.command(end).position, goal);

@@ -21,6 +21,8 @@ pub(super) struct RobotUnit {
     pub parts: Vec<[Option<Wear>; 6]>,
     /// SpeedFactor, in per cent.
     pub speed_factor: u8,
+    /// Speed of what Execute moves, in per cent: the statement Speed.
+    pub speed: u8,
     /// The motors go off as soon as the robot stands.
     pub motors_off_at_rest: bool,
     /// The motors were on when the safeguard or the mode took them away; Continue switches them on again.
@@ -29,6 +31,9 @@ pub(super) struct RobotUnit {
     motors_on_before: u64,
     pub seed: u64,
 }
+
+/// Speed after power-on, Reset and Motor On, in per cent.
+pub(super) const DEFAULT_SPEED: u8 = 5;
 
 impl RobotUnit {
     pub fn new(model: RobotModel, home: Joints, seed: u64, started: DateTime<Utc>) -> Self {
@@ -61,6 +66,7 @@ impl RobotUnit {
                 })
                 .collect(),
             speed_factor: 100,
+            speed: DEFAULT_SPEED,
             motors_off_at_rest: false,
             resumes_motors: false,
             seed,
@@ -90,9 +96,10 @@ impl RobotUnit {
         }
     }
 
-    /// Switches the motors on, with power high or low.
+    /// Switches the motors on, with power high or low. The speed is set back.
     pub fn switch_on(&mut self, now: CellTime, power_high: bool) {
         self.motors_off_at_rest = false;
+        self.speed = DEFAULT_SPEED;
         self.robot.set(now, |state| {
             state.motors_on = true;
             state.power_high = power_high;

@@ -1,3 +1,4 @@
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -6,6 +7,7 @@ use chrono::{DateTime, TimeDelta, Utc};
 use super::command::CellCommand;
 use super::config::{CellConfig, MAX_ROBOTS};
 use super::force_channel::ForceChannel;
+use super::immediate::Immediate;
 use super::io::{IoDirection, IoGroup, IoValues, io_ports};
 use super::io_history::IoHistory;
 use super::motion_channel::MotionChannel;
@@ -16,13 +18,13 @@ use super::robot_model::RobotModel;
 use super::robot_unit::RobotUnit;
 use super::settings::AcquisitionSettings;
 use super::snapshot::{CellDescription, ControllerDescription, RobotDescription, TaskDescription};
-use super::spel_value::SpelDeclaration;
+use super::spel_declaration::SpelDeclaration;
 use super::status::{OperatingMode, Part, StatusFlag, StatusFlags, TaskKind};
 use super::task::Task;
 use super::time::CellTime;
-use super::variables::Variables;
+use super::variables::{VariableError, Variables};
 use super::wear::Wear;
-use crate::model::FirmwareGeneration;
+use crate::model::{FirmwareGeneration, SpelType, SpelValue};
 
 /// One simulated cell: the robots of a controller and what is around them.
 ///
@@ -49,7 +51,7 @@ pub struct Cell {
     pub(super) recording_id: u16,
     pub(super) safety: Safety,
     /// What outputs and variables show: flags, status code, motors.
-    shown: Option<(StatusFlags, u16, bool)>,
+    pub(super) shown: Option<(StatusFlags, u16, bool)>,
     pub(super) step_mode: bool,
     /// Parts made since power-on, and how many of them are bad.
     pub(super) made: u32,
@@ -59,6 +61,14 @@ pub struct Cell {
     /// On time before this power-on.
     pub(super) power_on_before: Duration,
     pub(super) battery: Wear,
+    /// When the parts behind an alarm were replaced, by the number of the alarm.
+    pub(super) replaced: BTreeMap<u8, DateTime<Utc>>,
+    /// The index of the robot that remote commands without a robot number are about.
+    pub(super) current_robot: usize,
+    /// What Execute runs, or ran last.
+    pub(super) immediate: Option<Immediate>,
+    /// The number of the error of the last Execute that ended with one, or 0.
+    pub(super) last_error: u16,
     pub(super) record: Option<CellRecord>,
 }
 
@@ -81,7 +91,7 @@ impl Cell {
     /// A cell at the moment its controller is switched on: motors off, the background task running. The program starts by
     /// itself two seconds later.
     pub fn new(config: CellConfig) -> Self {
-        let CellConfig { name, serial, series, firmware, started, variables, options } = config;
+        let CellConfig { name, serial, series, firmware, started, variables, backup, options } = config;
         let mut models = options.robots;
         if models.is_empty() {
             models.push(RobotModel::C4A601S);
@@ -150,9 +160,14 @@ impl Cell {
             autostart: Some(START_DELAY),
             power_on_before: Duration::from_secs(3600 * (500 + noise::bits(seed, 2) % 20_000)),
             battery: Wear::new(Part::Battery, noise::branch(seed, 2), started),
+            replaced: BTreeMap::new(),
+            current_robot: 0,
+            immediate: None,
+            last_error: 0,
             record: None,
         };
         cell.declare_variables(variables);
+        cell.restore(backup);
         if let Some(task) = cell.tasks.last_mut() {
             task.start(cell.program.background.clone(), CellTime::ZERO);
         }
@@ -171,13 +186,35 @@ impl Cell {
     }
 
     /// Replaces the declared SPEL variables, as at a start of the OPC UA server (manual 4.2.2). A variable with the same
-    /// name and type keeps its value, as a backup variable does. Those beyond 256 are not taken.
+    /// name, type and dimensions keeps its values, as a backup variable does.
     pub fn declare_variables(&mut self, declarations: Vec<SpelDeclaration>) {
         self.variables.declare(declarations);
         self.shown = None;
         let variables = self.variables.declarations();
         self.description = Arc::new(CellDescription { variables, ..CellDescription::clone(&self.description) });
         self.show_status();
+    }
+
+    /// Values of a backup variable, see [`super::CellHandle::variable`].
+    pub fn variable(
+        &self,
+        name: &str,
+        kind: Option<SpelType>,
+        element: &[u16],
+        count: usize,
+    ) -> Result<&[SpelValue], VariableError> {
+        self.variables.read(name, kind, element, count)
+    }
+
+    /// The type that a backup variable was declared with.
+    pub fn variable_kind(&self, name: &str) -> Result<SpelType, VariableError> {
+        self.variables.kind(name)
+    }
+
+    /// The number of the robot that remote commands without a robot number are about, from 1 on.
+    pub const fn current_robot(&self) -> u8 {
+        // At most four robots.
+        self.current_robot as u8 + 1
     }
 
     /// Moves simulated time forward, to the last whole millisecond of `time`. A time in the past changes nothing.
@@ -193,7 +230,8 @@ impl Cell {
         self.now = self.now.max(time);
     }
 
-    fn next_event(&self) -> Option<CellTime> {
+    /// When something happens next by itself.
+    pub(super) fn next_event(&self) -> Option<CellTime> {
         let robots = self.robots.iter().filter_map(|unit| unit.robot.moving_until());
         let tasks = self.tasks.iter().filter_map(Task::wakes_at);
         robots.chain(tasks).chain(self.autostart).min()
@@ -219,6 +257,7 @@ impl Cell {
                 self.run_task(task);
             }
         }
+        self.run_immediate();
         if arrived {
             self.forget();
         }

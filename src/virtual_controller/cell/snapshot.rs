@@ -8,12 +8,12 @@ use chrono::{DateTime, Utc};
 
 use super::io::{IoPort, IoValues};
 use super::robot_model::{RobotKind, RobotModel};
-use super::spel_value::{SpelDeclaration, SpelValue};
+use super::spel_declaration::SpelDeclaration;
 use super::status::{
     DataStatus, ExecutionMode, OperatingMode, Part, QueueStatus, RecordingStatus, StatusFlags, TaskKind, TaskState,
 };
 use super::time::CellTime;
-use crate::model::{FirmwareGeneration, FirmwareVersion, SerialNumber};
+use crate::model::{FirmwareGeneration, FirmwareVersion, SerialNumber, SpelValue};
 
 /// What a cell consists of. It stays the same while the OPC UA server runs; the variables are taken at its start.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,17 +1,20 @@
-//! The declarations of SPEL variables in a project file (manual 4.2): `Global Preserve <type> <name>[, <name>…]`, one
-//! statement a line, `'` begins a comment.
+//! The declarations of backup variables in a project file (manual 4.2): `Global Preserve <type> <name>[, <name>…]`, one
+//! statement a line, `'` begins a comment. An array states the highest element number of each dimension behind its name:
+//! `Global Preserve Integer g_intArray(10)` has the elements 0 to 10 (RC+ User's Guide, "Arrays").
 
 use std::collections::HashSet;
 use std::fmt;
 
 use thiserror::Error;
 
-use super::spel_value::{MAX_SPEL_VARIABLES, SPEL_PREFIX, SpelDeclaration, SpelType};
+use super::spel_declaration::{MAX_DIMENSIONS, MAX_SPEL_VARIABLES, SpelDeclaration, has_prefix};
+use crate::model::SpelType;
 
-/// The variables of a project file that the address space shows, and what was not taken.
+/// The backup variables of a project file, and what the address space does not show although its name says that it should.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct SpelDeclarations {
-    /// At most 256, in the order of the file.
+    /// In the order of the file. The address space shows the first 256 of those that [`SpelDeclaration::is_shown`] names;
+    /// remote commands reach all.
     pub variables: Vec<SpelDeclaration>,
     /// At most [`MAX_FINDINGS`], in the order of the file.
     pub findings: Vec<SpelFinding>,
@@ -26,7 +29,11 @@ pub const MAX_DECLARATION_BYTES: usize = 64 * 1024;
 /// Characters of a name in SPEL+.
 const MAX_NAME: usize = 32;
 
-/// Something in a project file that is not shown in the address space.
+/// Values of all variables of a project together. The language has no such limit; it bounds what a file can take of the
+/// memory.
+const MAX_VALUES: usize = 100_000;
+
+/// Something in a project file that is not taken, or that the address space does not show.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SpelFinding {
     /// The line, from 1 on.
@@ -41,7 +48,7 @@ impl fmt::Display for SpelFinding {
     }
 }
 
-/// Why a declaration is not shown.
+/// Why a declaration is not taken or not shown.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum SpelMistake {
     /// Not `Global …`.
@@ -59,18 +66,24 @@ pub enum SpelMistake {
     /// Not a letter followed by at most 31 letters, digits and underscores.
     #[error("{0} is not a name")]
     BadName(String),
-    /// The name does not begin with `OPCUA_`.
-    #[error("{0} does not begin with OPCUA_")]
-    NoPrefix(String),
-    /// Arrays are not supported.
+    /// What follows the name in brackets is not one to three numbers.
+    #[error("the dimensions of {0} are not one to three numbers")]
+    BadDimensions(String),
+    /// The address space shows no arrays; remote commands reach it.
     #[error("{0} is an array")]
     Array(String),
+    /// More elements than a backup variable may have: 4000, of String 400.
+    #[error("{0} has too many elements")]
+    TooManyElements(String),
     /// The name was declared before.
     #[error("{0} is declared twice")]
     Duplicate(String),
-    /// More than 256 variables.
+    /// More than 256 variables; remote commands reach it.
     #[error("{0} is beyond the limit of 256 variables")]
     TooMany(String),
+    /// All variables together have more than 100 000 values.
+    #[error("{0} is more than the memory for variables holds")]
+    NoMemory(String),
     /// Not UTF-8.
     #[error("not a text in UTF-8")]
     NotText,
@@ -121,41 +134,65 @@ impl SpelDeclarations {
         let Some(kind) = SpelType::from_keyword(type_name) else {
             return self.note(line, SpelMistake::UnknownType(shown(type_name)));
         };
-        for name in names_of(rest) {
-            match self.check(name, names) {
-                Ok(()) => {
-                    names.insert(name.to_ascii_lowercase());
-                    self.variables.push(SpelDeclaration { name: name.to_owned(), kind });
+        for declared in names_of(rest) {
+            match self.check(declared, kind, names) {
+                Ok(variable) => {
+                    names.insert(variable.name.to_ascii_lowercase());
+                    if let Some(mistake) = self.why_not_shown(&variable) {
+                        self.note(line, mistake);
+                    }
+                    self.variables.push(variable);
                 }
                 Err(mistake) => self.note(line, mistake),
             }
         }
     }
 
-    fn check(&self, name: &str, names: &HashSet<String>) -> Result<(), SpelMistake> {
-        if name.is_empty() {
+    fn check(&self, declared: &str, kind: SpelType, names: &HashSet<String>) -> Result<SpelDeclaration, SpelMistake> {
+        if declared.is_empty() {
             return Err(SpelMistake::NoName);
         }
-        if let Some((array, _)) = name.split_once('(') {
-            return Err(SpelMistake::Array(shown(array.trim())));
-        }
-        let is_name = name.starts_with(|first: char| first.is_ascii_alphabetic())
-            && name.chars().all(|other| other.is_ascii_alphanumeric() || other == '_')
+        let (name, dimensions) = match declared.split_once('(') {
+            Some((name, dimensions)) => (name.trim_end(), Some(dimensions)),
+            None => (declared, None),
+        };
+        // The name of a String may end with a dollar sign.
+        let letters = if kind == SpelType::String { name.strip_suffix('$').unwrap_or(name) } else { name };
+        let is_name = letters.starts_with(|first: char| first.is_ascii_alphabetic())
+            && letters.chars().all(|other| other.is_ascii_alphanumeric() || other == '_')
             && name.len() <= MAX_NAME;
         if !is_name {
             return Err(SpelMistake::BadName(shown(name)));
         }
-        let prefix = name.get(..SPEL_PREFIX.len());
-        if !prefix.is_some_and(|prefix| prefix.eq_ignore_ascii_case(SPEL_PREFIX)) {
-            return Err(SpelMistake::NoPrefix(name.to_owned()));
-        }
         if names.contains(&name.to_ascii_lowercase()) {
             return Err(SpelMistake::Duplicate(name.to_owned()));
         }
-        if self.variables.len() >= MAX_SPEL_VARIABLES {
-            return Err(SpelMistake::TooMany(name.to_owned()));
+        let bounds = match dimensions {
+            Some(dimensions) => bounds(dimensions).ok_or_else(|| SpelMistake::BadDimensions(name.to_owned()))?,
+            None => Vec::new(),
+        };
+        let variable = SpelDeclaration { name: name.to_owned(), kind, bounds };
+        if !variable.is_within_limits() {
+            return Err(SpelMistake::TooManyElements(variable.name));
         }
-        Ok(())
+        let held: usize = self.variables.iter().map(SpelDeclaration::elements).sum();
+        if held + variable.elements() > MAX_VALUES {
+            return Err(SpelMistake::NoMemory(variable.name));
+        }
+        Ok(variable)
+    }
+
+    /// Why the address space does not show a variable with its prefix.
+    fn why_not_shown(&self, variable: &SpelDeclaration) -> Option<SpelMistake> {
+        if !has_prefix(&variable.name) {
+            return None;
+        }
+        let name = variable.name.clone();
+        if !variable.is_shown() {
+            return Some(SpelMistake::Array(name));
+        }
+        let shown = self.variables.iter().filter(|known| known.is_shown()).count();
+        (shown >= MAX_SPEL_VARIABLES).then_some(SpelMistake::TooMany(name))
     }
 
     fn note(&mut self, line: usize, mistake: SpelMistake) {
@@ -186,6 +223,13 @@ fn names_of(list: &str) -> Vec<&str> {
     })
     .map(str::trim)
     .collect()
+}
+
+/// The numbers between the brackets of an array, which the first bracket does not belong to.
+fn bounds(dimensions: &str) -> Option<Vec<u16>> {
+    let numbers = dimensions.trim_end().strip_suffix(')')?;
+    let bounds = numbers.split(',').map(|number| number.trim().parse().ok()).collect::<Option<Vec<u16>>>()?;
+    (bounds.len() <= MAX_DIMENSIONS).then_some(bounds)
 }
 
 /// A foreign word for a message: without control characters, not too long.
@@ -248,7 +292,7 @@ mod tests {
                  Global Preserve Long\n\
                  Global Preserve Long OPCUA_C,\n\
                  Global Preserve Long 7up\n\
-                 Global Preserve Long ItemCode\n\
+                 Global Preserve Long OPCUA_Box$\n\
                  Global Preserve Long OPCUA_List(10, 3), OPCUA_D\n\
                  Global Preserve Byte opcua_d\n\
                  Global Preserve String OPCUA_ThisNameIsLongerThanThirtyTwo\n\
@@ -261,7 +305,7 @@ mod tests {
                 "line 4: a name is missing",
                 "line 5: a name is missing",
                 "line 6: 7up is not a name",
-                "line 7: ItemCode does not begin with OPCUA_",
+                "line 7: OPCUA_Box$ is not a name",
                 "line 8: OPCUA_List is an array",
                 "line 9: opcua_d is declared twice",
                 "line 10: OPCUA_ThisNameIsLongerThanThirty is not a name",
@@ -271,11 +315,50 @@ mod tests {
     }
 
     #[test]
+    fn arrays_state_the_highest_element_of_each_dimension() {
+        let found = parse(
+            "Global Preserve Integer g_intArray(10), g_int3Array(10,10, 10), g_Status\n\
+             Global Preserve String g_Names$ ( 399 )\n",
+        );
+        assert_eq!(found.findings, []);
+        let arrays: Vec<_> = found.variables.iter().map(|it| (it.name.as_str(), it.bounds.as_slice())).collect();
+        assert_eq!(
+            arrays,
+            [("g_intArray", &[10][..]), ("g_int3Array", &[10, 10, 10]), ("g_Status", &[]), ("g_Names$", &[399]),]
+        );
+        assert_eq!(
+            findings(
+                "Global Preserve Byte a(1,1,1,1)\n\
+                 Global Preserve Byte b()\n\
+                 Global Preserve Byte c(-1)\n\
+                 Global Preserve Byte d(3\n\
+                 Global Preserve Byte e(4000)\n\
+                 Global Preserve String f(400)\n\
+                 Global Preserve Byte g(99999)\n"
+            ),
+            [
+                "line 1: the dimensions of a are not one to three numbers",
+                "line 2: the dimensions of b are not one to three numbers",
+                "line 3: the dimensions of c are not one to three numbers",
+                "line 4: the dimensions of d are not one to three numbers",
+                "line 5: e has too many elements",
+                "line 6: f has too many elements",
+                "line 7: the dimensions of g are not one to three numbers",
+            ]
+        );
+    }
+
+    #[test]
     fn files_and_findings_are_bounded() {
         let many: String = (0..300).map(|at| format!("Global Preserve Byte OPCUA_{at}\n")).collect();
         let found = parse(&many);
-        assert_eq!((found.variables.len(), found.findings.len()), (256, 44));
+        assert_eq!((found.variables.len(), found.findings.len()), (300, 44));
         assert_eq!(found.findings[0].to_string(), "line 257: OPCUA_256 is beyond the limit of 256 variables");
+
+        let large: String = (0..30).map(|at| format!("Global Preserve Byte g_{at}(3999)\n")).collect();
+        let found = parse(&large);
+        assert_eq!((found.variables.len(), found.findings.len()), (25, 5));
+        assert_eq!(found.findings[0].to_string(), "line 26: g_25 is more than the memory for variables holds");
 
         let wrong = findings(&"x\n".repeat(1000));
         assert_eq!((wrong.len(), wrong[49].as_str()), (MAX_FINDINGS, "line 50: more mistakes follow"));

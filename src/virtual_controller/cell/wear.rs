@@ -43,13 +43,33 @@ impl Wear {
         }
     }
 
+    /// The part is replaced by a new one, after so many running hours since power-on.
+    pub fn renew(&mut self, now: DateTime<Utc>, running_hours: f64) {
+        self.installed = now;
+        self.used = -self.part_of_life(running_hours);
+    }
+
+    /// The part is worn to the recommended time of replacement, after so many running hours since power-on.
+    pub fn wear_out(&mut self, now: DateTime<Utc>, running_hours: f64) {
+        let days = self.life_months * DAYS_A_MONTH;
+        // A second more, so that rounding does not leave it just before its end.
+        let age = TimeDelta::seconds((days * 86_400.0) as i64 + 1);
+        self.installed = now.checked_sub_signed(age).unwrap_or(now);
+        self.used = 1.0 + 1e-9 - self.part_of_life(running_hours);
+    }
+
+    /// Part of its life that running hours take.
+    fn part_of_life(&self, running_hours: f64) -> f64 {
+        running_hours / (self.life_months * HOURS_A_MONTH)
+    }
+
     /// The values at `now`, after so many running hours since power-on.
     pub fn values(&self, now: DateTime<Utc>, running_hours: f64) -> ConsumableValues {
         let used = if self.by_calendar {
             let days = (now - self.installed).num_seconds() as f64 / 86_400.0;
             days / DAYS_A_MONTH / self.life_months
         } else {
-            self.used + running_hours / (self.life_months * HOURS_A_MONTH)
+            self.used + self.part_of_life(running_hours)
         };
         ConsumableValues {
             available: true,
@@ -94,6 +114,23 @@ mod tests {
         }
         let worn = Wear::new(Part::Grease, 1, started).values(later, 1e5);
         assert!(worn.consumption_rate > 100.0 && worn.months_remaining == 0.0, "{worn:?}");
+    }
+
+    #[test]
+    fn a_part_is_worn_out_and_replaced_at_any_age() {
+        let started = DateTime::from_timestamp(1_780_000_000, 0).unwrap();
+        for part in Part::OF_AXIS {
+            for hours in [0.0, 1.0, 5000.0] {
+                let now = started + TimeDelta::days(100);
+                let mut wear = Wear::new(part, 3, started);
+                wear.wear_out(now, hours);
+                let worn = wear.values(now, hours);
+                assert!((100.0..100.01).contains(&worn.consumption_rate), "{part:?}: {worn:?}");
+                wear.renew(now, hours);
+                let fresh = wear.values(now, hours);
+                assert!(fresh.consumption_rate.abs() < 1e-6 && fresh.installed == Some(now), "{part:?}: {fresh:?}");
+            }
+        }
     }
 
     #[test]

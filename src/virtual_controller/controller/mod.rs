@@ -30,7 +30,7 @@ pub(super) use change::{ChangeFailure, Effect};
 pub(super) use error::{ControllerError, ServerStartError};
 use server_slot::ServerSlot;
 
-use super::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions, SpelDeclaration};
+use super::cell::{BackupMemory, Cell, CellClock, CellConfig, CellHandle, CellOptions, SpelDeclaration};
 use super::faults::Faults;
 use super::new_controller::{NewController, NewControllerError};
 use super::opcua::AdmissionOptions;
@@ -201,6 +201,6 @@ fn switch_on_cell(
 ) -> CellHandle {
     let ControllerIdentity { serial, series, firmware, name } = state.identity.clone();
     let clock = CellClock::running(options.rate);
-    let cell = Cell::new(CellConfig { name, serial, series, firmware, started, variables, options });
+    let cell = Cell::new(CellConfig { name, serial, series, firmware, started, variables, backup: BackupMemory::default(), options });
     CellHandle::new(cell, clock)
 }

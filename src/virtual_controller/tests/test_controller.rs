@@ -20,7 +20,7 @@ use crate::model::{
 };
 use crate::pki::{Fingerprint, PrivateKey, ServerNames, self_signed};
 use crate::protocol::{self, FailureBody, Hello, Request as _, SessionStarted};
-use crate::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
+use crate::virtual_controller::cell::{BackupMemory, Cell, CellClock, CellConfig, CellHandle, CellOptions};
 use crate::virtual_controller::ports::free_port;
 use crate::virtual_controller::{
     AdmissionOptions, ControllerIdentity, ControllerSpec, ControllerState, NewCertificate, NewController,
@@ -72,6 +72,7 @@ pub fn cell_handle() -> CellHandle {
         firmware: FirmwareVersion::new(8, 1, 0),
         started: chrono::DateTime::UNIX_EPOCH,
         variables: Vec::new(),
+        backup: BackupMemory::default(),
         options: CellOptions::default(),
     };
     CellHandle::new(Cell::new(config), CellClock::manual())

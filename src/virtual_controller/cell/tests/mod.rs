@@ -1,6 +1,8 @@
 //! Whole cells over simulated time.
 
+mod alarms;
 mod commands;
+mod execute;
 mod queues;
 mod values;
 
@@ -19,11 +21,12 @@ fn config(robots: &[RobotModel], seed: u64) -> CellConfig {
         firmware: FirmwareVersion::new(8, 1, 0),
         started: DateTime::from_timestamp(1_780_000_000, 0).unwrap(),
         variables: vec![
-            SpelDeclaration { name: "OPCUA_NumOfProduced".to_owned(), kind: SpelType::UInt32 },
-            SpelDeclaration { name: "OPCUA_CycleSeconds".to_owned(), kind: SpelType::Double },
-            SpelDeclaration { name: "OPCUA_OperatingStatus".to_owned(), kind: SpelType::UShort },
-            SpelDeclaration { name: "OPCUA_Recipe".to_owned(), kind: SpelType::String },
+            SpelDeclaration::scalar("OPCUA_NumOfProduced", SpelType::UInt32),
+            SpelDeclaration::scalar("OPCUA_CycleSeconds", SpelType::Double),
+            SpelDeclaration::scalar("OPCUA_OperatingStatus", SpelType::UShort),
+            SpelDeclaration::scalar("OPCUA_Recipe", SpelType::String),
         ],
+        backup: BackupMemory::default(),
         options: CellOptions { robots: robots.to_vec(), seed, ..CellOptions::default() },
     }
 }

@@ -171,7 +171,7 @@ fn a_handle_follows_its_clock_and_a_snapshot_is_one_moment() {
     assert_eq!((later.clock - first.clock).num_milliseconds(), 4000);
     handle.command(CellCommand::Pause).unwrap();
     assert_eq!(flags(&handle.snapshot()), ["Auto", "Paused"]);
-    let declared = vec![SpelDeclaration { name: "OPCUA_New".to_owned(), kind: SpelType::Byte }];
+    let declared = vec![SpelDeclaration::scalar("OPCUA_New", SpelType::Byte)];
     handle.declare_variables(declared.clone());
     assert_eq!(*handle.description().variables, declared);
     assert_eq!(*handle.snapshot().variables, [SpelValue::Int8(0)]);

@@ -12,7 +12,8 @@ use crate::virtual_controller::cell::{CellDescription, IoDirection, IoGroup, IoP
 /// The signals of a port are bits, or bytes where there are many: the controller has either, never both. With virtual I/O
 /// there are words, with their bytes below them, and the bits below those.
 pub(super) fn add(space: &mut Instances, components: &Instance, cell: &CellDescription) {
-    for group in GROUPS {
+    let generation = cell.controller.generation();
+    for group in GROUPS.into_iter().filter(|group| group.is_shown(generation)) {
         let ports: Vec<(usize, IoPort)> =
             cell.io.iter().copied().enumerate().filter(|(_, port)| port.group == group).collect();
         if ports.is_empty() {

@@ -23,7 +23,7 @@ use zeroize::Zeroizing;
 use super::*;
 use crate::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, UserTokenPolicy};
 use crate::pki::{Certificate, CertificateRejection, TrustLists, TrustPolicy};
-use crate::virtual_controller::cell::{Cell, CellClock, CellConfig, CellHandle, CellOptions};
+use crate::virtual_controller::cell::{BackupMemory, Cell, CellClock, CellConfig, CellHandle, CellOptions};
 use client::{Client, ClientOptions};
 use test_application::{TestApplication, trusting};
 
@@ -64,6 +64,7 @@ fn cell(clock: CellClock) -> CellHandle {
         firmware: FirmwareVersion::new(8, 0, 1),
         started: chrono::DateTime::UNIX_EPOCH,
         variables: Vec::new(),
+        backup: BackupMemory::default(),
         options: CellOptions::default(),
     };
     CellHandle::new(Cell::new(config), clock)

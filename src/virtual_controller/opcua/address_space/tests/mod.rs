@@ -16,7 +16,7 @@ use super::table::Space;
 use super::types::Types;
 use super::writing;
 use crate::virtual_controller::cell::{
-    Cell, CellClock, CellConfig, CellHandle, CellOptions, RobotModel, SpelDeclaration, SpelType,
+    BackupMemory, Cell, CellClock, CellConfig, CellHandle, CellOptions, RobotModel, SpelDeclaration, SpelType,
 };
 
 /// A controller with a six-axis robot and a SCARA.
@@ -41,7 +41,7 @@ impl Controller {
             virtual_io,
             ..CellOptions::default()
         };
-        let variables = SpelType::ALL.map(|kind| SpelDeclaration { name: format!("OPCUA_{kind}"), kind });
+        let variables = SpelType::ALL.map(|kind| SpelDeclaration::scalar(format!("OPCUA_{kind}"), kind));
         let config = CellConfig {
             name: "Cell 1".parse().unwrap(),
             serial: "SN0000123".parse().unwrap(),
@@ -49,6 +49,7 @@ impl Controller {
             firmware: firmware.parse().unwrap(),
             started: "2026-03-01T08:00:00Z".parse().unwrap(),
             variables: variables.to_vec(),
+            backup: BackupMemory::default(),
             options,
         };
         let clock = CellClock::manual();
