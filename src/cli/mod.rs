@@ -21,6 +21,7 @@ mod output;
 mod passwords;
 mod pki;
 mod record;
+mod remote_answers;
 mod secret_file;
 mod server_control;
 mod server_log;

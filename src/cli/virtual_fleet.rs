@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 use secrecy::SecretString;
 
+use super::remote_answers::RemoteAnswers;
 use super::secret_file::read_secret;
 use super::{CommandOutcome, runtime, virtual_cell, virtual_switch};
 use crate::model::activation::{ActivationKeys, FIRST_LINE};
@@ -81,6 +82,8 @@ struct FleetArgs {
     /// The same seed makes the same controllers
     #[arg(long, value_name = "S", default_value_t = 1)]
     seed: u64,
+    #[command(flatten)]
+    remote: RemoteAnswers,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -154,6 +157,7 @@ fn fleet(args: &FleetArgs) -> Result<CommandOutcome, Problem> {
             rate: args.clock_rate,
             virtual_io: args.virtual_io,
         },
+        remote: args.remote.options()?,
         seed: args.seed,
     };
     runtime()?.block_on(async {

@@ -6,10 +6,14 @@ use crate::virtual_controller::{FleetError, SwitchOnError};
 impl From<FleetError> for Problem {
     fn from(error: FleetError) -> Self {
         let code = match &error {
-            FleetError::TooMany { .. } | FleetError::Ports { .. } | FleetError::Port(_) => ErrorCode::BadSettings,
+            FleetError::TooMany { .. }
+            | FleetError::Ports { .. }
+            | FleetError::SharedDevice { .. }
+            | FleetError::Port(_) => ErrorCode::BadSettings,
             FleetError::Busy { .. } => ErrorCode::WorkspaceBusy,
             FleetError::Data { .. } => ErrorCode::WorkspaceReadOnly,
-            FleetError::NoFreePort(_) | FleetError::Controller { source: SwitchOnError::Listen { .. }, .. } => {
+            FleetError::NoFreePort(_)
+            | FleetError::Controller { source: SwitchOnError::Listen { .. } | SwitchOnError::Remote(_), .. } => {
                 ErrorCode::CannotListen
             }
             FleetError::Address(_) => ErrorCode::BadAddress,

@@ -15,6 +15,7 @@ use super::new_controller::{NewCertificate, NewController};
 use super::opcua::AdmissionOptions;
 use super::password::hash_connection_password;
 use super::ports::free_port;
+use super::remote::RemoteOptions;
 use super::state::ControllerIdentity;
 use super::switch_on::VirtualController;
 use crate::model::{
@@ -206,6 +207,7 @@ impl DemoRole {
             management_port: 0,
             admission: AdmissionOptions::default(),
             cell: self.cell.clone(),
+            remote: RemoteOptions::default(),
             initial,
         })
     }

@@ -1,6 +1,6 @@
 use std::fs::{File, TryLockError};
 use std::io;
-use std::net::IpAddr;
+use std::net::{IpAddr, SocketAddr};
 use std::path::{Path, PathBuf};
 
 use secrecy::SecretString;
@@ -16,6 +16,7 @@ use super::new_controller::NewController;
 use super::opcua::{AdmissionOptions, HashError};
 use super::password::hash_connection_password;
 use super::ports::free_port;
+use super::remote::{RemoteOptions, SerialChoice};
 use super::state::ControllerIdentity;
 use super::switch_on::VirtualController;
 use super::{plant, switchboard};
@@ -48,6 +49,9 @@ pub struct FleetConfig {
     pub admission: AdmissionOptions,
     /// The robots of each controller, and how fast their time runs. The seed is that of the first controller.
     pub cell: CellOptions,
+    /// How each controller answers remote commands. The ports are those of the first controller, the next one's are one
+    /// higher; 0 takes free ones. A serial device can be that of one controller only.
+    pub remote: RemoteOptions,
     /// Names, serial numbers and series follow from it alone.
     pub seed: u64,
 }
@@ -80,6 +84,12 @@ pub enum FleetError {
     Ports {
         /// The first port.
         first: u16,
+        /// How many controllers were asked for.
+        count: usize,
+    },
+    /// A serial device for more than one controller.
+    #[error("{count} controllers cannot share one serial device")]
+    SharedDevice {
         /// How many controllers were asked for.
         count: usize,
     },
@@ -150,6 +160,15 @@ pub struct ReadyLine {
     pub fingerprint: crate::pki::Fingerprint,
     /// `opc.tcp://host:port`.
     pub opcua: String,
+    /// `host:port` of the remote commands as text, where they are answered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remote: Option<String>,
+    /// `host:port` of the remote commands in frames, where they are answered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remote_frames: Option<String>,
+    /// The serial device or pseudo-terminal of the remote commands, where they are answered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub remote_serial: Option<String>,
 }
 
 impl Fleet {
@@ -187,7 +206,11 @@ impl FleetConfig {
         if self.count > MAX_FLEET {
             return Err(FleetError::TooMany { count: self.count });
         }
-        for first in [self.management_port, self.opcua_port] {
+        if matches!(self.remote.serial, Some(SerialChoice::Device { .. })) && self.count > 1 {
+            return Err(FleetError::SharedDevice { count: self.count });
+        }
+        let remote = [self.remote.text_port, self.remote.frames_port].map(Option::unwrap_or_default);
+        for first in [self.management_port, self.opcua_port].into_iter().chain(remote) {
             if first != 0 && usize::from(u16::MAX - first) + 1 < self.count {
                 return Err(FleetError::Ports { first, count: self.count });
             }
@@ -214,13 +237,32 @@ impl FleetConfig {
         };
         let seed = self.cell.seed.wrapping_add(index as u64);
         let cell = CellOptions { seed, ..self.cell.clone() };
-        Ok(ControllerSpec { folder, bind: self.bind, management_port, admission: self.admission, cell, initial })
+        let remote_port = |first: Option<u16>| match first {
+            None | Some(0) => Ok(first),
+            Some(first) => ports(first).map(Some),
+        };
+        let remote = RemoteOptions {
+            text_port: remote_port(self.remote.text_port)?,
+            frames_port: remote_port(self.remote.frames_port)?,
+            ..self.remote.clone()
+        };
+        Ok(ControllerSpec {
+            folder,
+            bind: self.bind,
+            management_port,
+            admission: self.admission,
+            cell,
+            remote,
+            initial,
+        })
     }
 }
 
 impl VirtualController {
     /// What a process prints when the controller is ready.
     pub fn ready_line(&self) -> ReadyLine {
+        let reachable =
+            |address: SocketAddr| SocketAddr::new(self.reachable_address().ip(), address.port()).to_string();
         ReadyLine {
             name: self.name().to_string(),
             serial: self.serial(),
@@ -229,6 +271,9 @@ impl VirtualController {
             management: self.reachable_address().to_string(),
             fingerprint: self.fingerprint(),
             opcua: self.endpoint(),
+            remote: self.remote().text_address().map(reachable),
+            remote_frames: self.remote().frames_address().map(reachable),
+            remote_serial: self.remote().serial_path().map(|path| path.display().to_string()),
         }
     }
 }

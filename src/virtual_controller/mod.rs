@@ -6,6 +6,7 @@
 //! | file | contents |
 //! |---|---|
 //! | `state` | [`ControllerState`]: everything a controller remembers, and what follows from it |
+//! | `remote` | [`remote::RemoteServer`]: remote commands, which act on the cell |
 //! | `cell` | [`cell::CellHandle`]: the simulated robots, I/O and data behind the OPC UA server |
 //! | `changes` | every change a controller accepts, as a function on a copy of its state |
 //! | `certificate_changes` | changes of the server certificates |
@@ -94,6 +95,7 @@ mod plant;
 mod ports;
 mod project_file;
 mod rejected;
+pub mod remote;
 mod request_heads;
 mod secret_bytes;
 mod server_log;
@@ -116,6 +118,7 @@ pub use new_controller::{NewCertificate, NewController, USUAL_PORTS};
 pub use opcua::AdmissionOptions;
 pub use password::hash_connection_password;
 pub use plant::{PlantAnswer, PlantError, ask_plant};
+pub use project_file::usual_variables;
 pub use secret_bytes::SecretBytes;
 pub use server_log::LOG_LIMIT;
 pub use state::{

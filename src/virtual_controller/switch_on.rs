@@ -10,6 +10,7 @@ use super::api::ManagementApi;
 use super::cell::CellHandle;
 use super::controller::{Controller, ControllerSpec, SwitchOnError};
 use super::faults::Faults;
+use super::remote::RemoteServer;
 use super::state::ControllerState;
 use super::{listener, tls};
 use crate::model::{ControllerInfo, ControllerName, ControllerSeries, FirmwareVersion, SerialNumber, StartupMode};
@@ -25,6 +26,7 @@ pub struct VirtualController {
     fingerprint: Fingerprint,
     off: CancellationToken,
     api: Mutex<Option<JoinHandle<()>>>,
+    remote: RemoteServer,
 }
 
 impl VirtualController {
@@ -36,7 +38,10 @@ impl VirtualController {
         let listener = TcpListener::bind(address).await.map_err(listen)?;
         let address = listener.local_addr().map_err(listen)?;
 
+        let (bind, remote) = (spec.bind, spec.remote.clone());
         let controller = Arc::new(Controller::open(spec, address.port()).await?);
+        let cell = controller.cell().clone();
+        let remote = RemoteServer::start_kept(bind, remote, cell, controller.kept().clone()).await?;
         let state = controller.state();
         let config = tls::server_config(&state.management)?;
         let fingerprint = Fingerprint::of(&state.management.certificate.0);
@@ -55,7 +60,7 @@ impl VirtualController {
             Arc::new(ManagementApi::new(Arc::clone(&controller))),
             off.clone(),
         ));
-        Ok(Self { controller, address, fingerprint, off, api: Mutex::new(Some(api)) })
+        Ok(Self { controller, address, fingerprint, off, api: Mutex::new(Some(api)), remote })
     }
 
     /// Where the management protocol answers.
@@ -94,6 +99,11 @@ impl VirtualController {
         self.controller.cell()
     }
 
+    /// Where it answers remote commands.
+    pub fn remote(&self) -> &RemoteServer {
+        &self.remote
+    }
+
     /// Its serial number.
     pub fn serial(&self) -> SerialNumber {
         self.controller.state().identity.serial.clone()
@@ -122,6 +132,7 @@ impl VirtualController {
     /// Switches the controller off: a change in hand is finished, the OPC UA server stopped, every connection closed.
     pub async fn shutdown(&self) {
         self.off.cancel();
+        self.remote.stop().await;
         self.controller.switch_off().await;
         self.controller.rejected().write_soon().await;
         let api = self.api.lock().take();

@@ -12,6 +12,7 @@ use opcua_configurator::model::ConnectionKind;
 use opcua_configurator::pki::Fingerprint;
 use opcua_configurator::session::{ManagementConnector, ManagementTimeouts};
 use opcua_configurator::virtual_controller::cell::CellOptions;
+use opcua_configurator::virtual_controller::remote::RemoteOptions;
 use opcua_configurator::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware, VirtualController};
 use opcua_configurator::workspace::{MemoryPasswords, Passwords as _};
 use parking_lot::Mutex;
@@ -54,6 +55,7 @@ impl TestFleet {
             data: folder.path().to_owned(),
             admission: AdmissionOptions::default(),
             cell: CellOptions::default(),
+            remote: RemoteOptions::default(),
             seed: 7,
         })
         .await

@@ -546,9 +546,9 @@ error_texts! {
         "It is a CSV file with the columns Name,Password, one controller a line.",
         "Correct the line, then try again.";
     CannotListen:
-        "A virtual controller cannot listen on its port",
-        "Another program on this computer uses the TCP port, this account may not open it, or the address is not one of this computer.",
-        "Stop the other program, or choose other ports with --management-port and --opcua-port, or another address with --bind.";
+        "A virtual controller cannot listen on its port or serial line",
+        "Another program on this computer uses the TCP port or the serial line, this account may not open it, or the address is not one of this computer.",
+        "Stop the other program, or choose other ports with --management-port, --opcua-port, --remote-port and --remote-frames-port, another line with --remote-serial, or another address with --bind.";
     NoDisplay:
         "The window cannot be opened",
         "There is no display here, as in a session by SSH, or its graphics driver offers neither OpenGL 2.1 nor Direct3D 12, as in some remote desktop sessions and virtual machines.",

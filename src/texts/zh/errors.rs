@@ -546,9 +546,9 @@ error_texts! {
         "应为包含 Name,Password 两列的 CSV 文件，每行一个控制器。",
         "请更正该行，然后重试。";
     CannotListen:
-        "虚拟控制器无法监听端口",
-        "本机的其他程序正在使用该 TCP 端口、当前账户无权打开该端口，或该地址不属于本机。",
-        "请停止占用端口的程序，或使用 --management-port 和 --opcua-port 选择其他端口、使用 --bind 选择其他地址。";
+        "虚拟控制器无法监听端口或串行线路",
+        "本机的其他程序正在使用该 TCP 端口或串行线路、当前账户无权打开，或该地址不属于本机。",
+        "请停止占用的程序，或使用 --management-port、--opcua-port、--remote-port 和 --remote-frames-port 选择其他端口、使用 --remote-serial 选择其他线路、使用 --bind 选择其他地址。";
     NoDisplay:
         "无法打开窗口",
         "此处没有显示器（例如 SSH 会话），或图形驱动既不支持 OpenGL 2.1 也不支持 Direct3D 12（例如某些远程桌面会话和虚拟机）。",

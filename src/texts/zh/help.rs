@@ -180,6 +180,25 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     ("virtual", "robots", "每台控制器的机器人，以逗号分隔：C4-A601S（六轴）、GX4-A251S（SCARA）"),
     ("virtual", "virtual_io", "OPC UA 客户端可写入输入，并在字节和位之外还能看到字"),
     ("virtual", "clock_rate", "一秒内的模拟秒数，0.001 至 10000"),
+    (
+        "",
+        "remote_port",
+        "以文本形式（远程以太网）应答远程命令的 TCP 端口，后续控制器依次使用下一个端口；0 表示自动选择",
+    ),
+    (
+        "",
+        "remote_frames_port",
+        "以帧形式（远程 RS232）应答远程命令的 TCP 端口，后续控制器依次使用下一个端口；0 表示自动选择",
+    ),
+    (
+        "",
+        "remote_serial",
+        "在串行线路上以帧形式应答远程命令：\"pty\" 表示新建伪终端，或指定设备及其速率，例如 /dev/ttyUSB0,9600。不适用于 Windows",
+    ),
+    ("", "remote_password_file", "远程命令的密码文件，最多 16 个字符，\"-\" 表示标准输入；未指定时无密码"),
+    ("", "remote_role", "远程命令的权限"),
+    ("", "remote_time_out", "远程命令会话在多少秒内未收到命令即结束；0 表示永不结束"),
+    ("", "remote_terminator", "远程命令应答行的结束符"),
     ("virtual cell", "data", "virtual --data 所指定的文件夹；窗口的虚拟控制器位于工作区的 virtual 文件夹"),
     (
         "virtual cell",

@@ -36,6 +36,7 @@ use super::new_controller::{NewController, NewControllerError};
 use super::opcua::AdmissionOptions;
 use super::project_file;
 use super::rejected::RejectedClients;
+use super::remote::{BackupFile, RemoteOptions, RemoteServerError};
 use super::server_log::ServerLog;
 use super::state::{ControllerIdentity, ControllerState, OperatingContext};
 use super::store::{Store, StoreError};
@@ -54,6 +55,8 @@ pub struct ControllerSpec {
     pub admission: AdmissionOptions,
     /// The robots on it, and how fast their time runs.
     pub cell: CellOptions,
+    /// How it answers remote commands.
+    pub remote: RemoteOptions,
     /// What the controller is if its folder holds none yet.
     pub initial: NewController,
 }
@@ -78,6 +81,9 @@ pub enum SwitchOnError {
         /// The error of the operating system.
         source: std::io::Error,
     },
+    /// Remote commands cannot be answered.
+    #[error(transparent)]
+    Remote(#[from] RemoteServerError),
     /// A thread ended before its work was done.
     #[error("a worker thread died")]
     Worker(#[from] JoinError),
@@ -98,6 +104,7 @@ pub(super) struct Controller {
     management_port: u16,
     admission: AdmissionOptions,
     cell: CellHandle,
+    kept: BackupFile,
     server: AsyncMutex<ServerSlot>,
     server_state: Mutex<ServerState>,
 }
@@ -117,12 +124,12 @@ enum ServerState {
 impl Controller {
     /// Opens the state in the spec's folder, or makes and saves the initial one. The OPC UA server is not started.
     pub(super) async fn open(spec: ControllerSpec, management_port: u16) -> Result<Self, SwitchOnError> {
-        let ControllerSpec { folder, bind, admission, cell, initial, management_port: _ } = spec;
+        let ControllerSpec { folder, bind, admission, cell, initial, management_port: _, remote: _ } = spec;
         let faults = Faults::default();
         let store = Store::open(&folder, faults.clone())?;
         let context = OperatingContext { now: faults.now(), bind, management_port };
         let project = folder.clone();
-        let (store, state, variables) = spawn_blocking(move || {
+        let (store, state, variables, backup) = spawn_blocking(move || {
             let state = match store.load()? {
                 Some(state) => state,
                 None => {
@@ -134,11 +141,16 @@ impl Controller {
             // A project that cannot be read is reported when the server starts.
             let declared = project_file::provide(&project).and_then(|()| project_file::load(&project));
             let variables = declared.map(|declared| declared.variables).unwrap_or_default();
-            Ok::<_, SwitchOnError>((store, state, variables))
+            let backup = BackupFile::load(&project).unwrap_or_else(|error| {
+                tracing::warn!(%error, "the memory of a virtual controller's battery cannot be read and is lost");
+                BackupMemory::default()
+            });
+            Ok::<_, SwitchOnError>((store, state, variables, backup))
         })
         .await??;
-        let cell = switch_on_cell(&state, context.now, variables, cell);
+        let cell = switch_on_cell(&state, context.now, variables, backup.clone(), cell);
         Ok(Self {
+            kept: BackupFile::new(&folder, faults.clone(), cell.clone(), backup),
             cell,
             log: Arc::new(ServerLog::new(&folder, faults.clone())),
             rejected: Arc::new(RejectedClients::open(&folder, faults.clone(), &state)),
@@ -178,6 +190,11 @@ impl Controller {
         &self.cell
     }
 
+    /// What outlives a power-off.
+    pub(super) fn kept(&self) -> &BackupFile {
+        &self.kept
+    }
+
     fn failed(&self, code: ErrorCode) {
         *self.server_state.lock() = ServerState::Failed { code, revision: self.state().revision };
     }
@@ -197,10 +214,11 @@ fn switch_on_cell(
     state: &ControllerState,
     started: DateTime<Utc>,
     variables: Vec<SpelDeclaration>,
+    backup: BackupMemory,
     options: CellOptions,
 ) -> CellHandle {
     let ControllerIdentity { serial, series, firmware, name } = state.identity.clone();
     let clock = CellClock::running(options.rate);
-    let cell = Cell::new(CellConfig { name, serial, series, firmware, started, variables, backup: BackupMemory::default(), options });
+    let cell = Cell::new(CellConfig { name, serial, series, firmware, started, variables, backup, options });
     CellHandle::new(cell, clock)
 }

@@ -5,6 +5,7 @@ use crate::model::{ErrorCode, FirmwareGeneration, ServerStatus};
 use crate::protocol;
 use crate::protocol::Request as _;
 use crate::virtual_controller::cell::CellOptions;
+use crate::virtual_controller::remote::RemoteOptions;
 use crate::virtual_controller::{
     AdmissionOptions, DEMO_COUNT, DEMO_PASSWORD, Fleet, FleetConfig, FleetError, FleetFirmware, demo_fleet,
 };
@@ -21,6 +22,7 @@ fn config(data: &std::path::Path, count: usize) -> FleetConfig {
         data: data.to_owned(),
         admission: AdmissionOptions::default(),
         cell: CellOptions::default(),
+        remote: RemoteOptions::default(),
         seed: 7,
     }
 }

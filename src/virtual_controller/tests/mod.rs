@@ -6,6 +6,7 @@ mod http;
 mod keys_log_and_settings;
 mod many_connections;
 mod persistence;
+mod remote;
 mod sessions;
 mod starting;
 mod starvation;

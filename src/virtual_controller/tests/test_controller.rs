@@ -22,6 +22,7 @@ use crate::pki::{Fingerprint, PrivateKey, ServerNames, self_signed};
 use crate::protocol::{self, FailureBody, Hello, Request as _, SessionStarted};
 use crate::virtual_controller::cell::{BackupMemory, Cell, CellClock, CellConfig, CellHandle, CellOptions};
 use crate::virtual_controller::ports::free_port;
+use crate::virtual_controller::remote::RemoteOptions;
 use crate::virtual_controller::{
     AdmissionOptions, ControllerIdentity, ControllerSpec, ControllerState, NewCertificate, NewController,
     SwitchOnError, VirtualController, hash_connection_password,
@@ -79,12 +80,21 @@ pub fn cell_handle() -> CellHandle {
 }
 
 pub async fn switch_on(folder: &Path, initial: NewController) -> Result<VirtualController, SwitchOnError> {
+    switch_on_with(folder, initial, RemoteOptions::default()).await
+}
+
+pub async fn switch_on_with(
+    folder: &Path,
+    initial: NewController,
+    remote: RemoteOptions,
+) -> Result<VirtualController, SwitchOnError> {
     let spec = ControllerSpec {
         folder: folder.to_owned(),
         bind: LOOPBACK,
         management_port: 0,
         admission: AdmissionOptions::default(),
         cell: CellOptions::default(),
+        remote,
         initial,
     };
     VirtualController::start(spec).await

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend};
 use opcua_configurator::ui::picker::FixedPicker;
 use opcua_configurator::virtual_controller::cell::CellOptions;
+use opcua_configurator::virtual_controller::remote::RemoteOptions;
 use opcua_configurator::virtual_controller::{AdmissionOptions, Fleet, FleetConfig, FleetFirmware};
 use opcua_configurator::workspace::{Configuration, NoKeyring, PasswordPlace, PasswordStore, VaultState};
 
@@ -161,6 +162,7 @@ fn controller(port: u16, password: &str, folder: &std::path::Path) -> FleetConfi
         data: folder.join("virtual"),
         admission: AdmissionOptions::default(),
         cell: CellOptions::default(),
+        remote: RemoteOptions::default(),
         seed: 7,
     }
 }

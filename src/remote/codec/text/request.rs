@@ -23,8 +23,9 @@ pub fn encode_request(request: &Request, terminator: Terminator) -> Result<Zeroi
     Ok(line)
 }
 
-/// The name of a command as a client spelled it, to be repeated in the answer.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// The name of a command as a client spelled it, to be repeated in the answer. Empty by default, for a request of which the
+/// name is not known.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Spelling(String);
 
 /// More of a name that is unknown is not repeated.

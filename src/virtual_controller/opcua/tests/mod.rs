@@ -5,6 +5,7 @@ mod chains;
 mod client;
 mod hostile;
 mod impersonating_proxy;
+mod remote;
 mod resource_exhaustion;
 mod server;
 mod sessions;
