@@ -10,6 +10,7 @@
 //! | [`records`] | packets of force sensor and motion log: decode, encode, columns |
 //! | [`protocol`] | the controller-management protocol's messages and error codes |
 //! | [`remote`] | the remote RS232 and Ethernet commands of controllers: codec, client |
+//! | [`fins`] | FINS, the protocol of Omron PLCs: codec, client, simulated PLC, bridge to a robot |
 //! | [`workspace`] | the folder on the PC: configuration, per-serial folders, secrets; atomic writes |
 //! | [`session`] | one session with one controller, over HTTPS |
 //! | [`recorder`] | force sensor and motion log data of a controller: acquisition, files, values for plots |
@@ -33,6 +34,7 @@
 #![cfg_attr(test, allow(clippy::unwrap_used))]
 
 pub mod cli;
+pub mod fins;
 pub mod jobs;
 pub mod licences;
 pub mod model;

@@ -15,6 +15,7 @@ mod controller_selection;
 mod controllers;
 mod crl;
 mod demo;
+mod fins;
 mod help;
 mod licences;
 mod output;
@@ -166,6 +167,9 @@ enum Command {
     /// Record force sensor and motion log data of controllers; show and convert recordings
     #[command(subcommand)]
     Record(record::RecordCommand),
+    /// PLCs over FINS: read and write their memory, run a simulated PLC, bridge a PLC and a robot
+    #[command(subcommand)]
+    Fins(fins::FinsCommand),
     /// Switch the backup of what is made on or off
     #[command(subcommand)]
     Backup(backup::BackupCommand),
@@ -258,6 +262,7 @@ pub fn main() -> ExitCode {
         Some(Command::ImportSettings(args)) => settings_transfer::import(&context, &args),
         Some(Command::Verify(args)) => verify::run(&context, &args),
         Some(Command::Record(command)) => record::run(&context, command),
+        Some(Command::Fins(command)) => fins::run(&context, command),
         Some(Command::Backup(command)) => backup::run(&context, command),
         Some(Command::Vault(command)) => vault::run(&context, command),
         Some(Command::Licences(args)) => licences::run(&context, &args),

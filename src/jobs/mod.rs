@@ -27,6 +27,7 @@
 //! | `live_values` | watch the values of one OPC UA server as they change |
 //! | `verify` | connect to the OPC UA server as a client does |
 //! | `find_server` | find the OPC UA server of a controller, for a session that stays open |
+//! | `fins_bridge` | open a bridge between a PLC and a robot from its map |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
 mod activation;
@@ -37,6 +38,7 @@ mod create_csr;
 mod enroll;
 mod export_self_signed;
 mod find_server;
+mod fins_bridge;
 mod get_info;
 mod import_ca_signed;
 mod live_values;
@@ -68,6 +70,7 @@ pub use create_csr::{CreateCsr, CsrFields, CsrSaved};
 pub use enroll::{Enrolled, enroll, probe};
 pub use export_self_signed::{CertificateExported, ExportSelfSigned};
 pub use find_server::{FindServer, FoundServer};
+pub use fins_bridge::open_fins_bridge;
 pub use get_info::GetInfo;
 pub use import_ca_signed::{CaSignedSource, CheckCaSigned, ImportCaSigned};
 pub use live_values::{

@@ -204,6 +204,18 @@ error_codes! {
     RemoteOutcomeUnknown "remote-outcome-unknown" Pc,
     RemoteRequestInvalid "remote-request-invalid" Pc,
     BadRemoteTarget "bad-remote-target" Pc,
+    // PLCs (FINS)
+    PlcUnreachable "plc-unreachable" Pc,
+    PlcConnectionRefused "plc-connection-refused" Pc,
+    PlcConnectionLost "plc-connection-lost" Pc,
+    PlcNoAnswer "plc-no-answer" Pc,
+    PlcCommandRefused "plc-command-refused" Pc,
+    PlcWriteUnknown "plc-write-unknown" Pc,
+    NotFins "not-fins" Pc,
+    BadPlcAddress "bad-plc-address" Pc,
+    BadPlcValue "bad-plc-value" Pc,
+    BadBridgeMap "bad-bridge-map" Pc,
+    PlcCannotListen "plc-cannot-listen" Pc,
     // activation (2.6.3)
     WrongKeys "wrong-keys" Both,
     NotInFile "not-in-file" Pc,

@@ -88,6 +88,8 @@ in_every_language! {
     fn only_certificates() -> String;
     /// A command takes things and then controllers, and got only this.
     fn no_controller_after(argument: &str) -> String;
+    /// An address of a PLC is to be written, and no value is given.
+    fn no_value_after(argument: &str) -> String;
     /// Every controller was asked for, and there is none.
     fn no_controllers() -> String;
     /// The folder has more files than are read.

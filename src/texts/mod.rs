@@ -82,6 +82,15 @@ macro_rules! error_texts {
     };
 }
 
+/// A text for each value of an enum: a function of that name.
+macro_rules! texts_of_values {
+    ($name:ident($type:ident): $($value:ident: $text:literal;)*) => {
+        pub const fn $name(value: $type) -> &'static str {
+            match value { $($type::$value => $text),* }
+        }
+    };
+}
+
 /// The names of all countries in a language.
 macro_rules! country_names {
     ($($code:ident: $name:literal;)*) => {
@@ -100,6 +109,7 @@ mod certificates;
 pub mod cli;
 mod errors;
 mod files;
+mod fins;
 mod help;
 mod live;
 mod recorder;
@@ -113,6 +123,7 @@ pub use authority::*;
 pub use certificates::explain_refusal;
 pub use errors::Explanation;
 pub use files::*;
+pub use fins::*;
 pub use help::{HelpTexts, UsageErrorTexts, help};
 pub use live::*;
 pub use recorder::*;
@@ -160,6 +171,7 @@ impl TextKey {
             en::common::FIXED_TEXTS,
             en::controllers::FIXED_TEXTS,
             en::files::FIXED_TEXTS,
+            en::fins::FIXED_TEXTS,
             en::live::FIXED_TEXTS,
             en::recorder::FIXED_TEXTS,
             en::server::FIXED_TEXTS,

@@ -1,4 +1,4 @@
-//! The real program against peers of other projects: asyncua, node-opcua and OpenSSL.
+//! The real program against peers of other projects: asyncua, node-opcua, OpenSSL, fins-driver, omron-fins and tshark.
 //!
 //! A peer that is not installed skips its story and says so. With `OPCUA_INTEROP_REQUIRED=1` a missing peer is a
 //! failure. `OPCUA_INTEROP_PYTHON` names a Python with asyncua (default `python3`), `OPCUA_INTEROP_NODE_MODULES` the
@@ -8,6 +8,7 @@ mod address_space;
 mod authority;
 mod cell;
 mod connections;
+mod fins;
 pub mod peers;
 mod sample_programs;
 mod trust;

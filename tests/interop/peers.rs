@@ -35,6 +35,13 @@ impl Python {
         .then_some(python)
     }
 
+    /// A Python with the library that a program beside this file needs.
+    pub fn find_with(program: &str, package: &str) -> Option<Self> {
+        let python = Self(env::var_os("OPCUA_INTEROP_PYTHON").unwrap_or_else(|| "python3".into()));
+        let install = format!("`pip install {package}`, in a Python that OPCUA_INTEROP_PYTHON names");
+        found(python.script(program).arg("--help"), package, &install).then_some(python)
+    }
+
     /// The client's application URI is `urn:interop:<name>`.
     pub fn make_certificate(&self, folder: &Path, name: &str) -> ClientCertificate {
         let [certificate, key] = ["der", "pem"].map(|extension| folder.join(format!("{name}.{extension}")));
@@ -96,6 +103,12 @@ impl Node {
         .then_some(Self(()))
     }
 
+    /// A Node.js with the library that a program beside this file needs.
+    pub fn find_with(program: &str, package: &str) -> Option<Self> {
+        let install = format!("`npm install {package}`; OPCUA_INTEROP_NODE_MODULES names its node_modules folder");
+        found(&mut Self(()).script(program), package, &install).then_some(Self(()))
+    }
+
     pub fn endpoints(&self, url: &str) -> Value {
         answer(self.peer().arg(url))
     }
@@ -109,6 +122,45 @@ impl Node {
         let mut command = Command::new("node");
         command.arg(source(name));
         command
+    }
+}
+
+/// The command line of Wireshark.
+pub struct Tshark(());
+
+impl Tshark {
+    pub fn find() -> Option<Self> {
+        let mut probe = Command::new("tshark");
+        found(probe.arg("--version"), "tshark", "`apt-get install tshark`").then_some(Self(()))
+    }
+
+    /// Fields of each packet of a capture, in the order of their names.
+    pub fn fields(&self, capture: &Path, names: &[&str]) -> Vec<Vec<String>> {
+        let mut command = self.command(capture);
+        command.args(["-T", "fields", "-E", "separator=;", "-E", "occurrence=f"]);
+        for name in names {
+            command.args(["-e", name]);
+        }
+        let lines = self.run(&mut command);
+        lines.lines().map(|line| line.split(';').map(str::to_owned).collect()).collect()
+    }
+
+    /// Whether something in a capture is malformed.
+    pub fn complains(&self, capture: &Path) -> bool {
+        !self.run(self.command(capture).args(["-Y", "_ws.malformed"])).trim().is_empty()
+    }
+
+    /// Without the settings of the person who runs the tests.
+    fn command(&self, capture: &Path) -> Command {
+        let mut command = Command::new("tshark");
+        command.env("HOME", capture.parent().unwrap_or(capture)).args(["-n", "-r"]).arg(capture);
+        command
+    }
+
+    fn run(&self, command: &mut Command) -> String {
+        let Finished { code, stdout, stderr } = Running::start(command).expect("tshark was found").finish(ANSWER);
+        assert_eq!(code, Some(0), "{command:?}\n{stdout}\n{stderr}");
+        stdout
     }
 }
 

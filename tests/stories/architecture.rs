@@ -13,11 +13,12 @@ const ALLOWED: &[(&str, &[&str])] = &[
     ("records", &["model"]),
     ("protocol", &["model", "pki"]),
     ("remote", &["model", "pki"]),
+    ("fins", &["model"]),
     ("workspace", &["model", "pki", "platform", "protocol"]),
     ("session", &["model", "pki", "protocol", "remote", "workspace"]),
     ("recorder", &["platform", "model", "records", "workspace", "session"]),
-    ("jobs", &["model", "pki", "remote", "workspace", "session", "recorder"]),
-    ("texts", &["model", "pki", "remote", "workspace", "session", "recorder", "jobs"]),
+    ("jobs", &["model", "pki", "remote", "fins", "workspace", "session", "recorder"]),
+    ("texts", &["model", "pki", "remote", "fins", "workspace", "session", "recorder", "jobs"]),
     ("ui", &["licences", "platform", "model", "pki", "remote", "workspace", "session", "jobs", "texts"]),
     ("virtual_controller", &["platform", "model", "pki", "records", "protocol", "remote"]),
     (
@@ -28,6 +29,7 @@ const ALLOWED: &[(&str, &[&str])] = &[
             "model",
             "pki",
             "remote",
+            "fins",
             "workspace",
             "session",
             "recorder",
@@ -78,6 +80,7 @@ fn a_module_uses_only_the_modules_below_it() {
 ///
 /// [`Problem`]: opcua_configurator::model::Problem
 const MAKES_PROBLEMS: &[&str] = &[
+    "fins::problem",
     "model",
     "model::capabilities",
     "pki::error",

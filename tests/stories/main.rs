@@ -22,6 +22,7 @@ mod interop;
 mod jobs;
 #[path = "../fuzz/make_seeds.rs"]
 mod make_seeds;
+mod pulled_cable;
 #[path = "../fuzz/src/readers/mod.rs"]
 mod readers;
 mod window;

@@ -238,6 +238,10 @@ pub fn no_controller_after(argument: &str) -> String {
     format!("none is named after \"{argument}\"; name controllers, or give --all")
 }
 
+pub fn no_value_after(argument: &str) -> String {
+    format!("no value follows \"{argument}\"")
+}
+
 pub fn no_controllers() -> String {
     "the list of controllers is empty".to_owned()
 }

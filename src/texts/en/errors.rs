@@ -437,6 +437,50 @@ error_texts! {
         "The connection for remote commands is written wrongly",
         "It is neither tcp://HOST[:PORT], raw-tcp://HOST:PORT nor serial:DEVICE, and no controller in the list has this name.",
         "Correct it, such as tcp://192.168.0.1, raw-tcp://192.168.0.7:4001 or serial:/dev/ttyS0?baud=19200.";
+    PlcUnreachable:
+        "The PLC cannot be reached",
+        "It is switched off, the network cable is unplugged, the address is wrong, or nothing listens at the port.",
+        "Check power, cable, address and port of the PLC. FINS has port 9600 unless the PLC's settings say otherwise.";
+    PlcConnectionRefused:
+        "The PLC refused the connection",
+        "All its connections are in use, the node is connected already or out of range, this computer's address is not admitted, or another node answers there.",
+        "Close connections that are not needed, choose another node or none, and check the FINS/TCP settings of the PLC.";
+    PlcConnectionLost:
+        "The connection to the PLC was lost",
+        "The cable was unplugged, the PLC was switched off, or it closed the connection before it answered.",
+        "Check cable and PLC, then try again.";
+    PlcNoAnswer:
+        "The PLC does not answer",
+        "The command was sent and no answer to it came in time. With FINS/UDP, node and port can be wrong as well.",
+        "Check the cable and whether the PLC is busy. With FINS/UDP, check the nodes of both sides.";
+    PlcCommandRefused:
+        "The PLC refused the command",
+        "The end code of the answer says why.",
+        "Follow the advice for the end code, then try again.";
+    PlcWriteUnknown:
+        "It is not known whether the PLC has written the values",
+        "The command was sent, and its answer was lost.",
+        "Read the values to see what the PLC has, then decide whether to write them again.";
+    NotFins:
+        "What answers there is no PLC with FINS",
+        "Something answers at this address and port, but not in FINS, or not in the kind of FINS that was chosen.",
+        "Check address and port, and choose between TCP and UDP.";
+    BadPlcAddress:
+        "The address in the PLC is wrong",
+        "It names no area, word or bit, or does not fit what is to be done with it.",
+        "Write it as D300, D300.04, CIO0.15, W10, E1_200, T5 or T5.F.";
+    BadPlcValue:
+        "The value does not fit",
+        "It is no value of the chosen type, is outside its range, or the PLC's words hold no value of that type.",
+        "Correct the value, or choose another type.";
+    BadBridgeMap:
+        "The bridge's map cannot be used",
+        "It is not written as a map has to be, or a row in it is wrong.",
+        "Correct what is named, then try again. The sample fins-bridge.toml shows the form.";
+    PlcCannotListen:
+        "The simulated PLC cannot start",
+        "Another program uses its port, this account may not open it, the address is not one of this computer, or the node is not 1 to 254.",
+        "Stop the other program, or choose another port, address or node.";
     WrongKeys:
         "The controller does not accept the keys",
         "The licence key or the activation key was made for another serial number, or has a typing mistake.",

@@ -241,6 +241,10 @@ pub fn no_controller_after(argument: &str) -> String {
     format!("「{argument}」の後にコントローラー名がありません。名前または--allを指定してください")
 }
 
+pub fn no_value_after(argument: &str) -> String {
+    format!("「{argument}」の後に値がありません")
+}
+
 pub fn no_controllers() -> String {
     "コントローラーの一覧が空です".to_owned()
 }

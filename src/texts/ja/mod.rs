@@ -27,6 +27,7 @@ pub mod controllers;
 pub mod countries;
 pub mod errors;
 pub mod files;
+pub mod fins;
 pub mod help;
 pub mod live;
 pub mod recorder;

@@ -238,6 +238,10 @@ pub fn no_controller_after(argument: &str) -> String {
     format!("“{argument}”之后没有控制器名称，请给出名称或 --all")
 }
 
+pub fn no_value_after(argument: &str) -> String {
+    format!("“{argument}”之后没有值")
+}
+
 pub fn no_controllers() -> String {
     "控制器列表为空".to_owned()
 }

@@ -6,6 +6,7 @@ mod backup;
 mod certificate_authority;
 mod client_certificates;
 mod connection_list;
+mod fins;
 mod lying_controller;
 mod main_job;
 mod odd_paths;
