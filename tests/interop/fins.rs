@@ -47,13 +47,14 @@ async fn omron_fins_reads_and_writes_the_simulated_plc() {
         let found = asked(command).await;
         for (what, expected) in [
             ("write", json!("0000")),
-            ("words", json!([321, 65_535])),
+            // It takes words as numbers with a sign.
+            ("words", json!([321, -1])),
             ("writeBits", json!("0000")),
-            ("bits", json!([true, false])),
+            ("bits", json!([1, 0])),
             ("fill", json!("0000")),
             ("transfer", json!("0000")),
-            ("transferred", json!([43_981, 43_981, 43_981])),
-            ("several", json!([321, 17, true])),
+            ("transferred", json!([-21_555, -21_555, -21_555])),
+            ("several", json!([321, 17, 1])),
             ("readOnly", json!("2101")),
             ("beyond", json!("1103")),
             ("stop", json!("0000")),

@@ -63,4 +63,5 @@ async function check() {
 }
 
 client.on("error", fail);
-client.on("open", () => check().catch(fail));
+// The client is connected when its handlers of "open" have returned.
+client.on("open", () => setImmediate(() => check().catch(fail)));

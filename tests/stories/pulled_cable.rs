@@ -14,12 +14,14 @@ use opcua_configurator::fins::address::{Address, AddressRange};
 use opcua_configurator::fins::bridge::Bridge;
 use opcua_configurator::fins::bridge::map::BridgeMap;
 use opcua_configurator::fins::bridge::robot::{Direction, ItemError, RobotError, RobotItem, RobotSide};
+use opcua_configurator::fins::bridge::status::BridgeStatus;
 use opcua_configurator::fins::client::{ClientSettings, FinsClient, Transport, WriteError};
 use opcua_configurator::fins::data_type::Value;
 use opcua_configurator::fins::plc::{PlcConfig, SimulatedPlc};
 use opcua_configurator::model;
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::{TcpListener, TcpStream};
+use tokio::sync::watch::Receiver;
 use tokio::task::JoinSet;
 
 /// How the cable is pulled.
@@ -197,6 +199,14 @@ impl RobotSide for Counter {
     }
 }
 
+fn failures(status: &BridgeStatus) -> u64 {
+    status.rows.iter().map(|row| row.failed).sum()
+}
+
+async fn reached(status: &mut Receiver<BridgeStatus>, what: impl FnMut(&BridgeStatus) -> bool) -> bool {
+    matches!(tokio::time::timeout(10 * LIMIT, status.wait_for(what)).await, Ok(Ok(_)))
+}
+
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_bridge_writes_no_value_twice_and_none_that_is_old_wherever_the_cable_is_pulled() {
     const RUNS: usize = 100;
@@ -211,19 +221,14 @@ async fn a_bridge_writes_no_value_twice_and_none_that_is_old_wherever_the_cable_
         let running = Bridge::new(map, Box::new(Counter(0))).map_err(|(_, error)| error).unwrap().start();
         let mut status = running.status();
         for run in 0..RUNS {
-            let copied = status.borrow().rows[0].copied;
-            let failed = |status: &opcua_configurator::fins::bridge::status::BridgeStatus| {
-                status.rows.iter().map(|row| row.failed).sum::<u64>()
-            };
-            let before = failed(&status.borrow());
+            let before = status.borrow().clone();
             // A write with its answer and a read with its answer have 132 bytes.
             cable.pull_after(run * 132 / RUNS);
-            let noticed = tokio::time::timeout(10 * LIMIT, status.wait_for(|status| failed(status) > before)).await;
-            assert!(noticed.is_ok(), "{pull:?} run {run}: the bridge does not notice");
+            let noticed = reached(&mut status, |status| failures(status) > failures(&before)).await;
+            assert!(noticed, "{pull:?} run {run}: the bridge does not notice");
             cable.mend();
-            let again =
-                tokio::time::timeout(10 * LIMIT, status.wait_for(|status| status.rows[0].copied > copied)).await;
-            assert!(again.is_ok(), "{pull:?} run {run}: the bridge does not go on");
+            let again = reached(&mut status, |status| status.rows[0].copied > before.rows[0].copied).await;
+            assert!(again, "{pull:?} run {run}: the bridge does not go on");
         }
         running.stop().await.unwrap();
         let row = status.borrow().rows[0].clone();

@@ -56,7 +56,9 @@ pub enum IoUnit {
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RemoteItemError {
     /// It begins with none of the known words.
-    #[error("\"{0}\" is no item of a robot; there are io bit N, io byte N, io word N, mem bit N, mem byte N, mem word N, var NAME")]
+    #[error(
+        "\"{0}\" is no item of a robot; there are io bit N, io byte N, io word N, mem bit N, mem byte N, mem word N, var NAME"
+    )]
     Unknown(String),
     /// The name of a variable, its index or its type is wrong.
     #[error("\"{0}\" is no variable; write var name, var name(0), var name(1,2) or var name as Integer")]

@@ -210,7 +210,11 @@ fn set_io(is_memory: bool, unit: IoUnit, number: u16, value: &Value) -> Option<R
         (IoUnit::Word, Value::Integer(value)) => {
             let bits = u16::try_from(*value).ok().or_else(|| i16::try_from(*value).ok().map(i16::cast_unsigned))?;
             let port = port()?;
-            if is_memory { Request::SetMemIOWord { port, value: bits } } else { Request::SetIOWord { port, value: bits } }
+            if is_memory {
+                Request::SetMemIOWord { port, value: bits }
+            } else {
+                Request::SetIOWord { port, value: bits }
+            }
         }
         _ => return None,
     })
