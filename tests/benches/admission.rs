@@ -6,38 +6,31 @@
 //! server and gate share this process and its cores, and everything between them is real: TCP over loopback,
 //! signatures, encryption.
 
+#[allow(dead_code, reason = "other benches need more of it")]
+mod opcua_client;
 mod report;
 
 use std::fs;
-use std::net::{IpAddr, Ipv4Addr};
+use std::net::Ipv4Addr;
 use std::path::Path;
-use std::sync::Arc;
+use std::slice;
 use std::time::{Duration, Instant};
 
-use chrono::{TimeDelta, Utc};
-use opcua::client::{ClientBuilder, IdentityToken, Session};
-use opcua::crypto::SecurityPolicy as WirePolicy;
+use chrono::Utc;
 use opcua::server::{ANONYMOUS_USER_TOKEN_ID, ServerBuilder, ServerEndpoint};
-use opcua::types::{MessageSecurityMode, ReadValueId, StatusCode, TimestampsToReturn, VariableId};
-use opcua_configurator::model::{
-    ControllerSeries, FirmwareVersion, KeyLength, SecurityPolicy, SelfSignedRequest, Subject, UserTokenPolicy, Validity,
-};
-use opcua_configurator::pki::{Certificate, PrivateKey, ServerNames, TrustLists, TrustPolicy, self_signed};
+use opcua::types::{ReadValueId, VariableId};
+use opcua_client::{Client, Failure, MODES, TestApplication, offered_endpoint};
+use opcua_configurator::model::{ControllerSeries, FirmwareVersion, SecurityPolicy, UserTokenPolicy};
+use opcua_configurator::pki::{TrustLists, TrustPolicy};
 use opcua_configurator::virtual_controller::cell::{
     BackupMemory, Cell, CellClock, CellConfig, CellHandle, CellOptions,
 };
 use opcua_configurator::virtual_controller::opcua::{CertificateClock, OpcUaConfig, OpcUaServer, ServerEvents};
 use report::{Spread, line};
-use rsa::RsaPrivateKey;
-use rsa::pkcs8::{DecodePrivateKey as _, EncodePrivateKey as _, LineEnding};
 use tokio::task::JoinHandle;
 use zeroize::Zeroizing;
 
 const ROUNDS: usize = 5;
-const MODES: [(WirePolicy, MessageSecurityMode); 2] =
-    [(WirePolicy::None, MessageSecurityMode::None), (WirePolicy::Basic256Sha256, MessageSecurityMode::SignAndEncrypt)];
-
-type Failure = Box<dyn std::error::Error + Send + Sync>;
 
 #[tokio::main]
 async fn main() -> Result<(), Failure> {
@@ -48,6 +41,7 @@ async fn main() -> Result<(), Failure> {
     let (server, client) = (TestApplication::new("server")?, TestApplication::new("client")?);
     let gated = gated(folder.path(), &server, &client).await?;
     let (bare, _bare_server) = bare(folder.path(), &server, &client).await?;
+    let time = ReadValueId::from(opcua::types::NodeId::from(VariableId::Server_ServerStatus_CurrentTime));
     println!("Admission of OPC UA clients, {} cores", report::cores());
 
     for (policy, mode) in MODES {
@@ -58,15 +52,16 @@ async fn main() -> Result<(), Failure> {
             for (url, reading, opening) in
                 [(gated.endpoint(), &mut with, &mut with_sessions), (bare.clone(), &mut without, &mut without_sessions)]
             {
+                let endpoint = offered_endpoint(&url, policy, mode, &client).await?;
                 let start = Instant::now();
                 for _ in 0..sessions {
-                    Client::connect(&url, policy, mode, &server, &client).await?.close().await;
+                    Client::connect(endpoint.clone(), &client).await?.close().await;
                 }
                 opening.push(start.elapsed() / u32::try_from(sessions)?);
-                let client = Client::connect(&url, policy, mode, &server, &client).await?;
+                let client = Client::connect(endpoint, &client).await?;
                 let start = Instant::now();
                 for _ in 0..reads {
-                    client.read().await?;
+                    client.read(slice::from_ref(&time)).await?;
                 }
                 reading.push(start.elapsed() / u32::try_from(reads)?);
                 client.close().await;
@@ -83,43 +78,6 @@ async fn main() -> Result<(), Failure> {
     }
     gated.stop().await;
     Ok(())
-}
-
-/// An application's key and certificate.
-struct TestApplication {
-    name: &'static str,
-    key: PrivateKey,
-    certificate: Certificate,
-}
-
-impl TestApplication {
-    fn new(name: &'static str) -> Result<Self, Failure> {
-        let subject = Subject {
-            common_name: name.to_owned(),
-            country: String::new(),
-            state: String::new(),
-            locality: String::new(),
-            organisation: String::new(),
-        };
-        let request = SelfSignedRequest { subject, key_length: KeyLength::Rsa2048, validity: Validity::try_from(1)? };
-        let names = ServerNames {
-            application_uri: format!("urn:{name}"),
-            ips: vec![IpAddr::V4(Ipv4Addr::LOCALHOST)],
-            dns: Vec::new(),
-        };
-        let key = PrivateKey::generate(KeyLength::Rsa2048)?;
-        let certificate = self_signed(&request, &names, &key, Utc::now() - TimeDelta::hours(1))?;
-        Ok(Self { name, key, certificate })
-    }
-
-    /// Where the library looks for them.
-    fn write(&self, folder: &Path) -> Result<(), Failure> {
-        fs::create_dir_all(folder)?;
-        fs::write(folder.join("own.der"), self.certificate.der())?;
-        let key = RsaPrivateKey::from_pkcs8_der(&self.key.to_pkcs8_der()?)?;
-        fs::write(folder.join("own.pem"), key.to_pkcs8_pem(LineEnding::LF)?.as_bytes())?;
-        Ok(())
-    }
 }
 
 /// A cell whose time stands.
@@ -195,68 +153,5 @@ struct Running {
 impl Drop for Running {
     fn drop(&mut self) {
         self.handle.cancel();
-    }
-}
-
-struct Client {
-    session: Arc<Session>,
-    events: JoinHandle<StatusCode>,
-    _folder: tempfile::TempDir,
-}
-
-impl Client {
-    async fn connect(
-        url: &str,
-        policy: WirePolicy,
-        mode: MessageSecurityMode,
-        server: &TestApplication,
-        client: &TestApplication,
-    ) -> Result<Self, Failure> {
-        let folder = tempfile::tempdir()?;
-        client.write(folder.path())?;
-        let mut dialling = ClientBuilder::new()
-            .application_name(client.name)
-            .application_uri(format!("urn:{}", client.name))
-            .product_uri(client.name)
-            .pki_dir(folder.path())
-            .certificate_path("own.der")
-            .private_key_path("own.pem")
-            .trust_server_certs(true)
-            .verify_server_certs(false)
-            .session_retry_limit(0)
-            .client()
-            .map_err(|errors| errors.join(", "))?;
-        let endpoint = opcua::types::EndpointDescription {
-            endpoint_url: url.into(),
-            server_certificate: server.certificate.der().into(),
-            security_policy_uri: policy.to_uri().into(),
-            security_mode: mode,
-            user_identity_tokens: Some(vec![opcua::types::UserTokenPolicy {
-                policy_id: "anonymous".into(),
-                token_type: opcua::types::UserTokenType::Anonymous,
-                ..Default::default()
-            }]),
-            ..Default::default()
-        };
-        let (session, events) = dialling.connect_to_endpoint_directly(endpoint, IdentityToken::Anonymous)?;
-        let mut events = events.spawn();
-        tokio::select! {
-            _ = session.wait_for_connection() => Ok(Self { session, events, _folder: folder }),
-            status = &mut events => Err(format!("not connected to {url}: {}", status?).into()),
-        }
-    }
-
-    async fn read(&self) -> Result<(), Failure> {
-        let time = ReadValueId::from(opcua::types::NodeId::from(VariableId::Server_ServerStatus_CurrentTime));
-        let values = self.session.read(&[time], TimestampsToReturn::Both, 0.0).await?;
-        match values.first() {
-            Some(value) if value.value.is_some() => Ok(()),
-            _ => Err("nothing was read".into()),
-        }
-    }
-
-    async fn close(self) {
-        let _ = self.session.disconnect().await;
-        let _ = self.events.await;
     }
 }

@@ -88,11 +88,15 @@ def run(data, read, decode, dtype):
     return [np.concatenate(column) for column in zip(*parts)]
 
 
-kind, read, rounds = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
-data = sys.stdin.buffer.read()
-decode, dtype = {"motion": (motion, block), "force": (force, record)}[kind]
-run(data, read, decode, dtype)
-for _ in range(rounds):
-    start = time.perf_counter()
+def main(kind, read, rounds):
+    data = sys.stdin.buffer.read()
+    decode, dtype = {"motion": (motion, block), "force": (force, record)}[kind]
     run(data, read, decode, dtype)
-    print(time.perf_counter() - start)
+    for _ in range(rounds):
+        start = time.perf_counter()
+        run(data, read, decode, dtype)
+        print(time.perf_counter() - start)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], int(sys.argv[2]), int(sys.argv[3]))

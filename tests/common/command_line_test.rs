@@ -26,7 +26,8 @@ pub fn program() -> Command {
 pub struct CommandLineTest {
     pub folder: tempfile::TempDir,
     pub ready: Vec<Value>,
-    _controllers: Running,
+    #[allow(dead_code, reason = "benches ask for its process")]
+    pub controllers: Running,
 }
 
 impl CommandLineTest {
@@ -51,7 +52,7 @@ impl CommandLineTest {
         )
         .unwrap();
         let ready = (0..count).map(|_| serde_json::from_str(&controllers.next_line(DONE)).unwrap()).collect();
-        Self { folder, ready, _controllers: controllers }
+        Self { folder, ready, controllers }
     }
 
     pub fn workspace(&self) -> PathBuf {

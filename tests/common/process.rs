@@ -53,13 +53,17 @@ impl Running {
 
     /// The next line on standard output. Panics, with what the program wrote to standard error, if none comes.
     pub fn next_line(&mut self, deadline: Duration) -> String {
-        match self.lines.recv_timeout(deadline) {
-            Ok(line) => line,
-            Err(why) => {
-                let program = self.program.clone();
-                panic!("no line from {program}: {why}\n{}", self.end())
-            }
-        }
+        self.try_line(deadline).unwrap_or_else(|why| panic!("no line from {}: {why}", self.program))
+    }
+
+    /// As [`Running::next_line`], but tells why none came.
+    pub fn try_line(&mut self, deadline: Duration) -> Result<String, String> {
+        self.lines.recv_timeout(deadline).map_err(|why| format!("{why}\n{}", self.end()))
+    }
+
+    /// The number of the process.
+    pub fn id(&self) -> u32 {
+        self.child.id()
     }
 
     /// Writes a line to standard input, which must be a pipe.
@@ -72,7 +76,7 @@ impl Running {
     #[cfg(unix)]
     pub fn signal(&self, signal: libc::c_int) {
         // SAFETY: the process was not waited for yet, so the number is still its own.
-        assert_eq!(unsafe { libc::kill(self.child.id().cast_signed(), signal) }, 0);
+        assert_eq!(unsafe { libc::kill(self.id().cast_signed(), signal) }, 0);
     }
 
     /// Waits until the program has ended by itself. Panics if it has not by the deadline.

@@ -15,7 +15,7 @@ process.env.HOME = process.env.XDG_CONFIG_HOME = process.env.XDG_DATA_HOME = fol
 const modules = process.env.OPCUA_INTEROP_NODE_MODULES;
 const require = createRequire(modules ? join(resolve(modules), "..", "anchor.js") : import.meta.url);
 
-function load(name) {
+export function load(name) {
   try {
     return require(name);
   } catch (missing) {
