@@ -3,32 +3,25 @@
 use std::fs;
 use std::time::Duration;
 
-use opcua_configurator::jobs::{BasicSettingsChange, SelfSigned, SelfSignedFields, SetBasicSettings, StartServer};
-use opcua_configurator::model::{KeyLength, SecurityPolicy, UserTokenPolicy, Validity};
 use opcua_configurator::records::force::{AllData, ForceData, ForceFooter, ForceHeader};
 use opcua_configurator::records::motion::MotionBlock;
 use opcua_configurator::records::{ControllerTime, Label};
-use opcua_configurator::virtual_controller::FleetFirmware;
-use opcua_configurator::virtual_controller::cell::{
-    CellCommand, CellHandle, CellRecord, ForceRecording, RecordedPacket,
-};
+use opcua_configurator::virtual_controller::cell::{CellCommand, CellRecord, ForceRecording, RecordedPacket};
 use serde_json::{Value, json};
 use tokio::task::block_in_place;
 
+use super::open_server::OpenServer;
 use super::peers::Python;
 use crate::common::process::Running;
-use crate::common::test_fleet::TestFleet;
 
 const WAIT: Duration = Duration::from_secs(90);
-/// More packets than either program reads.
-const RECORD_LIMIT: usize = 100_000;
 
 #[tokio::test(flavor = "multi_thread")]
 async fn the_force_sensor_program_saves_every_value_of_a_recording() {
     let Some(python) = Python::find() else { return };
-    let server = Server::start().await;
+    let server = OpenServer::start().await;
     let cell = server.cell();
-    let saved = server.run(&python, &["force"], &[], || {
+    let saved = run(&server, &python, &["force"], &[], || {
         let recording = ForceRecording { robot: 1, duration: 2.0, interval: 0.002 };
         cell.command(CellCommand::RecordStart(recording)).expect("RecordStart");
     });
@@ -40,14 +33,14 @@ async fn the_force_sensor_program_saves_every_value_of_a_recording() {
 #[tokio::test(flavor = "multi_thread")]
 async fn the_motion_log_program_saves_every_value_of_the_blocks_it_reads() {
     let Some(python) = Python::find() else { return };
-    let server = Server::start().await;
-    let saved = server.run(&python, &["motion"], &["40"], || {});
+    let server = OpenServer::start().await;
+    let saved = run(&server, &python, &["motion"], &["40"], || {});
     let recorded = rows(&server.cell().record().expect("a record"));
     assert!(recorded.len() > 40, "{} blocks", recorded.len());
     assert_same(&saved, &recorded);
 }
 
-fn assert_same(saved: &[String], recorded: &[Vec<Value>]) {
+pub fn assert_same(saved: &[String], recorded: &[Vec<Value>]) {
     assert_eq!(saved.len(), recorded.len());
     for (at, (line, recorded)) in saved.iter().zip(recorded).enumerate() {
         let saved: Vec<&str> = line.split(',').collect();
@@ -63,67 +56,20 @@ fn assert_same(saved: &[String], recorded: &[Vec<Value>]) {
     }
 }
 
-/// A controller whose server is open to everybody, in this process, so that the record of its cell can be compared.
-struct Server {
-    fleet: TestFleet,
-    folder: tempfile::TempDir,
-}
-
-impl Server {
-    async fn start() -> Self {
-        let server = Self {
-            fleet: TestFleet::start(1, FleetFirmware::Current).await,
-            folder: tempfile::tempdir().expect("a temporary folder"),
-        };
-        let change = BasicSettingsChange {
-            security_policies: Some([SecurityPolicy::None].into()),
-            user_tokens: Some([UserTokenPolicy::Anonymous].into()),
-            ..BasicSettingsChange::default()
-        };
-        let certificate = SelfSigned {
-            fields: SelfSignedFields {
-                common_name: None,
-                country: "JP".into(),
-                state: "Nagano".into(),
-                locality: "Suwa".into(),
-                organisation: "Example".into(),
-                key_length: KeyLength::Rsa2048,
-                validity: Validity::try_from(1).expect("a validity"),
-            },
-            backup: None,
-        };
-        for report in server.fleet.run(SetBasicSettings { change, ..SetBasicSettings::default() }).await {
-            assert!(report.result.is_ok(), "{report:?}");
-        }
-        for report in server.fleet.run(certificate).await {
-            assert!(report.result.is_ok(), "{report:?}");
-        }
-        for report in server.fleet.run(StartServer).await {
-            assert!(report.result.is_ok(), "{report:?}");
-        }
-        server.cell().keep_record(RECORD_LIMIT);
-        server
-    }
-
-    fn cell(&self) -> &CellHandle {
-        self.fleet.controller(0).cell()
-    }
-
-    /// Runs a program to its end, `begin` once it is ready, and gives the records it saved.
-    fn run(&self, python: &Python, program: &[&str], more: &[&str], begin: impl FnOnce()) -> Vec<String> {
-        let output = self.folder.path().join("saved.csv");
-        let mut command = python.script("sample_programs.py");
-        command.args(program).arg(self.fleet.controller(0).endpoint()).arg(&output).args(more);
-        block_in_place(|| {
-            let mut running = Running::start(&mut command).expect("the peer was found");
-            assert_eq!(running.next_line(WAIT).trim_end(), "ready");
-            begin();
-            let finished = running.finish(WAIT);
-            assert_eq!(finished.code, Some(0), "{}\n{}", finished.stdout, finished.stderr);
-        });
-        let saved = fs::read_to_string(output).expect("what the program saved");
-        saved.lines().map(str::to_owned).collect()
-    }
+/// Runs a program to its end, `begin` once it is ready, and gives the records it saved.
+fn run(server: &OpenServer, python: &Python, program: &[&str], more: &[&str], begin: impl FnOnce()) -> Vec<String> {
+    let output = server.folder.path().join("saved.csv");
+    let mut command = python.script("sample_programs.py");
+    command.args(program).arg(server.fleet.controller(0).endpoint()).arg(&output).args(more);
+    block_in_place(|| {
+        let mut running = Running::start(&mut command).expect("the peer was found");
+        assert_eq!(running.next_line(WAIT).trim_end(), "ready");
+        begin();
+        let finished = running.finish(WAIT);
+        assert_eq!(finished.code, Some(0), "{}\n{}", finished.stdout, finished.stderr);
+    });
+    let saved = fs::read_to_string(output).expect("what the program saved");
+    saved.lines().map(str::to_owned).collect()
 }
 
 /// The numbers of each record in the order of the manual's tables, as the programs save them.
@@ -198,6 +144,13 @@ fn data_row(d: &AllData) -> Vec<Value> {
         d.head.mode,
         d.head.count,
         d.head.elapsed,
+        sample_row(d),
+    ]
+}
+
+/// What was measured, without the number of the record.
+pub fn sample_row(d: &AllData) -> Vec<Value> {
+    values![
         d.forces.force.map(real),
         d.forces.torque.map(real),
         real(d.forces.force_magnitude),
@@ -245,7 +198,7 @@ fn footer_row(f: &ForceFooter) -> Vec<Value> {
     ]
 }
 
-fn block_row(block: &MotionBlock) -> Vec<Value> {
+pub fn block_row(block: &MotionBlock) -> Vec<Value> {
     let mut row = Vec::new();
     for sample in block.encoders.iter().flatten() {
         row.extend(values![sample.timestamp.0, sample.position, sample.timer, sample.temperature]);
