@@ -113,6 +113,7 @@ mod fins;
 mod help;
 mod live;
 mod recorder;
+mod remote;
 mod sentences;
 mod trust;
 mod vault;
@@ -127,6 +128,7 @@ pub use fins::*;
 pub use help::{HelpTexts, UsageErrorTexts, help};
 pub use live::*;
 pub use recorder::*;
+pub use remote::*;
 pub use sentences::*;
 pub use trust::*;
 pub use vault::*;
@@ -174,6 +176,7 @@ impl TextKey {
             en::fins::FIXED_TEXTS,
             en::live::FIXED_TEXTS,
             en::recorder::FIXED_TEXTS,
+            en::remote::FIXED_TEXTS,
             en::server::FIXED_TEXTS,
             en::server_certificates::FIXED_TEXTS,
             en::trust::FIXED_TEXTS,

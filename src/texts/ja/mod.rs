@@ -31,6 +31,7 @@ pub mod fins;
 pub mod help;
 pub mod live;
 pub mod recorder;
+pub mod remote;
 pub mod revocation_lists;
 pub mod sentences;
 pub mod server;
