@@ -25,6 +25,7 @@
 //! | `server_log` | read the server log, save it on the PC |
 //! | `settings_transfer` | export settings to the PC, import exports |
 //! | `live_values` | watch the values of one OPC UA server as they change |
+//! | `remote_control` | watch and control one controller with remote commands |
 //! | `verify` | connect to the OPC UA server as a client does |
 //! | `find_server` | find the OPC UA server of a controller, for a session that stays open |
 //! | `fins_bridge` | open a bridge between a PLC and a robot from its map |
@@ -46,6 +47,7 @@ mod operation;
 mod overview;
 mod preflight;
 mod push_authority;
+mod remote_control;
 mod restore_backup;
 mod runner;
 mod self_signed;
@@ -84,6 +86,10 @@ pub use operation::{
 pub use overview::{Overview, ReadOverview};
 pub use preflight::{CertificateChecked, CertificateImported};
 pub use push_authority::PushAuthority;
+pub use remote_control::{
+    IoKind, IoLabels, LoggedExchange, MAX_LABEL_FILE_BYTES, RemoteConnection, RemoteControlEvent, RemoteControlRequest,
+    control_remotely,
+};
 pub use restore_backup::{BackupRestored, CheckBackup, RestoreBackup};
 pub use runner::{ControllerReport, JobContext, JobEvent, JobSummary, run};
 pub use self_signed::{CertificateMade, SelfSigned, SelfSignedFields};

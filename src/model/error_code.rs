@@ -223,6 +223,7 @@ error_codes! {
     BadActivationFile "bad-activation-file" Pc,
     // connection list (2.5.3)
     BadConnectionList "bad-connection-list" Pc,
+    BadIoLabels "bad-io-labels" Pc,
     // settings export (2.6.4, 2.6.5)
     ExportMissing "export-missing" Pc,
     ExportRenamed "export-renamed" Pc,

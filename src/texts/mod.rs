@@ -114,6 +114,7 @@ mod help;
 mod live;
 mod recorder;
 mod remote;
+mod remote_control;
 mod sentences;
 mod trust;
 mod vault;
@@ -129,6 +130,7 @@ pub use help::{HelpTexts, UsageErrorTexts, help};
 pub use live::*;
 pub use recorder::*;
 pub use remote::*;
+pub use remote_control::*;
 pub use sentences::*;
 pub use trust::*;
 pub use vault::*;
@@ -177,6 +179,7 @@ impl TextKey {
             en::live::FIXED_TEXTS,
             en::recorder::FIXED_TEXTS,
             en::remote::FIXED_TEXTS,
+            en::remote_control::FIXED_TEXTS,
             en::server::FIXED_TEXTS,
             en::server_certificates::FIXED_TEXTS,
             en::trust::FIXED_TEXTS,

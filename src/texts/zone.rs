@@ -21,6 +21,16 @@ impl Zone {
         self.format(at, "%Y-%m-%d %H:%M")
     }
 
+    /// `13:05:07.250`.
+    pub fn time_ms(self, at: DateTime<Utc>) -> String {
+        self.format(at, "%H:%M:%S%.3f")
+    }
+
+    /// `2026-11-28 13:05:07.250`.
+    pub fn date_time_ms(self, at: DateTime<Utc>) -> String {
+        self.format(at, "%Y-%m-%d %H:%M:%S%.3f")
+    }
+
     fn format(self, at: DateTime<Utc>, pattern: &str) -> String {
         // At the ends of what can be written, another zone has no such time.
         let zone = if (0..=9999).contains(&at.year()) { self } else { Self::Fixed(Utc.fix()) };

@@ -151,6 +151,8 @@ impl Model {
                 vec![]
             }
             BackendEvent::LiveSeen { job, event } => self.live_seen(job, event),
+            BackendEvent::RemoteSeen { job, event } => self.remote_seen(job, event),
+            BackendEvent::TextSaved(result) => self.text_saved(result),
             BackendEvent::Recognised { job, files } => self.recognised(job, files),
             BackendEvent::ExportSeen { job, result } => {
                 self.export_seen(job, result);

@@ -140,6 +140,12 @@ pub const PLOT_LIST: f32 = 260.0;
 pub const LIVE_MIN_HEIGHT: f32 = 160.0;
 /// What the tree and the plot leave of the dialog's height to what is above them.
 pub const LIVE_ROOM: f32 = 262.0;
+/// Remote control: what the tabs leave of the window's height to what is above them, the width of a lamp with a label
+/// below its number, and the height of what stands around the log.
+pub const REMOTE_ROOM: f32 = 390.0;
+pub const LABELLED_LAMP: f32 = 84.0;
+pub const LABEL_LINE: f32 = 14.0;
+pub const LOG_TOOLS: f32 = 92.0;
 /// Of the small CA's window, with its list of certificates.
 pub const DIALOG_AUTHORITY: f32 = 960.0;
 pub const LABEL_WIDTH: f32 = 150.0;

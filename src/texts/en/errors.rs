@@ -497,6 +497,10 @@ error_texts! {
         "The file is not an activation file",
         "It is not UTF-8 text, or its first line is not OPCUA.Activation.Ver.1.0.",
         "Choose another file, or save it again as CSV in UTF-8 with that first line.";
+    BadIoLabels:
+        "The file holds no labels of I/O",
+        "No line has a kind, a number and a label, or the file is no text in UTF-8 or UTF-16.",
+        "Write lines such as input,0,Door closed with the kinds input, output and memory, and save the file as CSV in UTF-8.";
     BadConnectionList:
         "This is not a connection list, or not a line of one",
         "A connection list is a CSV file in UTF-8 with the columns Name, Type and Address.",

@@ -13,6 +13,7 @@ pub mod help;
 pub mod live;
 pub mod recorder;
 pub mod remote;
+pub mod remote_control;
 pub mod revocation_lists;
 pub mod sentences;
 pub mod server;

@@ -497,6 +497,10 @@ error_texts! {
         "アクティベーションファイルではありません",
         "UTF-8のテキストではないか、1行目がOPCUA.Activation.Ver.1.0ではありません。",
         "別のファイルを選択するか、1行目をこの内容にして、UTF-8のCSVとして保存し直してください。";
+    BadIoLabels:
+        "ファイルにI/Oのラベルがありません",
+        "種類、番号、ラベルのそろった行がないか、UTF-8またはUTF-16のテキストではありません。",
+        "input,0,Door closedのように、種類 (input、output、memory)、番号、ラベルを1行ずつ記入し、UTF-8のCSVで保存してください。";
     BadConnectionList:
         "接続リスト、またはその行の形式が正しくありません",
         "接続リストは、Name、Type、Addressの列を持つUTF-8のCSVファイルです。",

@@ -497,6 +497,10 @@ error_texts! {
         "文件格式无效，不是激活文件",
         "文件不是 UTF-8 文本，或第一行不是 OPCUA.Activation.Ver.1.0。",
         "请选择其他文件，或以该内容为第一行，重新保存为 UTF-8 编码的 CSV。";
+    BadIoLabels:
+        "文件中没有 I/O 标签",
+        "没有任何一行包含类型、编号和标签，或者文件不是 UTF-8 或 UTF-16 文本。",
+        "请按 input,0,Door closed 的格式逐行填写，类型为 input、output 或 memory，并以 UTF-8 编码保存为 CSV。";
     BadConnectionList:
         "文件或其中一行不是有效的连接列表",
         "连接列表是 UTF-8 编码的 CSV 文件，包含 Name、Type、Address 三列。",

@@ -13,7 +13,7 @@ use tokio_util::sync::CancellationToken;
 use super::unfinished::{UnfinishedWork, WorkGuard};
 use super::vault::StoreReporter;
 use super::{Backend, VirtualFleetStarter, trust_files};
-use crate::jobs::{self, JobContext, JobController, LiveRequest};
+use crate::jobs::{self, JobContext, JobController, LiveRequest, RemoteControlRequest};
 use crate::model::{ControllerInfo, Credentials, ErrorCode, Problem};
 use crate::platform::display;
 use crate::platform::stop_signal::StopSignals;
@@ -66,6 +66,8 @@ pub struct TokioBackend {
     running: HashMap<JobId, CancellationToken>,
     /// Takes requests to the running watches of live values.
     live: HashMap<JobId, UnboundedSender<LiveRequest>>,
+    /// Takes requests to the running watches with remote commands.
+    remote: HashMap<JobId, UnboundedSender<RemoteControlRequest>>,
     unfinished: UnfinishedWork,
     runtime: Option<Runtime>,
     saver: Option<Saver>,
@@ -117,6 +119,7 @@ impl TokioBackend {
             events,
             running: HashMap::new(),
             live: HashMap::new(),
+            remote: HashMap::new(),
             unfinished,
             runtime: Some(runtime),
             saver: Some(saver),
@@ -358,6 +361,26 @@ impl Backend for TokioBackend {
             BackendCommand::AskValues { job, request } => {
                 // A watch that has ended has told so.
                 let _ended = self.live.get(&job).map(|watch| watch.send(request));
+            }
+            BackendCommand::ControlRemotely { job, connection } => {
+                let cancel = self.token(job);
+                let (sender, requests) = tokio::sync::mpsc::unbounded_channel();
+                self.remote.retain(|_, watch| !watch.is_closed());
+                self.remote.insert(job, sender);
+                self.spawn(async move {
+                    let on_event = move |event| emit(BackendEvent::RemoteSeen { job, event });
+                    jobs::control_remotely(*connection, requests, cancel, on_event).await;
+                });
+            }
+            BackendCommand::AskRemote { job, request } => {
+                // A watch that has ended has told so.
+                let _ended = self.remote.get(&job).map(|watch| watch.send(request));
+            }
+            BackendCommand::SaveText { path, text } => {
+                self.spawn_unfinished(move || {
+                    let saved = workspace::write_atomic(&path, text.as_bytes()).map_err(Problem::from);
+                    emit(BackendEvent::TextSaved(saved.map(|()| path)));
+                });
             }
             BackendCommand::Recognise { job, paths } => {
                 if let Some(runtime) = &self.runtime {

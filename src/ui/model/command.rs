@@ -6,7 +6,10 @@ use chrono::{DateTime, Utc};
 use secrecy::SecretString;
 
 use super::{DroppedFile, JobId, Task, TaskEvent};
-use crate::jobs::{Enrolled, JobController, JobSummary, LiveEvent, LiveLogin, LiveRequest, TrustFile, WatchEvent};
+use crate::jobs::{
+    Enrolled, JobController, JobSummary, LiveEvent, LiveLogin, LiveRequest, RemoteConnection, RemoteControlEvent,
+    RemoteControlRequest, TrustFile, WatchEvent,
+};
 use crate::model::{Address, ConnectionKind, ControllerInfo, Credentials, FirmwareVersion, Problem};
 use crate::pki::{Csr, Fingerprint, IssueRequest, RevocationReason};
 use crate::ui::picker::FileKind;
@@ -141,6 +144,28 @@ pub enum BackendCommand {
         /// What is asked for.
         request: LiveRequest,
     },
+    /// Watches and controls a controller with remote commands, and reports with [`BackendEvent::RemoteSeen`] until it is
+    /// cancelled.
+    ControlRemotely {
+        /// The job that the events name.
+        job: JobId,
+        /// Where to connect, and how to log in.
+        connection: Box<RemoteConnection>,
+    },
+    /// Asks a running [`BackendCommand::ControlRemotely`] for something. One that has ended does not answer.
+    AskRemote {
+        /// The job that watches.
+        job: JobId,
+        /// What is asked for.
+        request: RemoteControlRequest,
+    },
+    /// Writes a text file, readable by its owner only; ends with [`BackendEvent::TextSaved`].
+    SaveText {
+        /// The file. One of the same name is replaced.
+        path: PathBuf,
+        /// Its content.
+        text: String,
+    },
     /// Finds out what files are, by their content; ends with [`BackendEvent::Recognised`].
     Recognise {
         /// The job that the event names.
@@ -247,6 +272,15 @@ pub enum BackendEvent {
         /// What was seen.
         event: LiveEvent,
     },
+    /// A running watch with remote commands has seen something, or answers [`BackendCommand::AskRemote`].
+    RemoteSeen {
+        /// The job.
+        job: JobId,
+        /// What was seen.
+        event: RemoteControlEvent,
+    },
+    /// The answer to [`BackendCommand::SaveText`]: the file.
+    TextSaved(Result<PathBuf, Problem>),
     /// The answer to [`BackendCommand::Authority`].
     AuthorityDone {
         /// The job.

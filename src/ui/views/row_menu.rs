@@ -54,7 +54,13 @@ fn items(ui: &mut Ui, row: RowId, model: &Model, messages: &mut Vec<Message>) {
         messages.push(Message::OpenDetails(row));
     }
     ui.separator();
-    groups(ui, &[&[C::START, C::STOP, C::GET_INFO, C::VERIFY, C::LIVE_VALUES]], row, model, messages);
+    groups(
+        ui,
+        &[&[C::START, C::STOP, C::GET_INFO, C::VERIFY, C::LIVE_VALUES, C::REMOTE_CONTROL]],
+        row,
+        model,
+        messages,
+    );
     ui.separator();
     ui.menu_button(text(T::MenuCertificate), |ui| {
         ui.menu_button(text(T::MenuCreate), |ui| groups(ui, CREATE_MENU, row, model, messages));
