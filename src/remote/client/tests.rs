@@ -149,7 +149,7 @@ async fn a_refused_login_says_why() {
 
 #[tokio::test]
 async fn every_refusal_has_its_error() {
-    let refusals = [
+    for (number, expected) in [
         (10, ErrorCode::RemoteRequestRefused),
         (11, ErrorCode::RemoteCommandUnknown),
         (12, ErrorCode::RemoteRequestRefused),
@@ -159,22 +159,19 @@ async fn every_refusal_has_its_error() {
         (21, ErrorCode::RemoteExecuteRunning),
         (42, ErrorCode::RemoteRequestRefused),
         (99, ErrorCode::RemoteSystemError),
-    ];
-    let peer = Peer::start(move |listener| {
-        let mut line = accept(listener);
-        line.log_in();
-        for (number, _) in refusals {
+    ] {
+        let peer = Peer::start(move |listener| {
+            let mut line = accept(listener);
+            line.log_in();
             line.answer(b"$GetAlm\r\n", format!("!GetAlm,{number}\r\n").as_bytes());
-        }
-        line.expect_end();
-    });
-    let mut client = peer.text();
-    for (number, expected) in refusals {
+            line.expect_end();
+        });
+        let mut client = peer.text();
         let error = client.request(&Request::GetAlm).await.unwrap_err();
         assert_eq!(code(error), expected, "{number}");
+        drop(client);
+        peer.end();
     }
-    drop(client);
-    peer.end();
 }
 
 #[tokio::test]

@@ -8,7 +8,7 @@ use super::field::{
     PortNumber, RobotNumber, SpelCommand,
 };
 use super::reader::Reader;
-use super::reply::ReplyKind;
+use super::reply_kind::ReplyKind;
 use super::variable::{VariableRead, VariableWrite};
 use crate::model::StatusFlags;
 

@@ -15,6 +15,7 @@
 //! | `value` | values of variables |
 //! | `field` | the parameters of commands |
 //! | `variable` | which variable, which elements of an array |
+//! | `reply_kind` | the form of a command's answer |
 //! | `command` | the table of all commands: [`Command`] and [`Request`] |
 //! | `reply` | [`Reply`] and [`Answer`] |
 //! | [`mod@frame`] | frames: `STX command data ETX BCC` |
@@ -37,6 +38,7 @@ mod reader;
 mod received;
 mod refusal;
 mod reply;
+mod reply_kind;
 mod status;
 #[cfg(test)]
 mod tests;

@@ -5,25 +5,10 @@ use super::decode_error::{DecodeError, EncodeError, Fault};
 use super::field::{Field as _, MAX_RESULT_BYTES, MessageLanguage, quote, quoted};
 use super::reader::Reader;
 use super::refusal::RefusalCode;
+use super::reply_kind::ReplyKind;
 use super::status::RemoteStatus;
 use super::value;
 use crate::model::{SpelType, SpelValue, controller_text};
-
-/// The form of a command's good answer.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum ReplyKind {
-    Nothing,
-    Robot,
-    Bit,
-    Byte,
-    Word,
-    Values,
-    Status,
-    Output,
-    Alarms,
-    Text,
-    List,
-}
 
 /// A good answer. Which variant answers a command is fixed by the command.
 #[derive(Debug, Clone, PartialEq)]
