@@ -22,6 +22,7 @@ mod output;
 mod passwords;
 mod pki;
 mod record;
+mod remote;
 mod remote_answers;
 mod secret_file;
 mod server_control;
@@ -170,6 +171,9 @@ enum Command {
     /// PLCs over FINS: read and write their memory, run a simulated PLC, bridge a PLC and a robot
     #[command(subcommand)]
     Fins(fins::FinsCommand),
+    /// Send remote commands to a controller, over remote Ethernet or a serial line
+    #[command(subcommand)]
+    Remote(remote::RemoteCommand),
     /// Switch the backup of what is made on or off
     #[command(subcommand)]
     Backup(backup::BackupCommand),
@@ -263,6 +267,7 @@ pub fn main() -> ExitCode {
         Some(Command::Verify(args)) => verify::run(&context, &args),
         Some(Command::Record(command)) => record::run(&context, command),
         Some(Command::Fins(command)) => fins::run(&context, command),
+        Some(Command::Remote(command)) => remote::run(&context, command),
         Some(Command::Backup(command)) => backup::run(&context, command),
         Some(Command::Vault(command)) => vault::run(&context, command),
         Some(Command::Licences(args)) => licences::run(&context, &args),

@@ -13,7 +13,9 @@ pub const DONE: Duration = Duration::from_secs(120);
 
 pub fn program() -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_opcua-configurator"));
-    for variable in ["CONNECTION_PASSWORD_FILE", "CONNECTION_PASSWORD_LIST", "VAULT_PASSPHRASE_FILE"] {
+    for variable in
+        ["CONNECTION_PASSWORD_FILE", "CONNECTION_PASSWORD_LIST", "VAULT_PASSPHRASE_FILE", "REMOTE_PASSWORD_FILE"]
+    {
         command.env_remove(format!("OPCUA_CONFIGURATOR_{variable}"));
     }
     command.env_remove("RUST_LOG");

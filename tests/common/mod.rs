@@ -8,6 +8,7 @@ pub mod harness;
 pub mod https;
 pub mod opcua_client;
 pub mod process;
+pub mod remote_peer;
 pub mod samples;
 pub mod soft_renderer;
 pub mod test_fleet;

@@ -12,6 +12,7 @@ mod main_job;
 mod odd_paths;
 mod pki;
 mod record;
+mod remote;
 mod remote_answers;
 mod server_settings;
 mod terminal;
