@@ -47,6 +47,7 @@ pub fn write(corpus: &Path) {
     seeds.messages();
     seeds.controller_state();
     seeds.records();
+    seeds.remote();
     seeds.practice();
     seeds.everything();
 }
@@ -181,6 +182,42 @@ impl Seeds<'_> {
         for (target, file) in PRACTICE {
             let name = file.rsplit('/').next().expect("a name");
             self.seed(target, &format!("practice-{name}"), fs::read(cases.join(file)).expect("a file in the tree"));
+        }
+    }
+
+    /// Of requests the first byte is the size of the pieces they come in, of answers the number of the request.
+    fn remote(&self) {
+        let frames: [&[u8]; 7] = [
+            b"\x04\x02Lsecret\x03\x59",
+            b"\x02S\x03\x50",
+            b"\x02W\x01\x01\x0f\x03\x5b",
+            b"\x02vg_Status,\x03\x03\x56",
+            b"\x02vg_int3Array,\0\x03,\0\x05,\0\0,\x03,\0\x0a\x03\x77",
+            b"\x02Vg_Status,\0\0,\x03\x03\x5a",
+            b"\x02X\"print here\"\x03\x10",
+        ];
+        let lines: [&[u8]; 4] = [
+            b"$Login,secret\r\n$getstatus\r$SetIOWord,1,010F\n",
+            b"$GetVariable,g_int3Array(3,5,0),Integer,10\r\n",
+            b"$SetVariable,g_s$,a,b,String\r\n$Execute,\"print here\"\r\n",
+            b"$GetErrMsg,1234,4\r\n$GetHealthRB,1,2,3\r\n",
+        ];
+        self.seed("remote_request", "frames", [b"\x40", frames.concat().as_slice()].concat());
+        self.seed("remote_request", "frames-in-pieces", [b"\x01", frames.concat().as_slice()].concat());
+        self.seed("remote_request", "lines", [b"\x05", lines.concat().as_slice()].concat());
+        for (name, answer) in [
+            ("status", &b"\x19\x06S\0\0\x01\0\0\0\0\0\0\0\x010000\x03\x50"[..]),
+            ("status-line", b"\x19#GetStatus,00110000010,0517\r\n"),
+            ("refusal", b"\x02\x15G11\x03\x44"),
+            ("refusal-line", b"\x02!Start,20\r\n"),
+            ("alarms", b"\x1c\x06z\x02\x01\x09\x03\x73"),
+            ("result", b"\x1a\x06X\"2.5\"\x03\x72"),
+            ("result-line", b"\x1a#Execute,\" X: -182.632\"\r\n"),
+            ("integer", b"\x33\x06v\xff\xfe\x03\x74"),
+            ("string-line", b"\x34#GetVariable,a,b\r\n"),
+            ("doubles-line", b"\x35#GetVariable,1.5,-1E300,0\r\n"),
+        ] {
+            self.seed("remote_answer", name, answer);
         }
     }
 

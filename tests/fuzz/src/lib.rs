@@ -16,6 +16,12 @@ pub mod protocol;
 pub mod readers;
 #[path = "../../../src/records/mod.rs"]
 pub mod records;
+pub mod remote {
+    #[path = "../../../../src/remote/codec/mod.rs"]
+    pub mod codec;
+
+    pub use codec::*;
+}
 pub mod virtual_controller;
 #[path = "../../../src/workspace/mod.rs"]
 pub mod workspace;

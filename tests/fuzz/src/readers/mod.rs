@@ -11,6 +11,7 @@ mod lists;
 mod messages;
 mod names;
 mod records;
+mod remote;
 mod trust;
 mod workspace;
 
@@ -22,6 +23,7 @@ pub use lists::{activation_file, connection_list};
 pub use messages::{management_message, settings_export};
 pub use names::names;
 pub use records::{force_packet, motion_packet};
+pub use remote::{remote_answer, remote_request};
 pub use trust::{bundle, revocation_list, trust};
 pub use workspace::configuration;
 
@@ -45,6 +47,8 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("names", names),
     ("pkcs12", pkcs12),
     ("private_key", private_key),
+    ("remote_answer", remote_answer),
+    ("remote_request", remote_request),
     ("revocation_list", revocation_list),
     ("settings_export", settings_export),
     ("trust", trust),
