@@ -381,3 +381,47 @@ fn a_controller_on_a_serial_line_is_spoken_to() {
     drop(peer.join().unwrap());
     drop(computer);
 }
+
+/// Repeats a command until it succeeds: a controller talks to one client, and notices the end of the last one when it reads.
+fn done(arguments: &[&str]) -> Value {
+    let begun = Instant::now();
+    loop {
+        let (code, lines) = remote_json(arguments);
+        if code == Some(0) {
+            return lines[0]["result"].clone();
+        }
+        let waits = matches!(lines[0]["error"]["code"].as_str(), Some("remote-occupied" | "remote-not-ready"));
+        assert!(waits && begun.elapsed() < DONE, "{arguments:?}: {lines:?}");
+    }
+}
+
+#[test]
+fn a_virtual_controller_obeys_in_both_forms() {
+    let mut command = program();
+    command.args(["virtual", "--remote-port", "0", "--remote-frames-port", "0"]);
+    let mut controller = Running::start(&mut command).unwrap();
+    let ready: Value = serde_json::from_str(&controller.next_line(DONE)).unwrap();
+    let word = |key: &str| ready[key].as_str().unwrap().to_owned();
+    for to in [format!("tcp://{}", word("remote")), format!("raw-tcp://{}", word("remote_frames"))] {
+        let to = ["--to", to.as_str()];
+        let on = |arguments: &[&str]| done(&[arguments, &to].concat());
+        on(&["stop"]);
+        on(&["motors", "on"]);
+        on(&["mem", "set", "40", "on"]);
+        assert_eq!(on(&["mem", "get", "5", "--as", "byte"]), json!({"value": 1}));
+        on(&["mem", "set", "5", "0", "--as", "byte"]);
+        assert_eq!(on(&["mem", "get", "40"]), json!({"value": false}));
+        assert_eq!(on(&["robot"]), json!({"robot": 1}));
+        assert!(on(&["alarms"])["alarms"].is_array());
+        on(&["start"]);
+        let (code, lines) = remote_json(&[&["start"], &to[..]].concat());
+        assert_eq!(code, Some(1));
+        assert_error(&lines, "remote-not-ready");
+        assert!(lines[0]["error"]["detail"].as_str().is_some_and(|detail| detail.contains("Ready on")), "{lines:?}");
+        on(&["pause"]);
+        assert!(on(&["status"])["flags"].as_array().unwrap().contains(&json!("Paused")));
+        on(&["stop"]);
+    }
+    let (code, lines) = remote_json(&["info", "--to", &format!("tcp://{}", word("remote"))]);
+    assert_eq!((code, &lines[0]["result"]["serial"]), (Some(0), &ready["serial"]), "{lines:?}");
+}
