@@ -1,4 +1,5 @@
 use std::fs::File;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use parquet::column::reader::{ColumnReader, ColumnReaderImpl};
@@ -40,7 +41,7 @@ impl ParquetReader {
     pub fn open(path: &Path, template: &[Column<'_>]) -> Result<Self, RecorderError> {
         let file = File::open(path).map_err(RecorderError::read(path))?;
         let damaged = |source| RecorderError::DamagedTable { path: path.to_owned(), source };
-        let file = SerializedFileReader::new(file).map_err(|error| damaged(error.into()))?;
+        let file = unless_panicking(|| Ok(SerializedFileReader::new(file)?)).map_err(damaged)?;
         let fields = file.metadata().file_metadata().schema_descr().root_schema().get_fields();
         let expected: Vec<_> =
             template.iter().map(field).collect::<Result<Vec<_>, _>>().map_err(|error| damaged(error.into()))?;
@@ -54,7 +55,8 @@ impl ParquetReader {
 
     /// Appends up to `rows` rows of one row group to the columns. How many there were; 0 at the end.
     pub fn read(&mut self, columns: &mut StoredColumns, rows: usize) -> Result<usize, RecorderError> {
-        self.read_batch(columns, rows).map_err(|source| RecorderError::DamagedTable { path: self.path.clone(), source })
+        let read = unless_panicking(|| self.read_batch(columns, rows));
+        read.map_err(|source| RecorderError::DamagedTable { path: self.path.clone(), source })
     }
 
     fn read_batch(&mut self, columns: &mut StoredColumns, rows: usize) -> Result<usize, TableFault> {
@@ -85,6 +87,11 @@ impl ParquetReader {
         self.rows += rows as u64;
         Ok(rows)
     }
+}
+
+/// The library panics on some damaged files. A reader that has failed is not used again.
+fn unless_panicking<T>(read: impl FnOnce() -> Result<T, TableFault>) -> Result<T, TableFault> {
+    catch_unwind(AssertUnwindSafe(read)).unwrap_or(Err(TableFault::Unreadable))
 }
 
 /// Name, type and what the type stands for.

@@ -32,6 +32,9 @@ pub enum TableFault {
         /// Rows of the sidecar.
         described: u64,
     },
+    /// The Parquet library has no explanation for what it found.
+    #[error("the file is no Parquet, or it is damaged")]
+    Unreadable,
     /// The Parquet library cannot read the file.
     #[error(transparent)]
     Parquet(#[from] ParquetError),

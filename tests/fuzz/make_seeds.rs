@@ -18,6 +18,7 @@ use opcua_configurator::protocol::{
     FailureBody, Hello, ImportCaSigned, ImportCertificate, ImportCsr, ImportSettings, Login, MakeCsr, MakeSelfSigned,
     RemoveUsers, SelectCertificate, SessionStarted, SetSettings, SettingsExport, WireSecret,
 };
+use opcua_configurator::recorder::{self, Entry, JournalWriter, RecordSettings, RecordingHeader, StopReason};
 use opcua_configurator::records::force::{AllData, DataHead, ForceDataType, ForceFooter, ForceHeader, Header};
 use opcua_configurator::records::motion::{Encoder, MotionBlock};
 use opcua_configurator::records::{ControllerTime, Label, Ticks};
@@ -47,6 +48,7 @@ pub fn write(corpus: &Path) {
     seeds.messages();
     seeds.controller_state();
     seeds.records();
+    seeds.recordings();
     seeds.remote();
     seeds.practice();
     seeds.everything();
@@ -174,6 +176,43 @@ impl Seeds<'_> {
             block.encode_into(&mut bytes);
         }
         self.seed("motion_packet", "two-blocks", bytes);
+    }
+
+    /// Recordings of three records and of two blocks, in every kind of file.
+    fn recordings(&self) {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let read = |file: &Path| fs::read(file).expect("a file that was just made");
+        let at = DateTime::from_timestamp(1_900_000_000, 0).expect("a time");
+        let force = |data| vec![("force_packet", "header-2"), ("force_packet", data), ("force_packet", "footer")];
+        for (kind, settings, packets) in [
+            ("force", RecordSettings::force(3, 1, 0), force("data-3")),
+            ("force-all", RecordSettings::force(0, 1, 0), force("data-0")),
+            ("motion", RecordSettings::motion(0, 0), vec![("motion_packet", "two-blocks")]),
+        ] {
+            let header = RecordingHeader {
+                controller: "Weld 1".into(),
+                serial: "R7A0000001".into(),
+                url: "opc.tcp://127.0.0.1:4840".into(),
+                settings: settings.expect("settings in range"),
+                started_at: at,
+                format: "csv".into(),
+                keep_packets: true,
+            };
+            let journal = folder.path().join(format!("{kind}.packets"));
+            let mut writer = JournalWriter::create(&journal, &header).expect("a file of our own");
+            for (target, name) in packets {
+                let bytes = read(&self.corpus.join(target).join(format!("seed-{name}")));
+                writer.append(at, &Entry::Packet { bytes, overwritten: kind == "motion" });
+            }
+            writer.append(at, &Entry::ConnectionLost("the connection was closed".into()));
+            writer.append(at, &Entry::End(StopReason::Request));
+            writer.sync().expect("a file of our own");
+            self.seed("recording_packets", kind, read(&journal));
+            let csv = journal.with_extension("csv");
+            recorder::convert(&journal, &csv).expect("a recording");
+            self.seed("recording_csv", kind, read(&csv));
+            self.seed("recording_sidecar", kind, read(&recorder::sidecar_path(&csv)));
+        }
     }
 
     /// Files of other tools, which the tests read too.

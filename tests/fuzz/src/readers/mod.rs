@@ -10,6 +10,7 @@ mod keys;
 mod lists;
 mod messages;
 mod names;
+mod recordings;
 mod records;
 mod remote;
 mod trust;
@@ -22,6 +23,7 @@ pub use keys::{key_and_certificate, pkcs12, private_key};
 pub use lists::{activation_file, connection_list};
 pub use messages::{management_message, settings_export};
 pub use names::names;
+pub use recordings::{recording_csv, recording_packets, recording_sidecar};
 pub use records::{force_packet, motion_packet};
 pub use remote::{remote_answer, remote_request};
 pub use trust::{bundle, revocation_list, trust};
@@ -47,6 +49,9 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("names", names),
     ("pkcs12", pkcs12),
     ("private_key", private_key),
+    ("recording_csv", recording_csv),
+    ("recording_packets", recording_packets),
+    ("recording_sidecar", recording_sidecar),
     ("remote_answer", remote_answer),
     ("remote_request", remote_request),
     ("revocation_list", revocation_list),
