@@ -2,6 +2,7 @@
 
 mod connection;
 mod run;
+mod serve;
 mod show;
 mod values;
 
@@ -106,6 +107,8 @@ pub enum RemoteCommand {
         #[command(flatten)]
         connection: ConnectionArgs,
     },
+    /// Answer remote commands over a simulated cell alone until Ctrl-C; one line of JSON when it is ready
+    Serve(serve::ServeArgs),
 }
 
 #[derive(Debug, Subcommand)]
@@ -228,6 +231,7 @@ pub fn run(cli: &CommandContext, command: RemoteCommand) -> Result<CommandOutcom
             once(cli, &connection, &Request::ResetAlm { alarm })
         }
         RemoteCommand::Raw { text, connection } => once(cli, &connection, &raw(&text)?),
+        RemoteCommand::Serve(args) => serve::run(&args),
     }
 }
 

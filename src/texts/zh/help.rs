@@ -139,6 +139,7 @@ const COMMANDS: &[(&str, &str)] = &[
     ("remote exec", "执行 SPEL+ 命令并显示结果"),
     ("remote abort", "中止正在执行的命令"),
     ("remote alarms", "显示消耗部件的报警，或复位其中一个"),
+    ("remote serve", "在模拟单元上单独运行远程命令的服务器，直到按下 Ctrl-C；就绪后输出一行 JSON"),
     ("remote raw", "发送以文本格式书写的任意命令，例如 '$GetIO,1'；通过串口时以帧发送"),
     ("backup", "打开或关闭所创建内容的备份"),
     ("backup on", "保留在此创建的证书和密钥的副本"),
@@ -231,6 +232,15 @@ const ARGUMENTS: &[(&str, &str, &str)] = &[
     ("", "remote_role", "远程命令的权限"),
     ("", "remote_time_out", "远程命令会话在多少秒内未收到命令即结束；0 表示永不结束"),
     ("", "remote_terminator", "远程命令应答行的结束符"),
+    ("remote serve", "bind", "监听地址；使用非回环地址时整个网络均可访问"),
+    ("remote serve", "robots", "单元的机器人，以逗号分隔：C4-A601S（六轴）、GX4-A251S（SCARA）"),
+    (
+        "remote serve",
+        "variables",
+        "变量声明文件，每行一条，例如 \"Global Preserve Integer g_Status\" 或 \"g_List(10)\"；未指定时使用新虚拟控制器的变量",
+    ),
+    ("remote serve", "clock_rate", "一秒内的模拟秒数，0.001 至 10000"),
+    ("remote serve", "seed", "相同的种子生成相同的单元"),
     ("virtual cell", "data", "virtual --data 所指定的文件夹；窗口的虚拟控制器位于工作区的 virtual 文件夹"),
     (
         "virtual cell",

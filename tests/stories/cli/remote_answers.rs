@@ -87,7 +87,7 @@ fn what_cannot_be_answered_is_said_before_anything_runs() {
         finished.stderr
     };
     let told = failed(&["--remote-port", &port], "cannot-listen");
-    assert!(told.contains(&format!("127.0.0.1:{port}")) && told.contains("--remote-port"), "{told}");
+    assert!(told.contains(&format!("127.0.0.1:{port}")), "{told}");
     let told = failed(&["--remote-password-file", &long.display().to_string()], "file-format");
     assert!(told.contains("16 characters") && !told.contains("seventeen"), "{told}");
     failed(&["--count", "2", "--remote-serial", "/dev/ttyS0"], "bad-settings");
@@ -97,4 +97,27 @@ fn what_cannot_be_answered_is_said_before_anything_runs() {
         let finished = Running::start(program().arg("virtual").args(wrong)).unwrap().finish(DONE);
         assert_eq!(finished.code, Some(2), "{wrong:?}: {}", finished.stderr);
     }
+}
+
+/// The server alone, with variables of a file; it ends when it is asked to.
+#[test]
+fn a_simulated_cell_alone_answers_remote_commands() {
+    let folder = tempfile::tempdir().unwrap();
+    let variables = folder.path().join("Variables.inc");
+    std::fs::write(&variables, "Global Preserve Long g_List(3)\n").unwrap();
+    let mut command = program();
+    command.args(["remote", "serve", "--remote-port", "0", "--robots", "gx4-a251s", "--variables"]).arg(&variables);
+    let mut server = Running::start(&mut command).unwrap();
+    let line = ready(&mut server);
+    assert_eq!((&line["remote_frames"], &line["remote_serial"]), (&Value::Null, &Value::Null));
+    let mut client = connect(&line["remote"]);
+    assert_eq!(ask(&mut client, "$Login,"), "#Login,0\r\n");
+    assert_eq!(ask(&mut client, "$GetRobotInfo"), "#GetRobotInfo,1,3,GX4-A251S\r\n");
+    assert_eq!(ask(&mut client, "$GetVariable,g_List(0),Long,4"), "#GetVariable,0,0,0,0\r\n");
+    drop(server);
+    std::fs::write(&variables, "nothing\n").unwrap();
+    command.arg("--json");
+    let finished = Running::start(&mut command).unwrap().finish(DONE);
+    assert_eq!(finished.code, Some(2), "{}", finished.stderr);
+    assert_error(&[serde_json::from_str(&finished.stdout).unwrap()], "file-format");
 }
