@@ -50,6 +50,7 @@ pub fn write(corpus: &Path) {
     seeds.records();
     seeds.recordings();
     seeds.remote();
+    seeds.fins();
     seeds.practice();
     seeds.everything();
 }
@@ -212,6 +213,47 @@ impl Seeds<'_> {
             recorder::convert(&journal, &csv).expect("a recording");
             self.seed("recording_csv", kind, read(&csv));
             self.seed("recording_sidecar", kind, read(&recorder::sidecar_path(&csv)));
+        }
+    }
+
+    /// The captured conversation of a robot with a PLC, commands and responses of every kind, addresses and a map.
+    fn fins(&self) {
+        for (name, frames) in [
+            (
+                "client",
+                concat!(
+                    "46494E530000000C000000000000000000000064",
+                    "46494E530000001A000000020000000080000200 5A00006400000101 82012C000001",
+                    "46494E530000001C000000020000000080000200 5A00006400000102 82012C0000010141",
+                ),
+            ),
+            (
+                "plc",
+                concat!(
+                    "46494E53000000100000000100000000000000640000005A",
+                    "46494E530000001800000002000000 00C000020064 00005A0000 01010000007B",
+                    "46494E530000000800000006 00000000 46494E53000000080000000300000001",
+                ),
+            ),
+        ] {
+            self.seed("fins_stream", name, bytes(frames));
+        }
+        for (name, message) in [
+            ("write", "80000200 5A00006400000102 82012C0000010141"),
+            ("read-multiple", "80000200 5A00006400000104 82012C0009000100 89800200"),
+            ("status", "C000020064 00005A00000601 0000 0104 0000 0010 0000 00F7 4C4F5720564F4C54 4147452020202020"),
+            ("clock", "C000020064 00005A00000701 0000 26112804510906"),
+        ] {
+            self.seed("fins_message", name, bytes(message));
+        }
+        for (name, text) in [
+            ("range", "D300-304"),
+            ("bits", "CIO0.04-0.11"),
+            ("bank", "E18_5"),
+            ("flag", "T5.F"),
+            ("map", include_str!("../../fixtures/fins-bridge.toml")),
+        ] {
+            self.seed("fins_text", name, text);
         }
     }
 
@@ -590,4 +632,8 @@ impl Authority {
 
 fn version(text: &str) -> FirmwareVersion {
     text.parse().expect("a version")
+}
+
+fn bytes(hexadecimal: &str) -> Vec<u8> {
+    hex::decode(hexadecimal.replace(' ', "")).expect("hexadecimal digits")
 }

@@ -6,6 +6,7 @@
 mod certificates;
 mod controller_state;
 mod describe;
+mod fins;
 mod keys;
 mod lists;
 mod messages;
@@ -19,6 +20,7 @@ mod workspace;
 pub use certificates::{certificate, certificate_request};
 pub use controller_state::controller_state;
 pub use describe::description;
+pub use fins::{fins_message, fins_stream, fins_text};
 pub use keys::{key_and_certificate, pkcs12, private_key};
 pub use lists::{activation_file, connection_list};
 pub use messages::{management_message, settings_export};
@@ -42,6 +44,9 @@ pub const TARGETS: &[(&str, Target)] = &[
     ("connection_list", connection_list),
     ("controller_state", controller_state),
     ("description", description),
+    ("fins_message", fins_message),
+    ("fins_stream", fins_stream),
+    ("fins_text", fins_text),
     ("force_packet", force_packet),
     ("key_and_certificate", key_and_certificate),
     ("management_message", management_message),
