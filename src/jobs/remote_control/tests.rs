@@ -17,9 +17,11 @@ use crate::remote::client::{Direction, RemoteError, RemoteTarget};
 use crate::remote::text::{RequestDecoder, Spelling, Terminator, encode_refusal, encode_reply};
 use crate::remote::{
     Answer, Command, FunctionNumber, MessageLanguage, Password, PortNumber, RefusalCode, RemoteStatus, Reply, Request,
+    SpelCommand,
 };
 
-/// What a controller does with a request; `None`: it closes the connection without an answer.
+/// What a controller does with a request; `None`: it closes the connection without an answer. An Execute of `Wait` is
+/// answered after an Abort.
 type Behaviour = dyn Fn(&Request) -> Option<Answer> + Send + Sync;
 
 /// Answers over TCP, one client after the other, and notes what it was asked.
@@ -62,11 +64,18 @@ async fn converse(mut stream: TcpStream, behaviour: &Behaviour, asked: &Mutex<Ve
         while let Some(line) = decoder.next_line() {
             let request = line.request.unwrap();
             asked.lock().push(request.clone());
+            if matches!(&request, Request::Execute { spel } if spel.as_str() == "Wait") {
+                continue;
+            }
             let Some(answer) = behaviour(&request) else { return };
-            let bytes = match answer {
+            let mut bytes = match answer {
                 Answer::Good(reply) => encode_reply(&line.spelling, &request, &reply, Terminator::CrLf).unwrap(),
                 Answer::Refused(code) => encode_refusal(&Spelling::from(request.command()), code, Terminator::CrLf),
             };
+            if request == Request::Abort {
+                let aborted = Spelling::from(Command::Execute);
+                bytes.extend(encode_refusal(&aborted, RefusalCode::SystemError, Terminator::CrLf));
+            }
             stream.write_all(&bytes).await.unwrap();
         }
     }
@@ -82,7 +91,7 @@ fn healthy(request: &Request) -> Option<Answer> {
         Request::GetErrMsg { .. } => Answer::Good(Reply::Text("Low battery".into())),
         Request::GetContName => Answer::Good(Reply::Text("Cell 7".into())),
         Request::GetIOWord { port } => Answer::Good(Reply::Word(0x0F00 + u16::from(port.get()))),
-        Request::Login { .. } | Request::Start { .. } | Request::Stop => Answer::Good(Reply::Done),
+        Request::Login { .. } | Request::Start { .. } | Request::Stop | Request::Abort => Answer::Good(Reply::Done),
         _ => Answer::Refused(RefusalCode::UnknownCommand),
     })
 }
@@ -279,4 +288,30 @@ async fn a_command_that_was_sent_is_waited_for_when_the_watch_is_cancelled() {
     answer.send(()).unwrap();
     assert_eq!(watch.done().await, Ok(Reply::Done));
     timeout(LIMIT, watch.task).await.unwrap().unwrap();
+}
+
+#[tokio::test]
+async fn an_execute_is_aborted_while_it_runs_and_the_state_is_read_meanwhile() {
+    let controller = Controller::start(healthy).await;
+    let mut watch = Watching::begin(&controller);
+    watch.connected().await;
+    let spel = SpelCommand::new("Wait").unwrap();
+    watch.ask(RemoteControlRequest::Do(Request::Execute { spel }));
+    while controller.count(Command::Execute) == 0 {
+        watch.next(|_| Some(())).await;
+    }
+    let before = controller.count(Command::GetStatus);
+    while controller.count(Command::GetStatus) < before + 2 {
+        watch.next(|event| matches!(event, RemoteControlEvent::Status { .. }).then_some(())).await;
+    }
+    watch.ask(RemoteControlRequest::Do(start()));
+    let refused = Err(RemoteError::Refused { command: Command::Start, code: RefusalCode::ExecuteRunning });
+    assert_eq!(watch.done().await, refused);
+    watch.ask(RemoteControlRequest::Do(Request::Abort));
+    assert_eq!(watch.done().await, Ok(Reply::Done));
+    let aborted = Err(RemoteError::Refused { command: Command::Execute, code: RefusalCode::SystemError });
+    assert_eq!(watch.done().await, aborted);
+    assert_eq!((controller.count(Command::Start), controller.count(Command::Abort)), (0, 1));
+    watch.ask(RemoteControlRequest::Do(start()));
+    assert_eq!(watch.done().await, Ok(Reply::Done), "the connection goes on");
 }

@@ -1,15 +1,16 @@
 use std::convert::Infallible;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use tokio::sync::mpsc::UnboundedReceiver;
-use tokio::time::{Instant, sleep, sleep_until};
+use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
+use tokio::time::{Instant, interval_at, sleep, sleep_until};
 use tokio_util::sync::CancellationToken;
 
 use super::request::{RemoteConnection, RemoteControlEvent, RemoteControlRequest};
 use super::tap::ExchangeTap;
 use crate::model::{Cause, Problem};
-use crate::remote::client::{ControllerIdentity, RemoteClient, RemoteError, RemoteTimeouts};
-use crate::remote::{Command, ErrorNumber, RefusalCode, Reply, Request};
+use crate::remote::client::{ControllerIdentity, Interjections, RemoteClient, RemoteError, RemoteTimeouts};
+use crate::remote::{Answer, Command, ErrorNumber, RefusalCode, Reply, Request, SpelCommand};
 
 /// From the beginning of one cycle to that of the next; longer if the line is slow.
 const POLL_PERIOD: Duration = Duration::from_millis(500);
@@ -100,10 +101,7 @@ impl<'a, F: Fn(RemoteControlEvent) + Send + Sync> Watch<'a, F> {
     }
 
     fn tell_exchanges(&self) {
-        let exchanges = self.tap.take();
-        if !exchanges.is_empty() {
-            self.tell(RemoteControlEvent::Exchanged(exchanges));
-        }
+        tell_exchanges(&self.tap, self.on_event);
     }
 
     /// Connects; after a failure it waits first. Commands that are asked for meanwhile are refused: nobody expects a robot
@@ -245,7 +243,10 @@ impl<'a, F: Fn(RemoteControlEvent) + Send + Sync> Watch<'a, F> {
     async fn act(&mut self, request: Request) -> Result<(), Stopped> {
         self.tell_exchanges();
         self.tap.set_asked(true);
-        let result = self.client.request(&request).await;
+        let result = match &request {
+            Request::Execute { spel } => self.execute(spel.clone()).await,
+            request => self.client.request(request).await,
+        };
         self.tap.set_asked(false);
         self.tell_exchanges();
         self.tell(RemoteControlEvent::Done { request, result: result.clone() });
@@ -256,11 +257,83 @@ impl<'a, F: Fn(RemoteControlEvent) + Send + Sync> Watch<'a, F> {
         }
     }
 
+    /// Executes a command of SPEL+. Until it has ended, the state is read on, and commands are done that the controller
+    /// accepts meanwhile: Abort, and setting I/O.
+    async fn execute(&mut self, spel: SpelCommand) -> Result<Reply, RemoteError> {
+        let (sender, mut interjected) = unbounded_channel();
+        let (on_event, tap, shown) = (self.on_event, self.tap.clone(), &mut self.shown);
+        let (code, text) = self.message.clone();
+        let is_reading = AtomicBool::new(false);
+        let mut answered = |request: Request, answer: Answer| match (request, answer) {
+            (Request::GetStatus, answer) => {
+                is_reading.store(false, Ordering::Relaxed);
+                if let Answer::Good(Reply::Status(status)) = answer {
+                    let message = text.clone().filter(|_| status.code == code);
+                    on_event(RemoteControlEvent::Status { status, message });
+                }
+            }
+            (request, answer) => {
+                let result = interjected_result(request.command(), answer);
+                on_event(RemoteControlEvent::Done { request, result });
+            }
+        };
+        let interjections = Interjections { requests: &mut interjected, answered: &mut answered };
+        let executing = self.client.execute(spel, interjections);
+        tokio::pin!(executing);
+        let mut ticks = interval_at(Instant::now() + POLL_PERIOD, POLL_PERIOD);
+        loop {
+            let interject = tokio::select! {
+                biased;
+                result = &mut executing => return result,
+                Some(request) = self.requests.recv() => match request {
+                    RemoteControlRequest::Show(reads) => {
+                        *shown = reads;
+                        continue;
+                    }
+                    RemoteControlRequest::Do(request) => request,
+                },
+                _ = ticks.tick() => {
+                    tell_exchanges(&tap, on_event);
+                    if is_reading.swap(true, Ordering::Relaxed) {
+                        continue;
+                    }
+                    Request::GetStatus
+                }
+            };
+            let command = interject.command();
+            if command.is_accepted_during_execute() {
+                // Fails only when the answer has come, which the next turn returns.
+                let _ended = sender.send(interject);
+            } else {
+                let result = Err(RemoteError::Refused { command, code: RefusalCode::ExecuteRunning });
+                on_event(RemoteControlEvent::Done { request: interject, result });
+            }
+        }
+    }
+
     async fn pause(&mut self) -> Result<(), Stopped> {
         tokio::select! {
             () = self.cancel.cancelled() => Err(Stopped::Cancelled),
             () = sleep(POLL_PERIOD) => Ok(()),
         }
+    }
+}
+
+fn tell_exchanges(tap: &ExchangeTap, on_event: &impl Fn(RemoteControlEvent)) {
+    let exchanges = tap.take();
+    if !exchanges.is_empty() {
+        on_event(RemoteControlEvent::Exchanged(exchanges));
+    }
+}
+
+/// Why a command was refused during an Execute is not asked: its state is not what the conditions are about.
+fn interjected_result(command: Command, answer: Answer) -> Result<Reply, RemoteError> {
+    match answer {
+        Answer::Good(reply) => Ok(reply),
+        Answer::Refused(RefusalCode::NotReady) => {
+            Err(RemoteError::NotReady { command, unmet: Vec::new(), status: None })
+        }
+        Answer::Refused(code) => Err(RemoteError::Refused { command, code }),
     }
 }
 

@@ -3,12 +3,12 @@ use std::time::Duration;
 
 use super::backoff::Backoff;
 use super::error::RemoteError;
-use super::exchange::{ExchangeError, Form, exchange, send_open, wait_for_silence};
+use super::exchange::{ExchangeError, Form, Interjections, exchange, execute, send_open, wait_for_silence};
 use super::link::{Link, open};
 use super::observer::Observer;
 use super::target::RemoteTarget;
 use crate::model::Cause;
-use crate::remote::codec::{Answer, Command, Effect, Password, RefusalCode, Reply, Request};
+use crate::remote::codec::{Answer, Command, Effect, Password, RefusalCode, Reply, Request, SpelCommand};
 
 /// How long a client waits. No call takes longer than these together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -129,8 +129,29 @@ impl RemoteClient {
     ///
     /// Errors: those of [`RemoteClient::connect`], and every other [`RemoteError`].
     pub async fn request(&mut self, request: &Request) -> Result<Reply, RemoteError> {
-        let command = request.command();
-        match self.answer(request).await? {
+        let answer = self.answer(request).await?;
+        self.reply(request.command(), answer).await
+    }
+
+    /// As [`RemoteClient::request`] for Execute. Until its answer comes, commands can be interjected that the controller
+    /// accepts meanwhile. If nothing could be sent because the controller had closed the connection, it is not tried again.
+    pub async fn execute(&mut self, spel: SpelCommand, interjections: Interjections<'_>) -> Result<Reply, RemoteError> {
+        let (command, request) = (Command::Execute, Request::Execute { spel });
+        let limits = (self.timeouts.motion, self.timeouts.answer);
+        self.connect().await?;
+        let answer = match self.link.take() {
+            Some(mut link) => {
+                let (form, observer) = (self.form(), self.observer.as_ref());
+                let answer = execute(link.as_mut(), form, &request, limits, observer, interjections).await;
+                self.settle(link, command, limits.0, answer)?
+            }
+            None => self.lost(command)?,
+        };
+        self.reply(command, answer).await
+    }
+
+    async fn reply(&mut self, command: Command, answer: Answer) -> Result<Reply, RemoteError> {
+        match answer {
             Answer::Good(reply) => Ok(reply),
             Answer::Refused(RefusalCode::NotReady) => Err(self.not_ready(command).await),
             Answer::Refused(code) => Err(RemoteError::Refused { command, code }),
@@ -155,6 +176,17 @@ impl RemoteClient {
             wait_for_silence(link.as_mut(), limit).await;
             answer = self.exchange(link.as_mut(), request).await;
         }
+        self.settle(link, command, limit, answer)
+    }
+
+    /// Keeps the link for the next request, unless an answer to this one may come yet.
+    fn settle(
+        &mut self,
+        link: Box<dyn Link>,
+        command: Command,
+        limit: Duration,
+        answer: Result<Answer, ExchangeError>,
+    ) -> Result<Answer, RemoteError> {
         match answer {
             Ok(answer) => {
                 self.link = Some(link);

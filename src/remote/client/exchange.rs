@@ -5,6 +5,7 @@ use std::task::Poll;
 use std::time::Duration;
 
 use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _, ReadBuf};
+use tokio::sync::mpsc::UnboundedReceiver;
 use tokio::time::{Instant, timeout, timeout_at};
 use zeroize::Zeroizing;
 
@@ -12,7 +13,7 @@ use super::link::Link;
 use super::observer::{Direction, Observed, Observer};
 use super::target::RemoteTarget;
 use crate::remote::codec::text::Terminator;
-use crate::remote::codec::{Answer, DecodeError, EncodeError, Password, Request, frame, text};
+use crate::remote::codec::{Answer, Command, DecodeError, EncodeError, Password, Request, frame, text};
 
 /// The form of the messages.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,12 +53,28 @@ pub(super) enum ExchangeError {
     Bad(DecodeError),
 }
 
+/// Commands that are sent while an Execute is being answered, one after the other, and what is told of their answers.
+#[expect(missing_debug_implementations, reason = "a function has nothing to show")]
+pub struct Interjections<'a> {
+    /// Commands that the controller accepts during Execute: [`Command::is_accepted_during_execute`].
+    pub requests: &'a mut UnboundedReceiver<Request>,
+    /// Is told of each answer. Must not block.
+    pub answered: &'a mut (dyn FnMut(Request, Answer) + Send),
+}
+
 enum Decoder {
     Frames(frame::AnswerDecoder),
     Text(text::AnswerDecoder),
 }
 
 impl Decoder {
+    fn new(form: Form, request: &Request) -> Self {
+        match form {
+            Form::Frames => Self::Frames(frame::AnswerDecoder::new(request)),
+            Form::Text(_) => Self::Text(text::AnswerDecoder::new(request)),
+        }
+    }
+
     fn add(&mut self, bytes: &[u8]) {
         match self {
             Self::Frames(decoder) => decoder.add(bytes),
@@ -65,10 +82,17 @@ impl Decoder {
         }
     }
 
-    fn next(&mut self, silent: bool) -> Option<Result<Answer, DecodeError>> {
+    fn next(&mut self, silent: bool) -> Option<Result<(Command, Answer), DecodeError>> {
         match self {
-            Self::Frames(decoder) => decoder.next(silent),
-            Self::Text(decoder) => decoder.next_line(),
+            Self::Frames(decoder) => decoder.next_of_two(silent),
+            Self::Text(decoder) => decoder.next_of_two(),
+        }
+    }
+
+    fn interject(&mut self, request: &Request) {
+        match self {
+            Self::Frames(decoder) => decoder.interject(request),
+            Self::Text(decoder) => decoder.interject(request),
         }
     }
 
@@ -94,23 +118,93 @@ pub(super) async fn exchange(
     limit: Duration,
     observer: Option<&Observer>,
 ) -> Result<Answer, ExchangeError> {
-    let bytes = form.encode(request).map_err(ExchangeError::NotSent)?;
     drop_stale_input(link).await?;
-    if let Some(observer) = observer {
-        let shown = shown(form, request, &bytes);
-        observer(&Observed { direction: Direction::Sent, bytes: shown });
-    }
-    write(link, &bytes, limit).await?;
-    let mut decoder = match form {
-        Form::Frames => Decoder::Frames(frame::AnswerDecoder::new(request)),
-        Form::Text(_) => Decoder::Text(text::AnswerDecoder::new(request)),
-    };
+    send(link, form, request, limit, observer).await?;
+    let mut decoder = Decoder::new(form, request);
     let mut came = Vec::new();
     let answer = read_answer(link, &mut decoder, limit, &mut came).await;
     if let (Some(observer), false) = (observer, came.is_empty()) {
         observer(&Observed { direction: Direction::Received, bytes: came });
     }
     answer
+}
+
+/// Sends Execute and reads its answer within `limit`; meanwhile sends what is interjected, and waits `short` for the answer
+/// to what was sent last when that of Execute has come.
+pub(super) async fn execute(
+    link: &mut dyn Link,
+    form: Form,
+    request: &Request,
+    (limit, short): (Duration, Duration),
+    observer: Option<&Observer>,
+    interjections: Interjections<'_>,
+) -> Result<Answer, ExchangeError> {
+    let Interjections { requests, answered } = interjections;
+    drop_stale_input(link).await?;
+    send(link, form, request, limit, observer).await?;
+    let mut decoder = Decoder::new(form, request);
+    let mut deadline = Instant::now() + limit;
+    let mut outstanding: Option<Request> = None;
+    let mut answer = None;
+    let mut buffer = [0; 4096];
+    loop {
+        let silence = match decoder.waits_for_silence() {
+            true => deadline.min(Instant::now() + frame::LINE_SILENCE),
+            false => deadline,
+        };
+        let next = tokio::select! {
+            read = timeout_at(silence, link.read(&mut buffer)) => Err(read),
+            Some(next) = requests.recv(), if outstanding.is_none() && answer.is_none() => Ok(next),
+        };
+        let is_silent = match next {
+            Ok(next) => {
+                send(link, form, &next, short, observer).await?;
+                decoder.interject(&next);
+                outstanding = Some(next);
+                continue;
+            }
+            Err(Ok(Ok(0))) => return Err(ExchangeError::Lost(io::ErrorKind::UnexpectedEof.into())),
+            Err(Ok(Ok(count))) => {
+                let bytes = &buffer[..count];
+                decoder.add(bytes);
+                if let Some(observer) = observer {
+                    observer(&Observed { direction: Direction::Received, bytes: bytes.to_vec() });
+                }
+                false
+            }
+            Err(Ok(Err(error))) => return Err(ExchangeError::Lost(error)),
+            Err(Err(_)) if silence < deadline => true,
+            Err(Err(_)) => return Err(ExchangeError::Silent),
+        };
+        while let Some(come) = decoder.next(is_silent) {
+            let (command, come) = come.map_err(ExchangeError::Bad)?;
+            match outstanding.take_if(|sent| sent.command() == command) {
+                Some(sent) => answered(sent, come),
+                None => {
+                    answer = Some(come);
+                    deadline = deadline.min(Instant::now() + short);
+                }
+            }
+        }
+        if let (Some(answer), None) = (&answer, &outstanding) {
+            return Ok(answer.clone());
+        }
+    }
+}
+
+async fn send(
+    link: &mut dyn Link,
+    form: Form,
+    request: &Request,
+    limit: Duration,
+    observer: Option<&Observer>,
+) -> Result<(), ExchangeError> {
+    let bytes = form.encode(request).map_err(ExchangeError::NotSent)?;
+    if let Some(observer) = observer {
+        let shown = shown(form, request, &bytes);
+        observer(&Observed { direction: Direction::Sent, bytes: shown });
+    }
+    write(link, &bytes, limit).await
 }
 
 async fn read_answer(
@@ -130,13 +224,13 @@ async fn read_answer(
                 came.extend_from_slice(&buffer[..count]);
                 decoder.add(&buffer[..count]);
                 if let Some(answer) = decoder.next(false) {
-                    return answer.map_err(ExchangeError::Bad);
+                    return answer.map(|(_, answer)| answer).map_err(ExchangeError::Bad);
                 }
             }
             Ok(Err(error)) => return Err(ExchangeError::Lost(error)),
             Err(_) if silence < deadline => {
                 if let Some(answer) = decoder.next(true) {
-                    return answer.map_err(ExchangeError::Bad);
+                    return answer.map(|(_, answer)| answer).map_err(ExchangeError::Bad);
                 }
             }
             Err(_) => return Err(ExchangeError::Silent),

@@ -26,6 +26,7 @@ mod tests;
 
 pub use connection::{RemoteClient, RemoteTimeouts};
 pub use error::RemoteError;
+pub use exchange::Interjections;
 pub use identity::{ControllerIdentity, PartHealth, RobotIdentity, WearingPart};
 pub use observer::{Direction, Observed, Observer};
 pub use target::{BAUD_RATES, Parity, RemoteTarget, SerialLine, TargetError};

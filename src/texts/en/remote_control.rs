@@ -117,7 +117,7 @@ english_texts! { remote_control:
     RemoteSpelTip: "Enter sends it, Up and Down bring earlier commands back";
     RemoteSpelRule: "Enter a command of 1 to 256 bytes";
     RemoteExecute: "Execute";
-    RemoteExecuteNote: "The command acts on the selected robot. Its answer comes when it has ended; until then nothing else is sent.";
+    RemoteExecuteNote: "The command acts on the selected robot. Its answer comes when it has ended; Abort ends it earlier.";
     RemoteAgain: "Put it into the field again";
 
     // alarms

@@ -117,7 +117,7 @@ fixed_texts! {
     RemoteSpelTip: "Enterで送信し、上下の矢印キーで以前のコマンドを呼び出します";
     RemoteSpelRule: "1～256バイトのコマンドを入力してください";
     RemoteExecute: "実行";
-    RemoteExecuteNote: "コマンドは選択中のロボットに作用します。応答はコマンドの終了後に届き、それまでほかのコマンドは送信しません。";
+    RemoteExecuteNote: "コマンドは選択中のロボットに作用します。応答はコマンドの終了後に届きます。「中断」で途中で終了できます。";
     RemoteAgain: "入力欄に再度入れます";
 
     // alarms

@@ -117,7 +117,7 @@ fixed_texts! {
     RemoteSpelTip: "按 Enter 发送，按上下方向键调出以前的命令";
     RemoteSpelRule: "请输入 1 至 256 字节的命令";
     RemoteExecute: "执行";
-    RemoteExecuteNote: "命令作用于所选机器人。命令结束后才有应答；在此之前不发送其他命令。";
+    RemoteExecuteNote: "命令作用于所选机器人。命令结束后才有应答；可用中止提前结束。";
     RemoteAgain: "再次填入输入框";
 
     // alarms

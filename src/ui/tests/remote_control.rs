@@ -163,7 +163,7 @@ fn the_conditions_of_the_controller_are_judged_by_its_last_state() {
 }
 
 #[test]
-fn one_command_is_sent_at_a_time() {
+fn one_command_is_sent_at_a_time_but_an_execute_can_be_aborted() {
     let (mut model, job) = live();
     allow(&mut model);
     assert!(act(&mut model, start()).is_some());
@@ -178,6 +178,8 @@ fn one_command_is_sent_at_a_time() {
     assert!(matches!(commands[..], [BackendCommand::AskRemote { .. }]), "Enter sends it: {commands:?}");
     assert!(form(&mut model).execute.text.is_empty());
     assert_eq!(form(&mut model).why_not(Command::Start), Some(WhyNot::Waiting(Command::Execute)));
+    assert_eq!(act(&mut model, Request::Abort), Some(Request::Abort));
+    assert_eq!(act(&mut model, Request::Abort), None, "its answer is outstanding");
 }
 
 #[test]

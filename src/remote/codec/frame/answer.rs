@@ -25,17 +25,24 @@ pub fn encode_refusal(letter: u8, code: RefusalCode) -> Vec<u8> {
 /// Data of a refusal.
 const CODE: usize = 2;
 
-/// Reads the answer to one request from bytes that come in pieces of any size. Holds at most 16 KiB.
+/// Reads the answer to one request from bytes that come in pieces of any size, and to another one that is sent meanwhile.
+/// Holds at most 16 KiB.
 #[derive(Debug)]
 pub struct AnswerDecoder {
     expected: ExpectedReply,
+    interjected: Option<ExpectedReply>,
     received: Received,
 }
 
 impl AnswerDecoder {
     /// Of this request.
     pub fn new(request: &Request) -> Self {
-        Self { expected: ExpectedReply::to(request), received: Received::default() }
+        Self { expected: ExpectedReply::to(request), interjected: None, received: Received::default() }
+    }
+
+    /// Expects the answer to another request as well, instead of the former other one.
+    pub fn interject(&mut self, request: &Request) {
+        self.interjected = Some(ExpectedReply::to(request));
     }
 
     /// Takes bytes in, and then asks [`AnswerDecoder::next`].
@@ -46,6 +53,11 @@ impl AnswerDecoder {
     /// The answer, if all of it has come. `silent`: no byte came for [`LINE_SILENCE`](super::LINE_SILENCE), so that what is
     /// there is not going on.
     pub fn next(&mut self, silent: bool) -> Option<Result<Answer, DecodeError>> {
+        Some(self.next_of_two(silent)?.map(|(_, answer)| answer))
+    }
+
+    /// As [`AnswerDecoder::next`], the answer to either request, and to which command it is.
+    pub fn next_of_two(&mut self, silent: bool) -> Option<Result<(Command, Answer), DecodeError>> {
         if self.received.overflowed() {
             return Some(Err(DecodeError::new(Fault::TooLong, "data", 0)));
         }
@@ -68,18 +80,23 @@ impl AnswerDecoder {
     }
 
     /// Length of the data and the answer; `None` while bytes are missing.
-    fn read(&self, bytes: &[u8]) -> Option<(usize, Result<Answer, DecodeError>)> {
+    fn read(&self, bytes: &[u8]) -> Option<(usize, Result<(Command, Answer), DecodeError>)> {
         let [first, letter, data @ ..] = bytes else { return None };
-        if Some(*letter) != self.expected.command.letter() {
+        let mut expected = std::iter::once(&self.expected).chain(&self.interjected);
+        let Some(expected) = expected.find(|one| one.command.letter() == Some(*letter)) else {
             return Some((data.len(), Err(DecodeError::new(Fault::OtherCommand, "command", 1))));
-        }
-        let length = if *first == NAK { DataLength::Exactly(CODE) } else { self.expected.data_length(data) };
+        };
+        let command = expected.command;
+        let length = if *first == NAK { DataLength::Exactly(CODE) } else { expected.data_length(data) };
         let length = match length {
             DataLength::Exactly(length) => length,
             DataLength::Unknown => return None,
             DataLength::UpToEtx => {
                 let mut right = ends(bytes).filter(|(_, is_right)| *is_right);
-                return right.find_map(|(length, _)| self.good(bytes, length).ok().map(|answer| (length, Ok(answer))));
+                return right.find_map(|(length, _)| {
+                    let answer = good(expected, bytes, length).ok()?;
+                    Some((length, Ok((command, answer))))
+                });
             }
         };
         if bytes.len() < HEAD + length + TAIL {
@@ -87,15 +104,15 @@ impl AnswerDecoder {
         }
         let answer = check(bytes, length).and_then(|()| match *first {
             NAK => refusal([bytes[HEAD], bytes[HEAD + 1]]),
-            _ => self.good(bytes, length),
+            _ => good(expected, bytes, length),
         });
-        Some((length, answer))
+        Some((length, answer.map(|answer| (command, answer))))
     }
+}
 
-    fn good(&self, bytes: &[u8], length: usize) -> Result<Answer, DecodeError> {
-        let mut reader = Reader::new(&bytes[HEAD..HEAD + length], HEAD);
-        self.expected.take_frame_data(&mut reader).map(Answer::Good)
-    }
+fn good(expected: &ExpectedReply, bytes: &[u8], length: usize) -> Result<Answer, DecodeError> {
+    let mut reader = Reader::new(&bytes[HEAD..HEAD + length], HEAD);
+    expected.take_frame_data(&mut reader).map(Answer::Good)
 }
 
 /// The manual does not say how the code is written: two ASCII digits, as all numbers of the answer to GetStatus; two bytes

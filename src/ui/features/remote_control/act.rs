@@ -51,7 +51,7 @@ impl Model {
         let (Some(job), None, Effect::Acts) = (form.watch, form.why_not(command), command.effect()) else {
             return vec![];
         };
-        form.pending = Some(command);
+        form.pending.push(command);
         form.outcome = None;
         vec![BackendCommand::AskRemote { job, request: RemoteControlRequest::Do(request) }]
     }

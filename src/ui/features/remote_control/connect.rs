@@ -75,7 +75,7 @@ impl Model {
     fn remote_watch_ended(&mut self) {
         self.stop_acting();
         let Some(form) = self.dialog::<RemoteForm>() else { return };
-        if let Some(command) = form.pending.take() {
+        for command in std::mem::take(&mut form.pending) {
             let cause = Cause::finding("the connection was ended before the answer came");
             let cause = Box::new(RemoteError::ConnectionLost { command, cause });
             form.take_outcome(command, Err(RemoteError::OutcomeUnknown { command, cause }));
@@ -129,7 +129,7 @@ impl Model {
             }
             RemoteControlEvent::Done { request, result } => {
                 let command = request.command();
-                form.pending.take_if(|pending| *pending == command);
+                form.pending.retain(|pending| *pending != command);
                 if result.is_ok() {
                     form.io.was_set(&request);
                 }

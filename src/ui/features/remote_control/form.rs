@@ -71,8 +71,8 @@ pub struct RemoteForm {
     pub outcome: Option<(Command, Result<Reply, RemoteError>)>,
     /// The switch.
     pub(super) may_act: bool,
-    /// The command whose answer is outstanding.
-    pub(super) pending: Option<Command>,
+    /// The commands whose answers are outstanding: one, or an Execute and one that is accepted meanwhile.
+    pub(super) pending: Vec<Command>,
     /// Used for the last connection.
     pub(super) used: Option<RemoteConnection>,
     /// The running watch.
@@ -106,7 +106,7 @@ impl RemoteForm {
             log: ExchangeLog::default(),
             outcome: None,
             may_act: false,
-            pending: None,
+            pending: Vec::new(),
             used: None,
             watch: None,
             asked: Vec::new(),
@@ -123,9 +123,9 @@ impl RemoteForm {
         self.may_act
     }
 
-    /// The command whose answer is outstanding.
-    pub const fn pending(&self) -> Option<Command> {
-        self.pending
+    /// The commands whose answers are outstanding: one, or an Execute and one that is accepted meanwhile.
+    pub fn pending(&self) -> &[Command] {
+        &self.pending
     }
 
     /// Where to connect with what is typed; why not.
@@ -146,8 +146,9 @@ impl RemoteForm {
         if !self.may_act {
             return Some(WhyNot::MonitoringOnly);
         }
-        if let Some(pending) = self.pending {
-            return Some(WhyNot::Waiting(pending));
+        let blocks = |pending: &&Command| **pending != Command::Execute || !command.is_accepted_during_execute();
+        if let Some(pending) = self.pending.iter().find(blocks) {
+            return Some(WhyNot::Waiting(*pending));
         }
         let unmet: Vec<_> = command.unmet(status.flags).collect();
         (!unmet.is_empty()).then_some(WhyNot::Unmet(unmet))

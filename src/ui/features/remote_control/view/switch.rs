@@ -43,7 +43,7 @@ pub fn show(ui: &mut Ui, form: &RemoteForm, model: &Model, messages: &mut Vec<Me
 
 /// What became of the last command; which one is being answered.
 fn outcome(ui: &mut Ui, form: &RemoteForm, model: &Model) {
-    if let Some(pending) = form.pending() {
+    if let Some(pending) = form.pending().last() {
         return small_note(ui, &texts::remote_waiting(model.language, pending.name()));
     }
     let Some((command, result)) = &form.outcome else { return };
