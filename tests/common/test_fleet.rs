@@ -29,20 +29,31 @@ pub struct TestFleet {
 
 impl TestFleet {
     pub async fn start(count: usize, firmware: FleetFirmware) -> Self {
-        Self::made(count, firmware, true, PASSWORD).await
+        Self::made(count, firmware, true, PASSWORD, RemoteOptions::default()).await
     }
 
     /// Controllers whose connection password is empty.
     pub async fn without_password(count: usize, firmware: FleetFirmware) -> Self {
-        Self::made(count, firmware, true, "").await
+        Self::made(count, firmware, true, "", RemoteOptions::default()).await
     }
 
     /// Legacy controllers whose OPC UA function is not activated yet.
     pub async fn not_activated(count: usize) -> Self {
-        Self::made(count, FleetFirmware::Legacy, false, PASSWORD).await
+        Self::made(count, FleetFirmware::Legacy, false, PASSWORD, RemoteOptions::default()).await
     }
 
-    async fn made(count: usize, firmware: FleetFirmware, activated: bool, password: &str) -> Self {
+    /// Controllers that answer remote commands.
+    pub async fn with_remote(count: usize, firmware: FleetFirmware, remote: RemoteOptions) -> Self {
+        Self::made(count, firmware, true, PASSWORD, remote).await
+    }
+
+    async fn made(
+        count: usize,
+        firmware: FleetFirmware,
+        activated: bool,
+        password: &str,
+        remote: RemoteOptions,
+    ) -> Self {
         let folder = tempfile::tempdir().unwrap();
         let fleet = Fleet::start(FleetConfig {
             count,
@@ -55,7 +66,7 @@ impl TestFleet {
             data: folder.path().to_owned(),
             admission: AdmissionOptions::default(),
             cell: CellOptions::default(),
-            remote: RemoteOptions::default(),
+            remote,
             seed: 7,
         })
         .await

@@ -14,6 +14,7 @@ use opcua_configurator::model::{
 };
 use opcua_configurator::ui::backend::{BackendOptions, TokioBackend, VirtualFleetStarter};
 use opcua_configurator::ui::picker::{FileKind, FilePicker, FixedPicker, Picked};
+use opcua_configurator::virtual_controller::remote::RemoteOptions;
 use opcua_configurator::virtual_controller::{FleetFirmware, demo_keys};
 use opcua_configurator::workspace::{Configuration, ControllerEntry, RetrievedInfo, Workspace};
 
@@ -86,6 +87,12 @@ impl WindowTest {
     /// A plant, and a window that knows it: "cell 1", "cell 2", …
     pub fn with_controllers(count: usize, firmware: FleetFirmware) -> Self {
         Self::start(|| TestFleet::start(count, firmware), listed, None, |_| FixedPicker(Ok(None)))
+    }
+
+    /// Controllers that answer remote commands, and a window that knows them.
+    pub fn with_remote(count: usize, remote: RemoteOptions) -> Self {
+        let fleet = || TestFleet::with_remote(count, FleetFirmware::Current, remote);
+        Self::start(fleet, listed, None, |_| FixedPicker(Ok(None)))
     }
 
     /// Controllers whose servers run, with a user.

@@ -9,6 +9,7 @@ mod drop;
 mod files;
 mod live_values;
 mod main_job;
+mod remote_control;
 mod server_certificates;
 mod settings_transfer;
 mod start;
