@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use opcua::xml::schema::ua_node_set::{UANode, load_nodeset2_file};
+use opcua_xml::schema::ua_node_set::{UANode, load_nodeset2_file};
 use serde::Deserialize;
 
 use super::cell::Cell;

@@ -1,8 +1,9 @@
 //! TLS that trusts one certificate: the one whose fingerprint a person compared.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use parking_lot::Mutex;
+use rustls::client::Resumption;
 use rustls::client::danger::{HandshakeSignatureValid, ServerCertVerified, ServerCertVerifier};
 use rustls::crypto::{CryptoProvider, aws_lc_rs, verify_tls12_signature, verify_tls13_signature};
 use rustls::pki_types::{CertificateDer, ServerName, UnixTime};
@@ -19,13 +20,14 @@ use crate::protocol::TlsTime;
 pub struct PinVerifier {
     pin: Option<Fingerprint>,
     seen: Mutex<Option<Fingerprint>>,
-    provider: Arc<CryptoProvider>,
 }
+
+static PROVIDER: LazyLock<Arc<CryptoProvider>> = LazyLock::new(|| Arc::new(aws_lc_rs::default_provider()));
 
 impl PinVerifier {
     /// Without a pin every certificate passes: only for finding out a fingerprint, before any secret is sent.
     pub fn new(pin: Option<Fingerprint>) -> Arc<Self> {
-        Arc::new(Self { pin, seen: Mutex::new(None), provider: Arc::new(aws_lc_rs::default_provider()) })
+        Arc::new(Self { pin, seen: Mutex::new(None) })
     }
 
     /// The fingerprint of the certificate presented last.
@@ -34,11 +36,14 @@ impl PinVerifier {
     }
 
     pub fn client_config(self: &Arc<Self>) -> Result<ClientConfig, Error> {
-        Ok(ClientConfig::builder_with_details(self.provider.clone(), Arc::new(TlsTime))
+        let mut config = ClientConfig::builder_with_details(PROVIDER.clone(), Arc::new(TlsTime))
             .with_safe_default_protocol_versions()?
             .dangerous()
             .with_custom_certificate_verifier(self.clone())
-            .with_no_client_auth())
+            .with_no_client_auth();
+        // A connection has a configuration of its own, which could never find a session to resume.
+        config.resumption = Resumption::disabled();
+        Ok(config)
     }
 }
 
@@ -67,7 +72,7 @@ impl ServerCertVerifier for PinVerifier {
         certificate: &CertificateDer<'_>,
         signature: &DigitallySignedStruct,
     ) -> Result<HandshakeSignatureValid, Error> {
-        verify_tls12_signature(message, certificate, signature, &self.provider.signature_verification_algorithms)
+        verify_tls12_signature(message, certificate, signature, &PROVIDER.signature_verification_algorithms)
     }
 
     fn verify_tls13_signature(
@@ -76,10 +81,10 @@ impl ServerCertVerifier for PinVerifier {
         certificate: &CertificateDer<'_>,
         signature: &DigitallySignedStruct,
     ) -> Result<HandshakeSignatureValid, Error> {
-        verify_tls13_signature(message, certificate, signature, &self.provider.signature_verification_algorithms)
+        verify_tls13_signature(message, certificate, signature, &PROVIDER.signature_verification_algorithms)
     }
 
     fn supported_verify_schemes(&self) -> Vec<SignatureScheme> {
-        self.provider.signature_verification_algorithms.supported_schemes()
+        PROVIDER.signature_verification_algorithms.supported_schemes()
     }
 }
