@@ -298,7 +298,7 @@ pub fn encode_clock(time: NaiveDateTime) -> [u8; 7] {
         time.second(),
         time.weekday().num_days_from_sunday(),
     ];
-    parts.map(|part| ((part / 10) << 4 | part % 10) as u8)
+    parts.map(|part| (((part / 10) << 4) | (part % 10)) as u8)
 }
 
 /// Reads a clock. Years 98 and 99 are 1998 and 1999, all others are in this century.
