@@ -21,7 +21,7 @@
 //! | [`cli`] | the same jobs from the command line |
 //! | [`virtual_controller`] | the bundled mock controller with its real OPC UA server; uses `model`, `pki`, `records`, `protocol`, `remote` |
 //!
-//! `ui` and `cli` never reach past [`jobs`], [`workspace`] and [`session`]; only `main` and [`cli`] know both the
+//! `ui` and `cli` never reach past [`jobs`], [`recorder`], [`workspace`] and [`session`]; only `main` and [`cli`] know both the
 //! configurator and the virtual controller, because the demo needs both.
 //!
 //! ## How one change is made

@@ -1,7 +1,6 @@
 //! Recording the data of controllers, and what is done with recordings.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Duration;
 
 use clap::{Args, Subcommand, ValueEnum};
@@ -13,15 +12,11 @@ use super::output::{json_path, say};
 use super::table::table;
 use super::user_login::UserLoginArgs;
 use super::{CommandContext, CommandOutcome, runtime};
-use crate::jobs::{FindServer, FoundServer};
-use crate::model::{ErrorCode, Language, Problem, clock};
+use crate::jobs::{self, FindServer, FoundServer, RecordEnd, RecordEvent, RecordRequest};
+use crate::model::{ErrorCode, Language, Problem};
 use crate::platform::stop_signal::StopSignals;
-use crate::recorder::{
-    self, Format, OpcUaConnector, RecordSettings, Recorded, Recording, RecordingEnd, RecordingHeader, SettingsError,
-    Sidecar, StopLimits,
-};
-use crate::session::opcua_client::{ConnectTimeouts, OpcUaClient, UserLogin};
-use crate::texts::{self, TextKey};
+use crate::recorder::{self, Format, RecordSettings, Recorded, SettingsError, Sidecar, StopLimits};
+use crate::texts;
 use crate::workspace::ControllerEntry;
 
 #[derive(Debug, Subcommand)]
@@ -154,7 +149,7 @@ fn record(
     let language = cli.output.language();
     let configuration = cli.configuration()?;
     let chosen = args.select.resolve(&configuration, language)?;
-    let login = UserLogin::of(args.login.credential()?.as_ref());
+    let login = args.login.credential()?;
     let folder = args.output.clone().unwrap_or_else(|| cli.workspace.root().join("recordings"));
     for recovered in recorder::recover(&folder) {
         match recovered {
@@ -173,31 +168,27 @@ fn record(
         bytes: args.max_size.map(|megabytes| megabytes * 1_000_000),
         footers,
     };
-    let recordings = found.into_iter().map(|(entry, server)| {
-        let header = RecordingHeader {
-            controller: entry.name.to_string(),
-            serial: server.serial.to_string(),
-            url: server.server.target.url(),
+    let requests = found.into_iter().map(|(entry, found)| {
+        let request = RecordRequest {
+            name: entry.name.to_string(),
+            found,
+            login: login.clone(),
             settings,
-            started_at: clock::now(),
-            format: format.extension().to_owned(),
+            format,
             keep_packets: args.keep_packets,
+            folder: folder.clone(),
+            limits,
+            values: None,
         };
-        let recording = Recording { header, format, folder: folder.clone(), limits, tap: None };
-        (entry, server, recording)
+        (entry, request)
     });
-    let all_found = recordings.len() == chosen.len();
-    let all_recorded = record_all(cli, recordings.collect(), &login, settings)?;
+    let all_found = requests.len() == chosen.len();
+    let all_recorded = record_all(cli, requests.collect())?;
     Ok(if all_found && all_recorded { CommandOutcome::AllDone } else { CommandOutcome::SomeFailed })
 }
 
 /// Whether all succeeded.
-fn record_all(
-    cli: &CommandContext,
-    recordings: Vec<(ControllerEntry, FoundServer, Recording)>,
-    login: &UserLogin,
-    settings: RecordSettings,
-) -> Result<bool, Problem> {
+fn record_all(cli: &CommandContext, requests: Vec<(ControllerEntry, RecordRequest)>) -> Result<bool, Problem> {
     let output = cli.output;
     let language = output.language();
     let runtime = runtime()?;
@@ -208,32 +199,25 @@ fn record_all(
             tokio::spawn(signals.end_at_second(move || stop.cancel()))
         };
         let mut tasks = tokio::task::JoinSet::new();
-        for (entry, found, recording) in recordings {
-            let (login, stop) = (login.clone(), stop.clone());
+        for (entry, request) in requests {
+            let stop = stop.clone();
             tasks.spawn(async move {
-                let own = found.own;
-                let client = tokio::task::spawn_blocking(move || OpcUaClient::new(&own, ConnectTimeouts::default()));
-                let client = match client.await {
-                    Ok(Ok(client)) => Arc::new(client),
-                    Ok(Err(error)) => return (entry, Err(error)),
-                    Err(error) => return (entry, Err(Problem::with_detail(ErrorCode::Internal, error))),
-                };
-                let connector = OpcUaConnector::new(found.server, client, login, settings);
                 let name = entry.name.to_string();
-                let started = |file: &std::path::Path| {
-                    if !output.is_json() {
-                        say(&texts::recording_started(language, &name, file));
+                let on_event = |event| {
+                    if let RecordEvent::Started(file) = event
+                        && !output.is_json()
+                    {
+                        say(&texts::recording_started(language, &name, &file));
                     }
                 };
-                let end = recording.run(&connector, stop, started).await;
-                (entry, Ok(end))
+                let end = jobs::record(request, stop, on_event).await;
+                (entry, end)
             });
         }
         let mut all_good = true;
         while let Some(ended) = tasks.join_next().await {
             all_good &= match ended {
-                Ok((entry, Ok(end))) => print_end(cli, entry.name.as_str(), end),
-                Ok((entry, Err(problem))) => print_failure(cli, entry.name.as_str(), &problem),
+                Ok((entry, end)) => print_end(cli, entry.name.as_str(), end),
                 Err(error) => {
                     output.explain(None, &Problem::with_detail(ErrorCode::Internal, error));
                     false
@@ -248,9 +232,8 @@ fn record_all(
 }
 
 /// Whether nothing failed.
-fn print_end(cli: &CommandContext, name: &str, end: RecordingEnd) -> bool {
-    let RecordingEnd { recorded, failure } = end;
-    let problem = failure.map(Problem::from);
+fn print_end(cli: &CommandContext, name: &str, end: RecordEnd) -> bool {
+    let RecordEnd { recorded, problem } = end;
     let result = recorded.as_ref().map(as_json);
     if cli.output.is_json() {
         match (&problem, &result) {
@@ -316,22 +299,10 @@ fn ended(file: &std::path::Path, sidecar: &Sidecar, language: Language) -> Strin
 
 /// A recording for a terminal: its facts, then each gap.
 fn summary(sidecar: &Sidecar, language: Language) -> String {
-    let header = &sidecar.header;
     let time = |time: chrono::DateTime<chrono::Utc>| time.format("%Y-%m-%d %H:%M:%S UTC").to_string();
-    let rows = [
-        (TextKey::RecordingController, format!("{} ({})", header.controller, header.serial)),
-        (TextKey::RecordingData, header.settings.source().text_key().text(language).to_owned()),
-        (TextKey::RecordingStarted, time(header.started_at)),
-        (TextKey::RecordingEnded, time(sidecar.ended_at)),
-        (TextKey::RecordingStoppedBy, sidecar.stopped_by.text_key().text(language).to_owned()),
-        (TextKey::RecordingSeconds, format!("{:.3} s", sidecar.seconds)),
-        (TextKey::RecordingRows, sidecar.rows.to_string()),
-        (TextKey::RecordingPackets, sidecar.packets.to_string()),
-        (TextKey::RecordingMissing, sidecar.missing().to_string()),
-        (TextKey::RecordingGaps, sidecar.gaps.len().to_string()),
-    ];
+    let facts = texts::recording_facts(language, sidecar, &time);
     let rows: Vec<Vec<String>> =
-        rows.into_iter().map(|(label, value)| vec![label.text(language).to_owned(), value]).collect();
+        facts.into_iter().map(|(label, value)| vec![label.text(language).to_owned(), value]).collect();
     let mut text = table(&["", ""], &rows).trim_start_matches('\n').to_owned();
     for gap in sidecar.gaps.iter().take(MAX_GAPS_SHOWN) {
         let missing = gap.missing.map_or_else(|| "?".to_owned(), |missing| missing.to_string());

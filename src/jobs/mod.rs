@@ -28,6 +28,7 @@
 //! | `remote_control` | watch and control one controller with remote commands |
 //! | `verify` | connect to the OPC UA server as a client does |
 //! | `find_server` | find the OPC UA server of a controller, for a session that stays open |
+//! | `record` | record force sensor or motion log data of one controller |
 //! | `fins_bridge` | open a bridge between a PLC and a robot from its map |
 //! | `enroll` | meet a new controller: fingerprint, password, first information |
 
@@ -47,6 +48,7 @@ mod operation;
 mod overview;
 mod preflight;
 mod push_authority;
+mod record;
 mod remote_control;
 mod restore_backup;
 mod runner;
@@ -86,6 +88,7 @@ pub use operation::{
 pub use overview::{Overview, ReadOverview};
 pub use preflight::{CertificateChecked, CertificateImported};
 pub use push_authority::PushAuthority;
+pub use record::{RecordEnd, RecordEvent, RecordRequest, record};
 pub use remote_control::{
     IoKind, IoLabels, LoggedExchange, MAX_LABEL_FILE_BYTES, RemoteConnection, RemoteControlEvent, RemoteControlRequest,
     control_remotely,

@@ -187,6 +187,7 @@ error_codes! {
     // recording
     NoDataNodes "no-data-nodes" Pc,
     DataSettingsRefused "data-settings-refused" Pc,
+    NoRecordingDescription "no-recording-description" Pc,
     // remote commands
     SerialPortUnavailable "serial-port-unavailable" Pc,
     RemoteNoAnswer "remote-no-answer" Pc,

@@ -7,6 +7,7 @@ use tokio::time::Instant;
 use tokio_util::sync::CancellationToken;
 
 use super::journal::{self, Entry};
+use super::progress::{ProgressMonitor, RecordingPhase};
 use super::settings::{RecordSettings, Source};
 use super::source::{ErrorStatus, PacketSource, SourceConnector, SourceError};
 use super::stop_reason::StopReason;
@@ -49,6 +50,8 @@ pub struct Acquisition {
     pub stop: CancellationToken,
     /// With the time of this computer at which each came.
     pub entries: Sender<(DateTime<Utc>, Entry)>,
+    /// Told what the acquisition is doing.
+    pub monitor: ProgressMonitor,
 }
 
 /// Between two looks at the status nodes while there is no data. The manual polls every 10 ms (motion log) and every
@@ -99,6 +102,7 @@ impl Acquisition {
                 }
                 Err(AcquisitionError::Source(error)) if error.may_pass() => {
                     tracing::info!(%error, "connecting again");
+                    self.monitor.enter(RecordingPhase::reconnecting(&error));
                     self.send(Entry::ConnectionLost(error.to_string())).await?;
                 }
                 Err(error) => {
@@ -138,7 +142,10 @@ impl Acquisition {
             match self.unless_stopped(self.open(connector)).await {
                 None => return Ok(Err(StopReason::Request)),
                 Some(Ok(source)) => return Ok(Ok(source)),
-                Some(Err(error)) if error.may_pass() => tracing::info!(%error, "still not connected"),
+                Some(Err(error)) if error.may_pass() => {
+                    tracing::info!(%error, "still not connected");
+                    self.monitor.enter(RecordingPhase::reconnecting(&error));
+                }
                 Some(Err(error)) => return Err(error.into()),
             }
         }
@@ -156,6 +163,8 @@ impl Acquisition {
         loop {
             let status = source.status().await?;
             let mut has_data = status.has_data;
+            let is_active = status.is_running || has_data;
+            self.monitor.enter(if is_active { RecordingPhase::Running } else { RecordingPhase::Waiting });
             if status.error == ErrorStatus::Error && !progress.broken_off {
                 self.send(Entry::BrokenOff).await?;
             }
@@ -180,6 +189,9 @@ impl Acquisition {
                     progress.footers += u32::from(is_footer);
                     progress.is_open = self.is_force() && !is_footer;
                     let overwritten = delivery.error == ErrorStatus::Warning;
+                    if overwritten {
+                        self.monitor.update(|progress| progress.warnings += 1);
+                    }
                     self.send(Entry::Packet { bytes, overwritten }).await?;
                 }
                 if let Some(reason) = self.reached(progress) {

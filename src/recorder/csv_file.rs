@@ -11,6 +11,7 @@ use crate::records::columns::{Column, NO_TIME, Values};
 pub struct CsvFile {
     file: File,
     buffer: Vec<u8>,
+    written: u64,
 }
 
 impl CsvFile {
@@ -18,7 +19,7 @@ impl CsvFile {
     pub fn new(file: File, columns: &[Column<'_>]) -> Self {
         let mut buffer = columns.iter().map(title).collect::<Vec<_>>().join(",").into_bytes();
         buffer.extend_from_slice(b"\r\n");
-        Self { file, buffer }
+        Self { file, buffer, written: 0 }
     }
 
     /// Appends rows.
@@ -43,8 +44,14 @@ impl CsvFile {
 
     fn flush(&mut self) -> io::Result<()> {
         self.file.write_all(&self.buffer)?;
+        self.written += self.buffer.len() as u64;
         self.buffer.clear();
         Ok(())
+    }
+
+    /// Bytes of the file so far.
+    pub const fn bytes(&self) -> u64 {
+        self.written
     }
 
     /// Writes what is left, and flushes to the disk.

@@ -1,6 +1,7 @@
 use chrono::{DateTime, Utc};
 
 use super::journal::Entry;
+use super::live::RowBatch;
 use super::settings::{RecordSettings, Source};
 use super::sidecar::{ForceRecording, Gap, GapCause, TimeBase};
 use crate::records::columns::Column;
@@ -216,6 +217,18 @@ impl Decoder {
         match &self.data {
             Data::Force { columns, .. } => columns.rows(),
             Data::Motion { columns, .. } => columns.rows(),
+        }
+    }
+
+    /// The rows of these columns, which are those since the last [`Decoder::clear`].
+    pub fn batch<'a>(&'a self, columns: &'a [Column<'a>]) -> RowBatch<'a> {
+        let rows = self.rows();
+        RowBatch {
+            columns,
+            first_row: self.facts.rows - rows as u64,
+            rows,
+            gaps: &self.facts.gaps,
+            first_ticks: self.facts.time_base.map(|base| base.first_ticks),
         }
     }
 

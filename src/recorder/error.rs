@@ -49,6 +49,9 @@ pub enum RecorderError {
         /// What is wrong with it.
         source: TableFault,
     },
+    /// This file, which describes the CSV or Parquet file beside it, is not there.
+    #[error("{}", .0.display())]
+    NoDescription(PathBuf),
     /// The file has an extension that is not one of a recording.
     #[error("{}: the extension has to be .csv or .parquet", .0.display())]
     UnknownFormat(PathBuf),

@@ -19,7 +19,7 @@ use super::settings::RecordSettings;
 use super::stop_reason::StopReason;
 use crate::model::clock;
 use crate::platform::private;
-use crate::records::MAX_READ_BYTES;
+use crate::records::{JOURNAL, MAX_READ_BYTES};
 
 /// What a recording is about: the first frame of its journal.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -59,7 +59,6 @@ pub enum Entry {
     End(StopReason),
 }
 
-const MAGIC: &[u8] = b"OPCUA-RECORDING 1\n";
 /// Kind, length, time.
 const FRAME_HEAD: usize = 1 + 4 + 8;
 
@@ -89,7 +88,7 @@ impl JournalWriter {
         if let Err(error) = file.try_lock() {
             tracing::debug!(path = %path.display(), %error, "the journal is not locked");
         }
-        let mut journal = Self { path: path.to_owned(), file, pending: MAGIC.to_vec() };
+        let mut journal = Self { path: path.to_owned(), file, pending: JOURNAL.to_vec() };
         let json = serde_json::to_vec(header).map_err(|e| RecorderError::write(path)(io::Error::other(e)))?;
         journal.frame(kind::HEADER, header.started_at, &json);
         journal.sync()?;
@@ -144,9 +143,9 @@ impl JournalReader {
         let file = File::open(path).map_err(RecorderError::read(path))?;
         let mut file = BufReader::with_capacity(1 << 16, file);
         let no_recording = |what| RecorderError::NotARecording { path: path.to_owned(), what };
-        let mut magic = [0; MAGIC.len()];
+        let mut magic = [0; JOURNAL.len()];
         match file.read_exact(&mut magic) {
-            Ok(()) if magic == MAGIC => {}
+            Ok(()) if magic == JOURNAL => {}
             Ok(()) => return Err(no_recording("the first line is not that of a packet file")),
             Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
                 return Err(no_recording("the file ends before its header"));
@@ -284,7 +283,7 @@ mod tests {
     fn other_files_are_no_recordings() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.packets");
-        for bytes in [&b""[..], b"OPCUA-RECORDING 2\n", b"OPCUA-RECORDING 1\n", &[MAGIC, &[b'H'; 60]].concat()] {
+        for bytes in [&b""[..], b"OPCUA-RECORDING 2\n", b"OPCUA-RECORDING 1\n", &[JOURNAL, &[b'H'; 60]].concat()] {
             fs::write(&path, bytes).unwrap();
             let opened = JournalReader::open(&path);
             assert!(matches!(opened, Err(RecorderError::NotARecording { .. })), "{opened:?}");

@@ -19,7 +19,9 @@
 //! | `recording_files` | the files of one recording while they are written; recovering them |
 //! | `stored_recording` | a recording of any kind: summarised, converted, loaded for plots |
 //! | `recording` | [`Recording`]: acquisition and files together |
-//! | `series`, `live` | values for plots while they are recorded |
+//! | `progress` | [`Progress`]: what a running recording is doing |
+//! | `series`, `live` | values for plots, also while they are recorded |
+//! | `quantity` | [`Quantity`]: columns that belong into one plot |
 //!
 //! ## What survives
 //! Every packet goes to the journal (`.packets`), which is flushed to the disk at least each second; CSV and Parquet are
@@ -39,6 +41,8 @@ mod opcua_source;
 mod parquet_file;
 mod parquet_reader;
 mod problem;
+mod progress;
+mod quantity;
 mod recording;
 mod recording_files;
 mod series;
@@ -59,6 +63,8 @@ pub use format::{Format, sidecar_path};
 pub use journal::{Entry, JournalReader, JournalWriter, RecordingHeader};
 pub use live::{LiveColumn, LiveTap, LiveValues};
 pub use opcua_source::{OpcUaConnector, OpcUaSource};
+pub use progress::{Progress, ProgressMonitor, RecordingPhase};
+pub use quantity::Quantity;
 pub use recording::{Recording, RecordingEnd, RecordingError};
 pub use recording_files::{PACKETS, Recorded, recover};
 pub use series::{Bar, Series};
@@ -66,7 +72,7 @@ pub use settings::{RecordSettings, SettingsError, Source};
 pub use sidecar::{ColumnInfo, ForceRecording, Gap, GapCause, Sidecar, TimeBase};
 pub use source::{Delivery, ErrorStatus, PacketSource, SourceConnector, SourceError, SourceStatus};
 pub use stop_reason::StopReason;
-pub use stored_recording::{convert, load, summarise};
+pub use stored_recording::{convert, header_of, load, summarise};
 pub use table_fault::{CellFault, TableFault};
 
 #[cfg(test)]

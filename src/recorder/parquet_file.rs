@@ -58,6 +58,11 @@ impl ParquetFile {
         Ok(())
     }
 
+    /// Bytes of the file so far.
+    pub fn bytes(&self) -> u64 {
+        self.writer.bytes_written() as u64
+    }
+
     /// Writes the index, and flushes to the disk.
     pub fn finish(self) -> Result<()> {
         let file = self.writer.into_inner()?;

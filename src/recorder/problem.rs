@@ -18,14 +18,19 @@ impl From<RecordingError> for Problem {
 
 impl From<SourceError> for Problem {
     fn from(error: SourceError) -> Self {
-        let code = match error {
-            SourceError::Connect(error) => return error.into(),
-            SourceError::Session(_) => ErrorCode::OpcUaConnectionFailed,
-            SourceError::NoNodes(_) => ErrorCode::NoDataNodes,
-            SourceError::SettingRefused { .. } => ErrorCode::DataSettingsRefused,
-            SourceError::OddValue { .. } => ErrorCode::NoDataNodes,
-        };
-        Self::with_detail(code, error)
+        Self::with_detail(error.code(), error)
+    }
+}
+
+impl SourceError {
+    /// What an engineer is told of it.
+    pub const fn code(&self) -> ErrorCode {
+        match self {
+            Self::Connect(error) => error.code(),
+            Self::Session(_) => ErrorCode::OpcUaConnectionFailed,
+            Self::NoNodes(_) | Self::OddValue { .. } => ErrorCode::NoDataNodes,
+            Self::SettingRefused { .. } => ErrorCode::DataSettingsRefused,
+        }
     }
 }
 
@@ -37,6 +42,7 @@ impl From<RecorderError> for Problem {
             RecorderError::Read { source, .. } if source.kind() == io::ErrorKind::NotFound => ErrorCode::FileNotFound,
             RecorderError::Read { .. } => ErrorCode::FileUnreadable,
             RecorderError::NotARecording { .. } | RecorderError::DamagedTable { .. } => ErrorCode::FileFormat,
+            RecorderError::NoDescription(_) => ErrorCode::NoRecordingDescription,
             RecorderError::UnknownFormat(_) => ErrorCode::BadFileName,
             RecorderError::BrokenOff => ErrorCode::Internal,
         };

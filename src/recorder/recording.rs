@@ -13,6 +13,7 @@ use super::error::RecorderError;
 use super::format::Format;
 use super::journal::{self, Entry, RecordingHeader};
 use super::live::LiveTap;
+use super::progress::{ProgressMonitor, RecordingPhase};
 use super::recording_files::{Recorded, RecordingFiles};
 use super::source::{SourceConnector, SourceError};
 use super::stop_reason::StopReason;
@@ -31,6 +32,8 @@ pub struct Recording {
     pub limits: StopLimits,
     /// Shows the values while they are recorded.
     pub tap: Option<LiveTap>,
+    /// Told what the recording is doing.
+    pub monitor: ProgressMonitor,
 }
 
 /// What a recording came to.
@@ -69,8 +72,9 @@ impl Recording {
         on_start: impl FnOnce(&Path) + Send,
     ) -> RecordingEnd {
         let (entries, received) = mpsc::channel(WAITING_ENTRIES);
-        let Self { mut header, format, folder, limits, tap } = self;
-        let acquisition = Acquisition { settings: header.settings, limits, stop, entries: entries.clone() };
+        let Self { mut header, format, folder, limits, tap, monitor } = self;
+        let settings = header.settings;
+        let acquisition = Acquisition { settings, limits, stop, entries: entries.clone(), monitor: monitor.clone() };
         let source = match acquisition.connect(connector).await {
             Ok(Some(source)) => source,
             Ok(None) => return RecordingEnd { recorded: None, failure: None },
@@ -93,11 +97,12 @@ impl Recording {
         let acquired = async move {
             let result = acquisition.run(source, connector).await;
             let reason = *result.as_ref().unwrap_or(&StopReason::Error);
+            acquisition.monitor.enter(RecordingPhase::Finishing);
             // The writer is gone only if it failed, which is reported.
             let _gone = entries.send((journal::now(), Entry::End(reason))).await;
             result
         };
-        let (acquired, written) = tokio::join!(acquired, write(files, received));
+        let (acquired, written) = tokio::join!(acquired, write(files, received, monitor));
         let failure = match acquired {
             Err(AcquisitionError::Source(error)) => Some(RecordingError::Source(error)),
             Ok(_) | Err(AcquisitionError::NotTaken) => None,
@@ -113,6 +118,7 @@ impl Recording {
 async fn write(
     mut files: RecordingFiles,
     mut entries: Receiver<(DateTime<Utc>, Entry)>,
+    monitor: ProgressMonitor,
 ) -> Result<Recorded, RecorderError> {
     let runtime = Handle::current();
     let task = tokio::task::spawn_blocking(move || {
@@ -129,6 +135,7 @@ async fn write(
                 files.sync()?;
                 next_sync = Instant::now() + SYNC_PERIOD;
             }
+            monitor.update(|progress| files.report(progress));
         }
     });
     task.await.unwrap_or(Err(RecorderError::BrokenOff))

@@ -6,6 +6,7 @@ use super::error::RecorderError;
 use super::format::{Format, sidecar_path, unfinished_path};
 use super::journal::{Entry, JournalReader, JournalWriter, RecordingHeader};
 use super::live::LiveTap;
+use super::progress::Progress;
 use super::sidecar::Sidecar;
 use super::stop_reason::StopReason;
 use super::stored_recording::convert;
@@ -73,6 +74,18 @@ impl RecordingFiles {
     /// Shows the values to plots from now on.
     pub fn set_tap(&mut self, tap: LiveTap) {
         self.table.set_tap(tap);
+    }
+
+    /// Puts in what was taken in and written so far.
+    pub fn report(&self, progress: &mut Progress) {
+        let facts = self.table.facts();
+        progress.rows = facts.rows;
+        progress.packets = facts.packets;
+        progress.bytes = facts.bytes;
+        progress.file_bytes = self.table.bytes();
+        progress.undecodable = facts.undecodable;
+        progress.gaps = facts.gaps.len() as u64;
+        progress.missing = facts.gaps.iter().filter_map(|gap| gap.missing).sum();
     }
 
     /// Completes the files. The journal is removed unless the packets are kept.

@@ -14,6 +14,8 @@ pub struct Series {
     levels: Vec<Vec<Extremes>>,
     /// Indices of points that do not follow the point before.
     breaks: Vec<usize>,
+    /// Points that are kept at most; `None`: all.
+    limit: Option<usize>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,6 +41,12 @@ pub struct Bar {
 const FACTOR: usize = 16;
 
 impl Series {
+    /// A series that keeps at most `limit` points, 64 at least. Beyond the limit, the older half is thinned out: of each 16
+    /// points, the lowest and the highest stay. The whole time stays visible with every peak, the older the coarser.
+    pub fn limited(limit: usize) -> Self {
+        Self { limit: Some(limit.max(4 * FACTOR)), ..Self::default() }
+    }
+
     /// Appends a point. `x` smaller than that of the last point is taken as that one; a `y` that is not a number is left
     /// out.
     pub fn push(&mut self, x: f64, y: f64) {
@@ -59,6 +67,39 @@ impl Series {
             self.levels[level].push(complete);
             lower = self.levels[level].len();
         }
+        if self.limit.is_some_and(|limit| self.y.len() > limit) {
+            self.thin();
+        }
+    }
+
+    /// Thins the older half out.
+    fn thin(&mut self) {
+        let all = std::mem::take(self);
+        self.limit = all.limit;
+        let old = all.y.len() / 2 / FACTOR * FACTOR;
+        let thinned = (0..old).step_by(FACTOR).flat_map(|start| all.extreme_points(start..start + FACTOR));
+        let mut breaks = all.breaks.iter().peekable();
+        for index in thinned.chain(old..all.y.len()) {
+            // Gaps among the points that are left out stay gaps.
+            while breaks.next_if(|at| **at <= index).is_some() {
+                self.push_gap();
+            }
+            self.push(all.x[index], all.y[index]);
+        }
+        if breaks.next().is_some() {
+            self.push_gap();
+        }
+    }
+
+    /// The lowest and the highest of some points, in their order.
+    fn extreme_points(&self, range: Range<usize>) -> impl Iterator<Item = usize> + use<> {
+        let first = range.start;
+        let (lowest, highest) = range.fold((first, first), |(lowest, highest), index| {
+            let lowest = if self.y[index] < self.y[lowest] { index } else { lowest };
+            (lowest, if self.y[index] > self.y[highest] { index } else { highest })
+        });
+        let (one, other) = (lowest.min(highest), lowest.max(highest));
+        [one, other].into_iter().take(if one == other { 1 } else { 2 })
     }
 
     /// Of entries of a level; level 0 are the points.
@@ -88,6 +129,21 @@ impl Series {
     /// Whether there are none.
     pub const fn is_empty(&self) -> bool {
         self.y.is_empty()
+    }
+
+    /// The last point.
+    pub fn last(&self) -> Option<(f64, f64)> {
+        Some((*self.x.last()?, *self.y.last()?))
+    }
+
+    /// Whether the next point will not follow the last one.
+    pub fn ends_with_gap(&self) -> bool {
+        self.breaks.last() == Some(&self.y.len())
+    }
+
+    /// How many gaps are between points.
+    pub fn gaps(&self) -> usize {
+        self.breaks.iter().filter(|at| (1..self.y.len()).contains(*at)).count()
     }
 
     /// `x` of the first and the last point.
@@ -120,6 +176,24 @@ impl Series {
             from = to;
         }
         bars
+    }
+
+    /// The lines of a plot of a range of `x` on `pixels` columns: of each stretch without a gap its points, at most two a
+    /// column, those of [`Series::query`].
+    pub fn lines(&self, range: Range<f64>, pixels: usize) -> Vec<Vec<[f64; 2]>> {
+        let mut lines: Vec<Vec<[f64; 2]>> = Vec::new();
+        for Bar { x, min, max, after_gap } in self.query(range, pixels) {
+            let before = lines.last().and_then(|line| line.last()).map(|point| point[1]).filter(|_| !after_gap);
+            // The nearer end first.
+            let is_below = before.is_none_or(|before| (before - min).abs() <= (before - max).abs());
+            let (first, second) = if is_below { (min, max) } else { (max, min) };
+            let points = [[x, first], [x, second]].into_iter().take(if min == max { 1 } else { 2 });
+            match lines.last_mut().filter(|_| !after_gap) {
+                Some(line) => line.extend(points),
+                None => lines.push(points.collect()),
+            }
+        }
+        lines
     }
 
     /// The first point of `range` whose `x` is not below `until`, looked for around the one `guess` behind its start: points
@@ -225,6 +299,47 @@ mod tests {
             prop_assert_eq!((min, max), expected);
             prop_assert!(bars.is_sorted_by(|one, next| one.x < next.x));
         }
+    }
+
+    #[test]
+    fn a_limited_series_keeps_its_whole_time_its_peaks_and_its_gaps() {
+        let mut series = Series::limited(1_000);
+        for step in 0..100_000 {
+            if step == 40_003 {
+                series.push_gap();
+            }
+            let y = if step == 31_234 { 99.0 } else { f64::from(step % 7) };
+            series.push(f64::from(step), y);
+            assert!(series.len() <= 1_000);
+        }
+        assert_eq!(series.span(), Some(0.0..99_999.0));
+        assert_eq!((series.gaps(), series.last()), (1, Some((99_999.0, f64::from(99_999 % 7)))));
+        let lines = series.lines(0.0..100_000.0, 300);
+        assert_eq!(lines.len(), 2, "one gap");
+        // As exact as a pixel is wide.
+        let (end, start) = (lines[0].last().unwrap()[0], lines[1][0][0]);
+        assert!(end < 40_003.0 && (39_600.0..40_400.0).contains(&start), "{end} {start}");
+        assert!(lines.iter().flatten().any(|point| point[1] == 99.0), "the peak of long ago");
+        // Many gaps do not stop the thinning.
+        let mut torn = Series::limited(64);
+        for step in 0..10_000 {
+            torn.push_gap();
+            torn.push(f64::from(step), f64::from(step));
+        }
+        assert!(torn.len() <= 64 && !torn.ends_with_gap());
+        torn.push_gap();
+        assert!(torn.ends_with_gap());
+    }
+
+    #[test]
+    fn lines_join_bars_by_their_nearer_ends() {
+        let mut series = series([0.0, 10.0, 10.0, 0.0]);
+        assert_eq!(series.lines(0.0..10.0, 2), [vec![[0.0, 0.0], [0.0, 10.0], [2.0, 10.0], [2.0, 0.0]]]);
+        series.push_gap();
+        series.push(4.0, 5.0);
+        let lines = series.lines(0.0..10.0, 10);
+        assert_eq!(lines, [vec![[0.0, 0.0], [1.0, 10.0], [2.0, 10.0], [3.0, 0.0]], vec![[4.0, 5.0]]]);
+        assert_eq!(Series::default().lines(0.0..1.0, 10), Vec::<Vec<[f64; 2]>>::new());
     }
 
     #[test]

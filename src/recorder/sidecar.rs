@@ -6,6 +6,7 @@ use chrono::{DateTime, Utc};
 use serde::{Deserialize, Serialize};
 
 use super::error::RecorderError;
+use super::format::sidecar_path;
 use super::journal::RecordingHeader;
 use super::stop_reason::StopReason;
 use crate::records::Ticks;
@@ -156,6 +157,21 @@ impl Sidecar {
             Err(error) => return Err(failed(std::io::Error::other(error))),
         };
         write_atomic(path, &json).map_err(|error| failed(std::io::Error::other(error)))
+    }
+
+    /// Reads the sidecar of a CSV or Parquet file.
+    ///
+    /// # Errors
+    /// If the file itself is not there; [`RecorderError::NoDescription`] if the sidecar is not.
+    pub fn beside(file: &Path) -> Result<Self, RecorderError> {
+        // A name that is mistyped is reported, not that of the sidecar.
+        std::fs::metadata(file).map_err(RecorderError::read(file))?;
+        match Self::read(&sidecar_path(file)) {
+            Err(RecorderError::Read { path, source }) if source.kind() == std::io::ErrorKind::NotFound => {
+                Err(RecorderError::NoDescription(path))
+            }
+            other => other,
+        }
     }
 
     /// Reads a sidecar.

@@ -8,9 +8,9 @@ use tokio_util::sync::CancellationToken;
 
 use super::decoder::Decoder;
 use super::error::RecorderError;
-use super::format::{Format, sidecar_path};
-use super::journal::{Entry, JournalReader};
-use super::live::{LiveTap, LiveValues};
+use super::format::Format;
+use super::journal::{Entry, JournalReader, RecordingHeader};
+use super::live::{LiveTap, LiveValues, RowBatch};
 use super::sidecar::Sidecar;
 use super::stop_reason::StopReason;
 use super::table_file::{TableFile, sidecar};
@@ -24,9 +24,7 @@ pub fn summarise(path: &Path) -> Result<Sidecar, RecorderError> {
         return Sidecar::read(path);
     }
     if Format::of(path).is_some() {
-        // A name that is mistyped is reported, not that of the sidecar.
-        std::fs::metadata(path).map_err(RecorderError::read(path))?;
-        return Sidecar::read(&sidecar_path(path));
+        return Sidecar::beside(path);
     }
     decode(JournalReader::open(path)?, |_| ControlFlow::Continue(()))
 }
@@ -63,30 +61,41 @@ fn convert_table(mut reader: TableReader, to: &Path, format: Format) -> Result<S
     Ok(reader.sidecar().clone())
 }
 
-/// Reads the columns with these names for plots. `values` are filled while the recording is read, and stay if that fails
-/// in the middle; a sidecar stands for its file. Blocks until everything is read or `stop` is cancelled, which is no error:
+/// What a recording of any kind is about. A sidecar stands for its file. Blocks for a moment.
+pub fn header_of(path: &Path) -> Result<RecordingHeader, RecorderError> {
+    if is_sidecar(path) {
+        Ok(Sidecar::read(path)?.header)
+    } else if Format::of(path).is_some() {
+        Ok(Sidecar::beside(path)?.header)
+    } else {
+        Ok(JournalReader::open(path)?.header().clone())
+    }
+}
+
+/// Reads the columns that `values` want, for plots. They are filled while the recording is read, and stay if that fails in
+/// the middle; a sidecar stands for its file. Blocks until everything is read or `stop` is cancelled, which is no error:
 /// of packets, the sidecar then describes what was read.
-pub fn load(
-    path: &Path,
-    names: &[String],
-    values: &LiveValues,
-    stop: &CancellationToken,
-) -> Result<Sidecar, RecorderError> {
+pub fn load(path: &Path, values: &LiveValues, stop: &CancellationToken) -> Result<Sidecar, RecorderError> {
     let described = is_sidecar(path).then(|| path.with_extension(""));
     let path = described.as_deref().unwrap_or(path);
-    let mut tap = LiveTap::new(values.clone(), names.to_vec());
+    let mut tap = LiveTap::new(values.clone());
     let Some(format) = Format::of(path) else {
         return decode(JournalReader::open(path)?, |decoder| {
-            tap.take_decoded(decoder);
-            tap.cleared();
+            tap.take(&decoder.batch(&decoder.columns()));
             if stop.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
     };
-    let mut reader = TableReader::open(path, format, Some(names))?;
+    let mut reader = TableReader::open(path, format, Some(&values.names()))?;
     loop {
         let has_more = reader.next_part()?;
-        tap.take(&reader.columns(), reader.rows(), reader.rows_before(), &reader.sidecar().gaps);
-        tap.cleared();
+        let sidecar = reader.sidecar();
+        tap.take(&RowBatch {
+            columns: &reader.columns(),
+            first_row: reader.rows_before(),
+            rows: reader.rows(),
+            gaps: &sidecar.gaps,
+            first_ticks: sidecar.time_base.map(|base| base.first_ticks),
+        });
         if !has_more || stop.is_cancelled() {
             break;
         }

@@ -47,7 +47,7 @@ impl TableFile {
     pub fn push(&mut self, at: DateTime<Utc>, entry: &Entry) -> Result<(), RecorderError> {
         self.decoder.push(at, entry);
         if let Some(tap) = &mut self.tap {
-            tap.take_decoded(&self.decoder);
+            tap.take(&self.decoder.batch(&self.decoder.columns()));
         }
         if self.decoder.rows() >= ROWS_TOGETHER { self.write() } else { Ok(()) }
     }
@@ -63,10 +63,17 @@ impl TableFile {
     fn write(&mut self) -> Result<(), RecorderError> {
         self.writer.append(&self.decoder.columns(), self.decoder.rows())?;
         self.decoder.clear();
-        if let Some(tap) = &mut self.tap {
-            tap.cleared();
-        }
         Ok(())
+    }
+
+    /// What is known of the recording so far.
+    pub const fn facts(&self) -> &Facts {
+        self.decoder.facts()
+    }
+
+    /// Bytes of the file so far, without rows that wait to be written.
+    pub fn bytes(&self) -> u64 {
+        self.writer.bytes()
     }
 
     /// Writes what is left, gives the file its name, and writes the sidecar.

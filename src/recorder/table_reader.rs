@@ -3,7 +3,7 @@ use std::path::{Path, PathBuf};
 use super::csv_reader::CsvReader;
 use super::decoder::Decoder;
 use super::error::RecorderError;
-use super::format::{Format, sidecar_path};
+use super::format::Format;
 use super::parquet_reader::ParquetReader;
 use super::sidecar::Sidecar;
 use super::stored_columns::StoredColumns;
@@ -39,9 +39,7 @@ impl TableReader {
     /// # Errors
     /// If the file or the sidecar cannot be read, or the file has other columns than such a recording.
     pub fn open(path: &Path, format: Format, wanted: Option<&[String]>) -> Result<Self, RecorderError> {
-        // A name that is mistyped is reported, not that of the sidecar.
-        std::fs::metadata(path).map_err(RecorderError::read(path))?;
-        let sidecar = Sidecar::read(&sidecar_path(path))?;
+        let sidecar = Sidecar::beside(path)?;
         let decoder = Decoder::new(&sidecar.header.settings);
         let template = decoder.columns();
         let file = match format {

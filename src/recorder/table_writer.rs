@@ -92,6 +92,14 @@ impl TableWriter {
         }
     }
 
+    /// Bytes of the file so far.
+    pub fn bytes(&self) -> u64 {
+        match &self.file {
+            OpenFile::Csv(file) => file.bytes(),
+            OpenFile::Parquet(file) => file.bytes(),
+        }
+    }
+
     /// Completes the file, gives it its name, and writes the sidecar.
     pub fn finish(self, sidecar: &Sidecar) -> Result<(), RecorderError> {
         let Self { file, path, unfinished, .. } = self;

@@ -148,7 +148,14 @@ fn recording(folder: &Path, settings: RecordSettings, format: Format) -> Recordi
         format: format.extension().into(),
         keep_packets: false,
     };
-    Recording { header, format, folder: folder.to_owned(), limits: StopLimits::default(), tap: None }
+    Recording {
+        header,
+        format,
+        folder: folder.to_owned(),
+        limits: StopLimits::default(),
+        tap: None,
+        monitor: ProgressMonitor::default(),
+    }
 }
 
 async fn run(recording: Recording, controller: &Controller) -> RecordingEnd {
@@ -282,16 +289,15 @@ async fn a_recording_ends_when_it_is_asked_to_and_when_its_time_is_over() {
 async fn plots_see_the_values_while_they_are_recorded() {
     let folder = tempfile::tempdir().unwrap();
     let controller = Controller::new([Act::Packet(blocks(0..2)), Act::Late(blocks(4..5))]);
-    let values = LiveValues::default();
-    let names = vec!["ENC_1.ENC_POS".to_owned(), "TCP.X".to_owned()];
+    let values = LiveValues::new(vec!["ENC_1.ENC_POS".to_owned(), "TCP.X".to_owned()]);
     let limits = StopLimits { bytes: Some(3 * 2608), ..StopLimits::default() };
-    let tap = Some(LiveTap::new(values.clone(), names));
+    let tap = Some(LiveTap::new(values.clone()));
     run(Recording { limits, tap, ..recording(folder.path(), motion(), Format::Csv) }, &controller).await;
     values.read(|columns| {
         assert_eq!(columns.iter().map(|column| column.series.len()).collect::<Vec<_>>(), [24, 3]);
         let bars = columns[1].series.query(0.0..1.0, 100);
         let shown: Vec<_> = bars.iter().map(|bar| (bar.x, bar.max, bar.after_gap)).collect();
-        assert_eq!(shown, [(0.001, 0.5, false), (0.009, 1.5, false), (0.033, 4.5, true)]);
+        assert_eq!(shown, [(0.0, 0.5, false), (0.008, 1.5, false), (0.032, 4.5, true)]);
     });
 }
 

@@ -15,11 +15,13 @@ mod error;
 pub mod force;
 mod layout;
 pub mod motion;
+mod signature;
 mod text;
 mod time;
 
 pub use error::{Mistake, PacketKind, RecordError};
 pub use layout::{Field, Wire};
+pub use signature::{JOURNAL, begins_recording};
 pub use text::Label;
 pub use time::{ControllerTime, Ticks};
 

@@ -13,6 +13,7 @@ pub const fn recognised(kind: Recognised) -> T {
         Recognised::Activation => T::KindActivation,
         Recognised::ConnectionList => T::KindConnectionList,
         Recognised::SettingsExport => T::KindSettingsExport,
+        Recognised::Recording => T::KindRecording,
         Recognised::Pki(PkiKind::Certificate) => T::KindCertificate,
         Recognised::Pki(PkiKind::Chain) => T::KindChain,
         Recognised::Pki(PkiKind::Bundle) => T::KindBundle,

@@ -21,14 +21,20 @@ impl Model {
                 return vec![BackendCommand::ShowWindow];
             }
             (CloseChoice::Ask, Some(_)) => {}
-            (CloseChoice::Finish, _) => self.closing = Some(Closing::Finishing),
+            (CloseChoice::Finish, _) => {
+                self.closing = Some(Closing::Finishing);
+                // A recording may have no end of its own.
+                return self.end_all_recordings();
+            }
             (CloseChoice::Stay, _) => self.closing = None,
             (CloseChoice::Stop, _) => {
                 self.closing = Some(Closing::Stopping);
+                let mut commands = self.end_all_recordings();
                 if let Some(job) = self.job.as_mut().filter(|job| job.summary.is_none()) {
                     job.cancel = CancelState::Sent;
-                    return vec![BackendCommand::Cancel(job.id)];
+                    commands.push(BackendCommand::Cancel(job.id));
                 }
+                return commands;
             }
         }
         vec![]
@@ -58,22 +64,27 @@ impl Model {
 pub fn show(ui: &Ui, enter: bool, model: &Model, messages: &mut Vec<Message>) {
     let Some(closing) = model.closing else { return };
     let text = |key: T| key.text(model.language);
+    let is_job = model.job.as_ref().is_some_and(|job| job.summary.is_none());
+    let only_records = model.active_recordings() > 0 && !is_job;
     let mut choice = (enter && closing == Closing::Asking).then_some(CloseChoice::Finish);
     let buttons = Buttons { submit: None, close: None };
     let answer = dialog(ui, "closing", text(T::CloseTitle), theme::DIALOG, buttons, |ui| {
         progress(ui, model);
         ui.add_space(theme::SPACE);
         match closing {
+            Closing::Asking if only_records => drop(ui.label(text(T::CloseRecordings))),
+            Closing::Finishing | Closing::Stopping if only_records => drop(ui.label(text(T::CloseCompleting))),
             Closing::Asking => note(ui, palette(ui).warning, |ui| drop(ui.label(text(T::CloseWarning)))),
             Closing::Finishing => drop(ui.label(text(T::CloseFinishing))),
             Closing::Stopping => drop(ui.label(text(T::CloseStopping))),
         }
         ui.add_space(theme::SPACE_LARGE);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if closing == Closing::Asking && ui.add(primary(ui, text(T::CloseFinish))).clicked() {
+            let finish = if only_records { T::CloseStopRecordings } else { T::CloseFinish };
+            if closing == Closing::Asking && ui.add(primary(ui, text(finish))).clicked() {
                 choice = Some(CloseChoice::Finish);
             }
-            if closing != Closing::Stopping && ui.button(text(T::CloseStop)).clicked() {
+            if closing != Closing::Stopping && !only_records && ui.button(text(T::CloseStop)).clicked() {
                 choice = Some(CloseChoice::Stop);
             }
             if ui.button(text(T::CloseStay)).clicked() {
@@ -99,6 +110,12 @@ fn progress(ui: &mut Ui, model: &Model) {
             let done = job.finished as f32 / all.max(1) as f32;
             ui.add(ProgressBar::new(done).fill(palette.accent).desired_height(6.0).corner_radius(3));
         }
-        None => drop(ui.label(RichText::new(T::CloseOtherWork.text(model.language)).color(palette.text))),
+        None => {
+            let said = match model.active_recordings() {
+                0 => T::CloseOtherWork.text(model.language).to_owned(),
+                active => texts::recordings_running(model.language, active),
+            };
+            ui.label(RichText::new(said).color(palette.text));
+        }
     }
 }

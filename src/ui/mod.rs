@@ -57,6 +57,10 @@ pub use features::backup::BackupDialog;
 pub use features::client_certificates::{DetailsView, TrustAction};
 pub use features::delete_controllers::DeleteControllersDialog;
 pub use features::live_values::{LiveConnection, LiveForm, LiveSection};
+pub use features::recorder::{
+    ControllerRecording, PlotRange, RecordedData, RecorderForm, RecorderSetup, RecordingPlot, RecordingState,
+    RecordingView,
+};
 pub use features::remote_control::{RemoteForm, RemoteLink, RemoteSection, WhyNot};
 pub use features::server_log::SaveLogForm;
 pub use features::vault::VaultRequest;

@@ -27,6 +27,10 @@ pub enum FileKind {
     Csr,
     /// Plain text.
     Text,
+    /// Recordings of the force sensor or the motion log.
+    Recording,
+    /// Folders.
+    Folder,
 }
 
 impl FileKind {
@@ -41,6 +45,8 @@ impl FileKind {
             Self::Pkcs12 => &["pfx", "p12"],
             Self::Csr => &["csr", "req", "der", "pem"],
             Self::Text => &["txt", "log"],
+            Self::Recording => &["csv", "parquet", "packets"],
+            Self::Folder => &[],
         }
     }
 }
@@ -64,6 +70,11 @@ pub trait FilePicker: Send + Sync {
     /// Lets a person choose where a file is saved, beginning with this path. The dialog asks before a file is replaced.
     fn pick_target(&self, kind: FileKind, title: String, _begin: PathBuf, done: Picked) {
         self.pick(kind, title, done);
+    }
+
+    /// Lets a person choose a folder, beginning with this one.
+    fn pick_folder(&self, title: String, _begin: PathBuf, done: Picked) {
+        self.pick(FileKind::Folder, title, done);
     }
 
     /// Shows a folder in the desktop's file manager. Blocks for a moment.
@@ -121,6 +132,15 @@ impl FilePicker for SystemPicker {
         ask(kind, title, done, save, |chosen| chosen);
     }
 
+    fn pick_folder(&self, title: String, begin: PathBuf, done: Picked) {
+        let choose = move |dialog: rfd::FileDialog| {
+            // The folder may not be there yet.
+            let there = begin.ancestors().find(|folder| folder.is_dir());
+            there.map_or(dialog.clone(), |folder| dialog.set_directory(folder)).pick_folder()
+        };
+        ask(FileKind::Folder, title, done, choose, |chosen| chosen);
+    }
+
     fn open_folder(&self, folder: &Path) -> Result<(), Problem> {
         file_manager::open(folder)
     }
@@ -138,7 +158,10 @@ fn ask<C: 'static, T: Send + 'static>(
     let ask = move || {
         let started = Instant::now();
         let dialog = rfd::FileDialog::new().set_title(title);
-        let dialog = dialog.add_filter(kind.extensions().join(", "), kind.extensions()).add_filter("*", &["*"]);
+        let dialog = match kind.extensions() {
+            [] => dialog,
+            extensions => dialog.add_filter(extensions.join(", "), extensions).add_filter("*", &["*"]),
+        };
         tell.tell(match open(dialog) {
             None if started.elapsed() < TOO_SOON => Err(ErrorCode::NoFilePicker.into()),
             answer => Ok(chosen(answer)),

@@ -153,6 +153,7 @@ impl Model {
             BackendEvent::LiveSeen { job, event } => self.live_seen(job, event),
             BackendEvent::RemoteSeen { job, event } => self.remote_seen(job, event),
             BackendEvent::TextSaved(result) => self.text_saved(result),
+            BackendEvent::Recorder { job, event } => self.recorder_seen(job, event),
             BackendEvent::Recognised { job, files } => self.recognised(job, files),
             BackendEvent::ExportSeen { job, result } => {
                 self.export_seen(job, result);

@@ -2,6 +2,7 @@
 
 mod client_certificates;
 mod live_values;
+mod recorder;
 mod remote_control;
 mod server_log;
 mod transfer;

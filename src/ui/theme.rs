@@ -138,6 +138,14 @@ pub const NODE_TREE: f32 = 360.0;
 pub const NODE_INDENT: f32 = 16.0;
 pub const PLOT_LIST: f32 = 260.0;
 pub const LIVE_MIN_HEIGHT: f32 = 160.0;
+/// Plots of a recording, one above the other: the least height of each, and the width of the numbers beside it, so that all
+/// begin at the same place.
+pub const PLOT_MIN_HEIGHT: f32 = 110.0;
+pub const PLOT_AXIS: f32 = 52.0;
+/// What a recording is doing, in the table of recordings.
+pub const RECORDING_STATE: f32 = 250.0;
+/// The square in the colour of a line, beside its name.
+pub const PLOT_MARK: f32 = 9.0;
 /// What the tree and the plot leave of the dialog's height to what is above them.
 pub const LIVE_ROOM: f32 = 262.0;
 /// Remote control: what the tabs leave of the window's height to what is above them, the width of a lamp with a label

@@ -94,14 +94,19 @@ pub struct WorkspaceLock {
 
 /// Reads a file of at most `max` bytes; of a larger one, just enough to see that it is larger.
 fn read_bounded(path: &Path, max: u64) -> io::Result<Vec<u8>> {
+    read_head(path, max + 1)
+}
+
+/// The beginning of a file: `count` bytes, or all if it has fewer.
+fn read_head(path: &Path, count: u64) -> io::Result<Vec<u8>> {
     let found = fs::metadata(path)?;
     // A pipe would be waited for, without end.
     if !found.is_file() {
         return Err(io::Error::other("not a file"));
     }
     // Room for all of it at once: a key must not leave copies where the bytes grow.
-    let mut bytes = Vec::with_capacity(usize::try_from(found.len().min(max) + 1).unwrap_or_default());
-    File::open(path)?.take(max + 1).read_to_end(&mut bytes)?;
+    let mut bytes = Vec::with_capacity(usize::try_from(found.len().saturating_add(1).min(count)).unwrap_or_default());
+    File::open(path)?.take(count).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

@@ -5,11 +5,12 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use thiserror::Error;
 
-use super::{ConnectionList, FileError, MAX_CONNECTION_LIST_BYTES, read_import_file};
+use super::{ConnectionList, FileError, MAX_CONNECTION_LIST_BYTES, read_head, read_import_file};
 use crate::model::activation::{self, MAX_ACTIVATION_FILE_BYTES};
 use crate::model::text;
 use crate::pki::{self, PkiKind};
 use crate::protocol::{EXPORT_FORMAT, MAX_EXPORT_BYTES};
+use crate::records;
 
 /// No file this program reads is larger; revocation lists of large authorities come closest.
 pub const MAX_RECOGNISED_BYTES: usize = 8 * 1024 * 1024;
@@ -23,6 +24,8 @@ pub enum Recognised {
     ConnectionList,
     /// Settings of one controller (manual 2.6.4).
     SettingsExport,
+    /// Data of the force sensor or the motion log (manual 4.1, 4.3): packets, CSV or Parquet.
+    Recording,
     /// Certificates, CRLs, a signing request or a key.
     Pki(PkiKind),
 }
@@ -57,8 +60,13 @@ pub enum RecogniseError {
     Unknown(PathBuf),
 }
 
-/// Reads a file of at most [`MAX_RECOGNISED_BYTES`] and says what it is. Blocks.
+/// Reads a file of at most [`MAX_RECOGNISED_BYTES`] and says what it is. A recording, which is known by its beginning, may
+/// have any size. Blocks.
 pub fn recognise_file(path: &Path) -> Result<Recognised, RecogniseError> {
+    let head = read_head(path, RECORDING_HEAD_BYTES).map_err(|source| FileError::reading(path, source))?;
+    if records::begins_recording(&head) {
+        return Ok(Recognised::Recording);
+    }
     let bytes = read_import_file(path, MAX_RECOGNISED_BYTES)?;
     recognise(&bytes).ok_or_else(|| RecogniseError::Unknown(path.to_owned()))
 }
@@ -69,6 +77,8 @@ fn is_export(text: &str) -> bool {
         && serde_json::from_str::<Value>(text).is_ok_and(|json| json.get("format") == Some(&EXPORT_FORMAT.into()))
 }
 
+/// By these it shows whether a file is a recording.
+const RECORDING_HEAD_BYTES: u64 = 64;
 /// The first line of a list, and what stands before it, is not longer.
 const MAX_HEAD_BYTES: usize = 1024;
 
@@ -109,6 +119,10 @@ mod tests {
         assert_eq!(code(), Err(ErrorCode::FileNotRecognised));
         std::fs::write(&path, vec![b'x'; MAX_RECOGNISED_BYTES + 1]).unwrap();
         assert_eq!(code(), Err(ErrorCode::FileTooLarge));
+        let recording =
+            [&b"OPCUACommonID,Count,ElapsedTime [ms],Fx [N]\r\n"[..], &[b'1'; MAX_RECOGNISED_BYTES]].concat();
+        std::fs::write(&path, recording).unwrap();
+        assert_eq!(code(), Ok(Recognised::Recording), "of any size");
         std::fs::write(&path, "Name,Type,Address\n").unwrap();
         assert_eq!(code(), Ok(Recognised::ConnectionList));
         assert_eq!(

@@ -14,6 +14,7 @@ mod harness;
 mod live_values;
 mod main_window;
 mod pictures;
+mod recorder;
 mod remote_control;
 #[path = "../common/samples.rs"]
 mod samples;

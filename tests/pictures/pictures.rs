@@ -108,6 +108,7 @@ pub fn job(window: &W) -> JobId {
         | BackendCommand::Recognise { job, .. }
         | BackendCommand::LookAtExport { job, .. }
         | BackendCommand::WatchValues { job, .. }
+        | BackendCommand::Recorder { job, .. }
         | BackendCommand::Authority { job, .. } => Some(*job),
         _ => None,
     };

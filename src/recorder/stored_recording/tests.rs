@@ -4,6 +4,8 @@ use std::path::PathBuf;
 use proptest::prelude::*;
 
 use super::*;
+use crate::model::{ErrorCode, Problem};
+use crate::recorder::format::sidecar_path;
 use crate::recorder::journal::{JournalWriter, RecordingHeader};
 use crate::recorder::live::LiveColumn;
 use crate::recorder::settings::{RecordSettings, Source};
@@ -102,8 +104,8 @@ fn packets(settings: RecordSettings, seed: u64, reads: u64) -> Vec<Entry> {
 }
 
 fn loaded(path: &Path, names: &[String]) -> Vec<LiveColumn> {
-    let values = LiveValues::default();
-    load(path, names, &values, &CancellationToken::new()).unwrap();
+    let values = LiveValues::new(names.to_vec());
+    load(path, &values, &CancellationToken::new()).unwrap();
     values.read(<[LiveColumn]>::to_vec)
 }
 
@@ -177,8 +179,8 @@ fn a_recording_of_several_parts_is_read_part_by_part() {
     let stop = CancellationToken::new();
     stop.cancel();
     for file in [&packets, &csv] {
-        let values = LiveValues::default();
-        load(file, &names, &values, &stop).unwrap();
+        let values = LiveValues::new(names.to_vec());
+        load(file, &values, &stop).unwrap();
         assert!(values.read(|columns| columns.iter().all(|column| column.series.len() < 100_000)));
     }
 }
@@ -202,8 +204,8 @@ fn gaps_and_a_restart_are_at_the_same_place_in_every_kind() {
         let bars = column.series.query(0.0..1.0, 1000);
         let gaps: Vec<f64> = bars.iter().filter(|bar| bar.after_gap).map(|bar| bar.x).collect();
         assert_eq!(gaps.len(), 2, "{gaps:?}");
-        // Block 5 begins with ms 41, and the time goes on where block 9 ended, with ms 80.
-        assert!((0.0405..0.049).contains(&gaps[0]) && (0.0795..0.089).contains(&gaps[1]), "{gaps:?}");
+        // Block 5 begins 40 ms after block 0, and the time goes on where block 9 ended, after 79 ms.
+        assert!((0.0395..0.048).contains(&gaps[0]) && (0.0785..0.088).contains(&gaps[1]), "{gaps:?}");
         assert!(bars.last().is_some_and(|last| last.x < 0.1), "{:?}", bars.last());
     }
     assert_eq!(loaded(&csv, &names), loaded(&from, &names));
@@ -318,5 +320,7 @@ fn a_file_without_its_description_is_named() {
     };
     assert_eq!(missing(&file), file);
     fs::write(&file, "").unwrap();
-    assert_eq!(missing(&file), sidecar_path(&file));
+    let other = convert(&file, &folder.path().join("b.csv"));
+    assert!(matches!(&other, Err(RecorderError::NoDescription(path)) if *path == sidecar_path(&file)), "{other:?}");
+    assert_eq!(Problem::from(other.unwrap_err()).code, ErrorCode::NoRecordingDescription);
 }

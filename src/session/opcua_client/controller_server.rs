@@ -101,14 +101,20 @@ impl ControllerServer {
 
 impl From<ServerConnectError> for Problem {
     fn from(error: ServerConnectError) -> Self {
-        let code = match &error {
-            ServerConnectError::NotRunning(_) => ErrorCode::ServerNotRunning,
-            ServerConnectError::NoCertificate => ErrorCode::NoCertificate,
-            ServerConnectError::NoEndpoint(_) => ErrorCode::NoSuitableEndpoint,
-            ServerConnectError::NotTrusted(_) => ErrorCode::ConfiguratorNotTrusted,
-            ServerConnectError::LoginRefused(_) => ErrorCode::OpcUaLoginRefused,
-            ServerConnectError::Failed(_) => ErrorCode::OpcUaConnectionFailed,
-        };
-        Self::with_detail(code, error)
+        Self::with_detail(error.code(), error)
+    }
+}
+
+impl ServerConnectError {
+    /// What an engineer is told of it.
+    pub const fn code(&self) -> ErrorCode {
+        match self {
+            Self::NotRunning(_) => ErrorCode::ServerNotRunning,
+            Self::NoCertificate => ErrorCode::NoCertificate,
+            Self::NoEndpoint(_) => ErrorCode::NoSuitableEndpoint,
+            Self::NotTrusted(_) => ErrorCode::ConfiguratorNotTrusted,
+            Self::LoginRefused(_) => ErrorCode::OpcUaLoginRefused,
+            Self::Failed(_) => ErrorCode::OpcUaConnectionFailed,
+        }
     }
 }

@@ -373,6 +373,10 @@ error_texts! {
         "The controller does not accept the settings of the recording",
         "The server refused to set DataType, DataNum, SamplingInterval or Port.",
         "Log in as a user who may write, or choose other settings. Another client may be recording already.";
+    NoRecordingDescription:
+        "The description of the recording is missing",
+        "A CSV or Parquet file of the recorder is read with the .json file beside it, which says what was recorded and what is missing.",
+        "Copy the .json file into the same folder, without a change of its name. If the packets were kept, open the .packets file.";
     SerialPortUnavailable:
         "The serial port cannot be opened",
         "It does not exist, another program uses it, or this user may not open it.",
@@ -615,7 +619,7 @@ error_texts! {
         "Check whether it is the right file.";
     FileNotRecognised:
         "The file is of no known kind",
-        "It is neither a certificate, key, CSR or CRL, nor an activation file, connection list or settings export.",
+        "It is neither a certificate, key, CSR or CRL, nor an activation file, connection list, settings export or recording.",
         "Check whether it is the right file and whether it is whole.";
     Cancelled:
         "Not started",

@@ -373,6 +373,10 @@ error_texts! {
         "控制器不接受记录的设置",
         "服务器拒绝设置 DataType、DataNum、SamplingInterval 或 Port。",
         "请以具有写入权限的用户登录，或选择其他设置。可能另有客户端正在记录。";
+    NoRecordingDescription:
+        "缺少记录的说明文件",
+        "读取记录的 CSV 或 Parquet 文件时，需要同一文件夹中的 .json 文件，其中说明了记录的内容和缺失的数据。",
+        "请将 .json 文件复制到同一文件夹，不要更改文件名。如果保留了数据包，请打开 .packets 文件。";
     SerialPortUnavailable:
         "无法打开串口",
         "该串口不存在、正被其他程序使用，或当前用户没有打开它的权限。",
@@ -615,7 +619,7 @@ error_texts! {
         "请检查文件是否正确。";
     FileNotRecognised:
         "无法识别文件类型",
-        "该文件不是证书、私钥、CSR、CRL、激活文件、连接列表或设置导出文件。",
+        "该文件不是证书、私钥、CSR、CRL、激活文件、连接列表、设置导出文件或记录。",
         "请检查文件是否正确、完整。";
     Cancelled:
         "未开始",

@@ -1,6 +1,7 @@
 //! Where the work is done that a frame may not wait for.
 
 mod authority;
+mod recorder;
 mod tokio_backend;
 mod trust_files;
 mod unfinished;

@@ -12,13 +12,15 @@ use tokio_util::sync::CancellationToken;
 
 use super::unfinished::{UnfinishedWork, WorkGuard};
 use super::vault::StoreReporter;
-use super::{Backend, VirtualFleetStarter, trust_files};
+use super::{Backend, VirtualFleetStarter, recorder, trust_files};
 use crate::jobs::{self, JobContext, JobController, LiveRequest, RemoteControlRequest};
 use crate::model::{ControllerInfo, Credentials, ErrorCode, Problem};
 use crate::platform::display;
 use crate::platform::stop_signal::StopSignals;
 use crate::session::Connectors;
-use crate::ui::model::{BackendCommand, BackendEvent, DroppedFile, ExportFound, FileContents, JobId, Task};
+use crate::ui::model::{
+    BackendCommand, BackendEvent, DroppedFile, ExportFound, FileContents, JobId, RecorderWork, Task,
+};
 use crate::ui::picker::FilePicker;
 use crate::workspace::{
     self, Configuration, Passwords, SettingsFiles, ShowWindowOutcome, StartRequests, Workspace, WorkspaceLock,
@@ -190,6 +192,16 @@ impl TokioBackend {
         });
     }
 
+    fn recorder(&mut self, job: JobId, work: RecorderWork) {
+        let (emit, stop) = (self.emit.clone(), self.token(job));
+        // A file that is read may be left in the middle.
+        let unfinished = work.writes().then(|| self.unfinished.begin());
+        self.spawn(async move {
+            recorder::run(work, stop, move |event| emit(BackendEvent::Recorder { job, event })).await;
+            drop(unfinished);
+        });
+    }
+
     fn start_virtual(&self) {
         let Some(starter) = self.starter.clone() else { return };
         let (emit, passwords) = (self.emit.clone(), self.context.passwords.clone());
@@ -318,6 +330,10 @@ impl Backend for TokioBackend {
                 let done = Box::new(move |result| emit(BackendEvent::FilePicked { job, result }));
                 self.picker.pick_target(kind, title, begin, done);
             }
+            BackendCommand::PickFolder { job, title, begin } => {
+                let done = Box::new(move |result| emit(BackendEvent::FilePicked { job, result }));
+                self.picker.pick_folder(title, begin, done);
+            }
             BackendCommand::ReadFile { job, path, most } => {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
@@ -382,6 +398,7 @@ impl Backend for TokioBackend {
                     emit(BackendEvent::TextSaved(saved.map(|()| path)));
                 });
             }
+            BackendCommand::Recorder { job, work } => self.recorder(job, work),
             BackendCommand::Recognise { job, paths } => {
                 if let Some(runtime) = &self.runtime {
                     runtime.spawn_blocking(move || {
@@ -422,6 +439,11 @@ impl Backend for TokioBackend {
 
     fn poll(&mut self) -> Option<BackendEvent> {
         let event = self.events.try_recv().ok()?;
+        if let BackendEvent::Recorder { job, event } = &event
+            && event.is_last()
+        {
+            self.running.remove(job);
+        }
         if let BackendEvent::JobEnded { job, .. }
         | BackendEvent::Probed { job, .. }
         | BackendEvent::Enrolled { job, .. } = &event

@@ -13,7 +13,7 @@
 //! | `self_signed`, `create_csr`, `import_ca_signed`, `user_specified`, `restore_backup`, `export_self_signed`, `type_select` | the server's certificates |
 //! | `subject_fields`, `certificate_import` | what some of these share |
 //! | [`client_certificates`] | client certificates and CRLs |
-//! | `certificate_authority`, `verify`, [`live_values`], [`remote_control`] | tools |
+//! | `certificate_authority`, `verify`, [`live_values`], [`remote_control`], [`recorder`] | tools |
 //! | `backup`, `options`, [`vault`] | how this program works |
 //! | `licences`, `about` | help |
 //! | `dropped_files` | which dialog takes files dropped onto the window |
@@ -36,6 +36,7 @@ pub mod import_ca_signed;
 pub mod licences;
 pub mod live_values;
 mod options;
+pub mod recorder;
 pub mod remote_control;
 pub mod restore_backup;
 pub mod self_signed;
@@ -81,6 +82,8 @@ pub const COMMANDS: &[C] = &[
     C::CERTIFICATE_AUTHORITY,
     C::VERIFY,
     C::LIVE_VALUES,
+    C::RECORDER,
+    C::OPEN_RECORDING,
     C::REMOTE_CONTROL,
     C::SHORTCUTS,
     C::LICENCES,
@@ -110,7 +113,8 @@ pub const CERTIFICATE_MENU: MenuEntries =
 pub const SERVER_MENU: MenuEntries =
     &[&[C::BASIC_SETTINGS, C::USERS, C::SERVER_LOG, C::ACTIVATION], &[C::EXPORT_SETTINGS, C::IMPORT_SETTINGS]];
 /// The menu "Tools".
-pub const TOOLS_MENU: MenuEntries = &[&[C::CERTIFICATE_AUTHORITY, C::VERIFY], &[C::LIVE_VALUES, C::REMOTE_CONTROL]];
+pub const TOOLS_MENU: MenuEntries =
+    &[&[C::CERTIFICATE_AUTHORITY, C::VERIFY], &[C::LIVE_VALUES, C::REMOTE_CONTROL], &[C::RECORDER, C::OPEN_RECORDING]];
 /// The menu "Help".
 pub const HELP_MENU: MenuEntries = &[&[C::COMMAND_PALETTE], &[C::SHORTCUTS, C::LICENCES, C::ABOUT]];
 

@@ -7,11 +7,12 @@ use secrecy::SecretString;
 
 use super::{DroppedFile, JobId, Task, TaskEvent};
 use crate::jobs::{
-    Enrolled, JobController, JobSummary, LiveEvent, LiveLogin, LiveRequest, RemoteConnection, RemoteControlEvent,
-    RemoteControlRequest, TrustFile, WatchEvent,
+    Enrolled, JobController, JobSummary, LiveEvent, LiveLogin, LiveRequest, RecordEnd, RecordEvent, RecordRequest,
+    RemoteConnection, RemoteControlEvent, RemoteControlRequest, TrustFile, WatchEvent,
 };
 use crate::model::{Address, ConnectionKind, ControllerInfo, Credentials, FirmwareVersion, Problem};
 use crate::pki::{Csr, Fingerprint, IssueRequest, RevocationReason};
+use crate::recorder::{LiveValues, Recorded, RecordingHeader, Sidecar};
 use crate::ui::picker::FileKind;
 use crate::workspace::authority::{AuthorityOverview, NewAuthority};
 use crate::workspace::{Configuration, ControllerEntry, PasswordPlace, StoreStatus};
@@ -96,6 +97,15 @@ pub enum BackendCommand {
         /// The path to begin with.
         begin: PathBuf,
     },
+    /// Lets a person choose a folder; ends with [`BackendEvent::FilePicked`].
+    PickFolder {
+        /// The job that the event names.
+        job: JobId,
+        /// Title of the file dialog.
+        title: String,
+        /// The folder to begin with.
+        begin: PathBuf,
+    },
     /// Ends with [`BackendEvent::FileRead`]. A file of more than `most` bytes is refused.
     ReadFile {
         /// The job that the event names.
@@ -165,6 +175,13 @@ pub enum BackendCommand {
         path: PathBuf,
         /// Its content.
         text: String,
+    },
+    /// Something about recordings; its results come as [`BackendEvent::Recorder`].
+    Recorder {
+        /// The job that the events name. [`BackendCommand::Cancel`] ends a recording, and its files are completed.
+        job: JobId,
+        /// What is to be done.
+        work: RecorderWork,
     },
     /// Finds out what files are, by their content; ends with [`BackendEvent::Recognised`].
     Recognise {
@@ -281,6 +298,13 @@ pub enum BackendEvent {
     },
     /// The answer to [`BackendCommand::SaveText`]: the file.
     TextSaved(Result<PathBuf, Problem>),
+    /// What came of [`BackendCommand::Recorder`].
+    Recorder {
+        /// The job.
+        job: JobId,
+        /// What happened.
+        event: RecorderEvent,
+    },
     /// The answer to [`BackendCommand::Authority`].
     AuthorityDone {
         /// The job.
@@ -370,6 +394,54 @@ pub enum AuthorityWork {
         /// The passphrase of the CA, which protects the backup.
         passphrase: SecretString,
     },
+}
+
+/// Something to be done about recordings.
+#[derive(Debug, Clone)]
+pub enum RecorderWork {
+    /// Completes the recordings in a folder that a program which was killed has left; ends with
+    /// [`RecorderEvent::Recovered`].
+    Recover(PathBuf),
+    /// Records; ends with [`RecorderEvent::Ended`]. The window does not close before.
+    Record(Box<RecordRequest>),
+    /// Reads what a recording is about; ends with [`RecorderEvent::Described`].
+    Describe(PathBuf),
+    /// Reads values of a recording; ends with [`RecorderEvent::Loaded`].
+    Load {
+        /// A file of the recording.
+        file: PathBuf,
+        /// Gets the values while they are read.
+        values: LiveValues,
+    },
+}
+
+impl RecorderWork {
+    /// Whether files would be left unfinished if the program ended before the work does.
+    pub const fn writes(&self) -> bool {
+        matches!(self, Self::Recover(_) | Self::Record(_))
+    }
+}
+
+/// What happened to recordings.
+#[derive(Debug)]
+pub enum RecorderEvent {
+    /// The recordings that were completed, or could not be.
+    Recovered(Vec<Result<Recorded, Problem>>),
+    /// A running recording reports something.
+    Seen(RecordEvent),
+    /// A recording has ended.
+    Ended(Box<RecordEnd>),
+    /// What a recording is about.
+    Described(Result<Box<RecordingHeader>, Problem>),
+    /// The values are read: what the recording holds.
+    Loaded(Result<Box<Sidecar>, Problem>),
+}
+
+impl RecorderEvent {
+    /// Whether no other event of the same work follows.
+    pub const fn is_last(&self) -> bool {
+        !matches!(self, Self::Seen(_))
+    }
 }
 
 /// What the CA is like afterwards.

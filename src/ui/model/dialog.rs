@@ -97,6 +97,36 @@ impl Model {
         self.dialogs.push(dialog);
     }
 
+    /// Takes a dialog away from the window while its work goes on. [`Model::show_hidden`] brings it back.
+    pub fn hide(&mut self, dialog: Box<dyn Dialog>) {
+        self.hidden.push(dialog);
+    }
+
+    /// Opens the hidden dialog of this type again. Returns whether there was one.
+    pub fn show_hidden<D: Dialog>(&mut self) -> bool {
+        let is_it = |dialog: &Box<dyn Dialog>| as_any(dialog.as_ref()).is::<D>();
+        let found = self.hidden.iter().position(is_it).map(|at| self.hidden.remove(at));
+        let was_hidden = found.is_some();
+        self.dialogs.extend(found);
+        was_hidden
+    }
+
+    /// The hidden dialog of this type.
+    pub fn hidden<D: Dialog>(&self) -> Option<&D> {
+        self.hidden.iter().find_map(|dialog| as_any(dialog.as_ref()).downcast_ref())
+    }
+
+    /// The dialog of this type, open or hidden.
+    pub fn working<D: Dialog>(&self) -> Option<&D> {
+        self.dialogs.iter().chain(&self.hidden).find_map(|dialog| as_any(dialog.as_ref()).downcast_ref())
+    }
+
+    /// The dialog of this type, open or hidden.
+    pub fn working_mut<D: Dialog>(&mut self) -> Option<&mut D> {
+        let mut dialogs = self.dialogs.iter_mut().chain(&mut self.hidden);
+        dialogs.find_map(|dialog| as_any_mut(dialog.as_mut()).downcast_mut())
+    }
+
     /// The dialog of this type, the uppermost of several.
     pub fn dialog<D: Dialog>(&mut self) -> Option<&mut D> {
         self.dialogs.iter_mut().rev().find_map(|dialog| as_any_mut(dialog.as_mut()).downcast_mut())

@@ -8,10 +8,21 @@ use crate::ui::picker::FileKind;
 pub struct BrowseField {
     /// Which files the file dialog offers first.
     pub kind: FileKind,
-    /// The title of the desktop's dialog if it asks where a file is saved; `None`: for a file that exists.
-    pub save_title: Option<TextKey>,
+    /// What the desktop's dialog asks for.
+    pub asks_for: BrowseFor,
     /// The text of the field; `None` if its dialog was closed.
     pub text: fn(&mut Model) -> Option<&mut String>,
+}
+
+/// What a path is chosen for.
+#[derive(Debug, Clone, Copy)]
+pub enum BrowseFor {
+    /// A file that exists.
+    File,
+    /// Where a file is saved; the title of the desktop's dialog.
+    NewFile(TextKey),
+    /// A folder; the title of the desktop's dialog.
+    Folder(TextKey),
 }
 
 /// A file to be read.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{BackendCommand, BrowseField, FileContents, FileForm, JobId, Model};
+use super::{BackendCommand, BrowseField, BrowseFor, FileContents, FileForm, JobId, Model};
 use crate::model::{ErrorCode, Problem};
 use crate::texts::TextKey;
 
@@ -32,13 +32,14 @@ impl Model {
         let job = self.next_job();
         self.browsing = Some((job, field));
         let (kind, root) = (field.kind, self.workspace.root().to_owned());
-        let Some(title) = field.save_title else {
-            let title = TextKey::ChooseFileTitle.text(self.language).to_owned();
-            return vec![BackendCommand::PickFile { job, kind, title }];
-        };
         let typed = (field.text)(self).map(|text| text.trim().trim_matches('"').to_owned()).unwrap_or_default();
-        let title = title.text(self.language).to_owned();
-        vec![BackendCommand::PickTarget { job, kind, title, begin: root.join(typed) }]
+        let (language, begin) = (self.language, root.join(typed));
+        let title = |key: TextKey| key.text(language).to_owned();
+        vec![match field.asks_for {
+            BrowseFor::File => BackendCommand::PickFile { job, kind, title: title(TextKey::ChooseFileTitle) },
+            BrowseFor::NewFile(key) => BackendCommand::PickTarget { job, kind, title: title(key), begin },
+            BrowseFor::Folder(key) => BackendCommand::PickFolder { job, title: title(key), begin },
+        }]
     }
 
     pub(in crate::ui) fn file_picked(

@@ -34,12 +34,13 @@ use crate::workspace::{Configuration, Options, StoreStatus, ThemeChoice, Workspa
 
 pub use closing::{CloseChoice, Closing};
 pub use command::{
-    AuthorityResult, AuthorityWork, BackendCommand, BackendEvent, ExportFound, FileContents, ReadTrustFile, VaultWork,
+    AuthorityResult, AuthorityWork, BackendCommand, BackendEvent, ExportFound, FileContents, ReadTrustFile,
+    RecorderEvent, RecorderWork, VaultWork,
 };
 pub use command_palette::{CommandPalette, PaletteAction};
 pub use dialog::{Dialog, DialogAnswer, DialogPlace};
 pub use dropped::{DropChoice, DropForm, DroppedFile, HoveringFiles, MAX_DROPPED};
-pub use file_form::{BrowseField, FileForm};
+pub use file_form::{BrowseField, BrowseFor, FileForm};
 pub use files::first_path;
 pub use job::{CancelState, Job, JobRow};
 pub use job_id::JobId;
@@ -74,6 +75,8 @@ pub struct Model {
     pub workspace: Workspace,
     /// The last one is on top and has the keyboard.
     pub dialogs: Vec<Box<dyn Dialog>>,
+    /// Dialogs that were closed while their work goes on.
+    hidden: Vec<Box<dyn Dialog>>,
     /// The job that runs, or the one whose summary is shown.
     pub job: Option<Job>,
     /// The context menu of a row.
@@ -239,6 +242,7 @@ impl Model {
             options: configuration.options,
             workspace,
             dialogs: Vec::new(),
+            hidden: Vec::new(),
             job: None,
             row_menu: None,
             command_palette: None,

@@ -56,7 +56,7 @@ fn items(ui: &mut Ui, row: RowId, model: &Model, messages: &mut Vec<Message>) {
     ui.separator();
     groups(
         ui,
-        &[&[C::START, C::STOP, C::GET_INFO, C::VERIFY, C::LIVE_VALUES, C::REMOTE_CONTROL]],
+        &[&[C::START, C::STOP, C::GET_INFO, C::VERIFY, C::LIVE_VALUES, C::REMOTE_CONTROL, C::RECORDER]],
         row,
         model,
         messages,

@@ -1,6 +1,7 @@
 use egui::{Align, Button, Layout, RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
+use crate::ui::features::recorder::RecorderForm;
 use crate::ui::features::vault::VaultRequest;
 use crate::ui::model::{Message, Model};
 use crate::ui::theme::{self, palette};
@@ -31,6 +32,17 @@ pub fn show(ui: &mut Ui, model: &Model, messages: &mut Vec<Message>) {
             let response = ui.add(Button::new(text).frame(false)).on_hover_text(T::PasswordsNotKeptTip.text(language));
             if response.clicked() {
                 messages.push(Message::act(|model| model.vault_request(VaultRequest::NotKept)));
+            }
+        }
+        if let Some(form) = model.hidden::<RecorderForm>() {
+            let (said, color) = match (form.active(), form.failed()) {
+                (0, 0) => (texts::recordings_ended(language, 0), palette.ok),
+                (0, failed) => (texts::recordings_ended(language, failed), palette.error),
+                (active, _) => (texts::recordings_running(language, active), palette.accent),
+            };
+            let button = ui.add(Button::new(small(said).color(color)).frame(false));
+            if button.on_hover_text(T::RecorderBackTip.text(language)).clicked() {
+                messages.push(Message::act(|model| model.open_recorder(vec![])));
             }
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -19,7 +19,7 @@ use crate::common::window_test::{WAIT_LIMIT, WindowTest};
 type Window<B> = crate::common::window::Window<B>;
 
 /// Presses the window's close button.
-fn close<B: Backend>(window: &mut Window<B>) {
+pub(super) fn close<B: Backend>(window: &mut Window<B>) {
     let root = window.input_mut().viewports.entry(ViewportId::ROOT).or_default();
     root.events.push(ViewportEvent::Close);
     window.step();
@@ -30,7 +30,7 @@ fn commands<B: Backend>(window: &Window<B>) -> &[ViewportCommand] {
 }
 
 /// Whether the window goes on its own account.
-fn closes<B: Backend>(window: &Window<B>) -> bool {
+pub(super) fn closes<B: Backend>(window: &Window<B>) -> bool {
     commands(window).contains(&ViewportCommand::Close)
 }
 

@@ -12,7 +12,7 @@ use crate::common::window_test::{WAIT_LIMIT, WindowTest};
 
 impl WindowTest {
     /// A running server that trusts this program.
-    fn with_trusting_server() -> Self {
+    pub(super) fn with_trusting_server() -> Self {
         let app = Self::with_servers(1, FleetFirmware::Current, &[SecurityPolicy::Basic256Sha256]);
         app.run(TrustConfigurator { identity: app.workspace.own_identity() });
         app

@@ -9,6 +9,7 @@ mod drop;
 mod files;
 mod live_values;
 mod main_job;
+mod recorder;
 mod remote_control;
 mod server_certificates;
 mod settings_transfer;

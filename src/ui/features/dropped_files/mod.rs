@@ -59,6 +59,7 @@ const ROUTES: &[Route] = &[
     Route { command: UiCommand::USER_SPECIFIED, title: TextKey::UserSpecifiedTitle, takes: Takes::Not(KEY_AND_CERTIFICATE, TextKey::WhySplitKey), of_one: true, open: Model::open_nothing },
     Route { command: UiCommand::CLIENT_CERTIFICATES, title: TextKey::MenuClients, takes: Takes::Any(&[CERTIFICATE, CHAIN, BUNDLE]), of_one: false, open: Model::open_clients_of },
     Route { command: UiCommand::CRL, title: TextKey::DropCrl, takes: Takes::Any(&[CRL, BUNDLE]), of_one: false, open: Model::open_crls_of },
+    Route { command: UiCommand::OPEN_RECORDING, title: TextKey::OpenRecordingTitle, takes: Takes::One(Recognised::Recording), of_one: false, open: Model::open_recording_of },
     Route { command: UiCommand::CERTIFICATE_AUTHORITY, title: TextKey::DropAuthority, takes: Takes::One(CSR), of_one: false, open: Model::open_authority_of },
 ];
 

@@ -2,14 +2,14 @@ use egui::{Frame, Label, RichText, Stroke, Ui};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::import_ca_signed::CaSignedForm;
-use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
+use crate::ui::model::{BrowseField, BrowseFor, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, form, path_field, path_line, small_note};
 
 const CERTIFICATE_FILE: BrowseField = BrowseField {
     kind: FileKind::Certificate,
-    save_title: None,
+    asks_for: BrowseFor::File,
     text: |model| model.dialog::<CaSignedForm>().map(|form| &mut form.file),
 };
 

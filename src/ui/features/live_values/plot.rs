@@ -1,9 +1,8 @@
-use std::collections::VecDeque;
-
 use chrono::{DateTime, TimeDelta, Utc};
 
 use crate::jobs::LivePoint;
 use crate::model::opcua::{DataValue, NodeId};
+use crate::recorder::Series;
 
 /// Values over time. Shows a minute at first.
 #[derive(Debug)]
@@ -21,7 +20,8 @@ pub struct LivePlot {
 pub const SPANS: [u32; 4] = [10, 60, 600, 3600];
 /// How many values a plot holds.
 pub const MAX_SERIES: usize = 16;
-/// Samples of one value that are kept: an hour at ten a second, with the points that hold a value.
+/// Samples of one value that are kept: an hour at ten a second, with the points that hold a value. What is older is thinned
+/// out.
 const MAX_SAMPLES: usize = 72_000;
 /// A variable that reports nothing for so long has kept its value, in seconds.
 const HOLD: f64 = 0.5;
@@ -33,8 +33,8 @@ pub struct PlotSeries {
     pub point: LivePoint,
     /// Number of its colour.
     pub color: usize,
-    /// Seconds of Unix time by the PC's clock, and the value; NaN where the connection was lost.
-    samples: VecDeque<(f64, f64)>,
+    /// Seconds of Unix time by the PC's clock, and the value; a gap where the connection was lost.
+    samples: Series,
 }
 
 /// Points of a line without a gap.
@@ -74,7 +74,7 @@ impl LivePlot {
         }
         let is_free = |color: &usize| self.series.iter().all(|series| series.color != *color);
         let color = (0..MAX_SERIES).find(is_free).unwrap_or_default();
-        self.series.push(PlotSeries { point, color, samples: VecDeque::new() });
+        self.series.push(PlotSeries { point, color, samples: Series::limited(MAX_SAMPLES) });
     }
 
     /// Removes a variable with its samples.
@@ -104,15 +104,13 @@ impl LivePlot {
     pub fn interrupt(&mut self) {
         self.clock_ahead = None;
         for series in &mut self.series {
-            if let Some((at, _)) = series.samples.back().copied() {
-                series.samples.push_back((at, f64::NAN));
-            }
+            series.samples.push_gap();
         }
     }
 
     /// The first and the last time that are shown. A value that does not change is held until `now` while `is_live`.
     pub fn range(&self, now: DateTime<Utc>, is_live: bool) -> (f64, f64) {
-        let newest = self.series.iter().filter_map(|series| series.samples.back()).map(|(at, _)| *at);
+        let newest = self.series.iter().filter_map(|series| series.samples.last()).map(|(at, _)| at);
         let newest = newest.fold(f64::NEG_INFINITY, f64::max);
         let last = match self.held_at {
             Some(at) => at,
@@ -124,92 +122,35 @@ impl LivePlot {
 }
 
 impl PlotSeries {
+    /// NaN: there is no value from now on.
     fn push(&mut self, at: f64, value: f64) {
-        if let Some((before, held)) = self.samples.back().copied() {
-            // A time stamp that goes back, for example of a clock that was set.
-            let at = at.max(before);
-            if at - before > HOLD && !held.is_nan() {
-                self.samples.push_back((at, held));
-            }
-            self.samples.push_back((at, value));
-        } else {
-            self.samples.push_back((at, value));
+        if let Some((before, held)) = self.samples.last()
+            && at - before > HOLD
+            && !self.samples.ends_with_gap()
+        {
+            self.samples.push(at, held);
         }
-        while self.samples.len() > MAX_SAMPLES {
-            self.samples.pop_front();
+        if value.is_nan() {
+            self.samples.push_gap();
+        } else {
+            self.samples.push(at, value);
         }
     }
 
-    /// The lines between two times in at most about four points for each of `columns`: the first, lowest, highest and last
-    /// value in it. Times are in seconds before `to`. `hold`: the last value holds until `to`.
+    /// The lines between two times, in at most about two points for each of `columns`. Times are in seconds before `to`.
+    /// `hold`: the last value holds until `to`.
     pub fn stretches(&self, from: f64, to: f64, columns: usize, hold: bool) -> Vec<Stretch> {
-        let begin = self.samples.partition_point(|(at, _)| *at < from).saturating_sub(1);
-        let end = self.samples.partition_point(|(at, _)| *at <= to);
-        let end = (end + 1).min(self.samples.len());
-        let mut stretches = vec![Stretch::new()];
-        let width = (to - from) / columns.max(1) as f64;
-        let mut column: Option<PixelColumn> = None;
-        for (at, value) in self.samples.range(begin..end.max(begin)) {
-            if value.is_nan() {
-                flush(&mut column, &mut stretches);
-                if stretches.last().is_some_and(|stretch| !stretch.is_empty()) {
-                    stretches.push(Stretch::new());
-                }
-                continue;
-            }
-            let number = ((at - from) / width).floor();
-            if column.as_ref().is_some_and(|column| column.number != number) {
-                flush(&mut column, &mut stretches);
-            }
-            let point = [at - to, *value];
-            column
-                .get_or_insert(PixelColumn { number, first: point, lowest: point, highest: point, last: point })
-                .take(point);
-        }
-        flush(&mut column, &mut stretches);
+        let mut stretches = self.samples.lines(from..to, columns);
+        stretches.iter_mut().flatten().for_each(|point| point[0] -= to);
         if hold
-            && let Some((at, value)) = self.samples.back()
-            && *at < to
-            && !value.is_nan()
+            && let Some((at, value)) = self.samples.last()
+            && at < to
+            && !self.samples.ends_with_gap()
             && let Some(stretch) = stretches.last_mut()
         {
-            stretch.push([0.0, *value]);
+            stretch.push([0.0, value]);
         }
-        stretches.retain(|stretch| !stretch.is_empty());
         stretches
-    }
-}
-
-/// The samples that fall on one column of pixels.
-struct PixelColumn {
-    number: f64,
-    first: [f64; 2],
-    lowest: [f64; 2],
-    highest: [f64; 2],
-    last: [f64; 2],
-}
-
-impl PixelColumn {
-    fn take(&mut self, point: [f64; 2]) {
-        if point[1] < self.lowest[1] {
-            self.lowest = point;
-        }
-        if point[1] > self.highest[1] {
-            self.highest = point;
-        }
-        self.last = point;
-    }
-}
-
-/// Adds the points of a column, in the order of their times.
-fn flush(column: &mut Option<PixelColumn>, stretches: &mut [Stretch]) {
-    let Some(PixelColumn { first, lowest, highest, last, .. }) = column.take() else { return };
-    let (lower, higher) = if lowest[0] <= highest[0] { (lowest, highest) } else { (highest, lowest) };
-    let Some(stretch) = stretches.last_mut() else { return };
-    for point in [first, lower, higher, last] {
-        if stretch.last() != Some(&point) {
-            stretch.push(point);
-        }
     }
 }
 
@@ -242,7 +183,7 @@ mod tests {
         let (mut plot, node) = plot();
         plot.push(&node, &value(5_000.0, 1.0), at(100.0));
         plot.push(&node, &value(5_000.2, 2.0), at(100.7));
-        assert_eq!(plot.series()[0].samples, [(100.0, 1.0), (100.2, 2.0)]);
+        assert_eq!(plot.series()[0].samples.lines(0.0..200.0, 100), [[[100.0, 1.0], [100.2, 2.0]]]);
     }
 
     #[test]
@@ -290,7 +231,8 @@ mod tests {
             let seconds = step as f64 * 0.1;
             plot.push(&node, &value(seconds, 1.0), at(seconds));
         }
-        assert_eq!(plot.series()[0].samples.len(), MAX_SAMPLES);
+        let samples = &plot.series()[0].samples;
+        assert!(samples.len() <= MAX_SAMPLES && samples.span().unwrap().start == 0.0);
         for number in 0..40 {
             plot.add(LivePoint { node: NodeId::numeric(2, number), name: String::new(), unit: None, range: None });
         }

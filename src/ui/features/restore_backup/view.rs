@@ -2,7 +2,7 @@ use egui::{Label, RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::restore_backup::RestoreForm;
-use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
+use crate::ui::model::{BrowseField, BrowseFor, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, form, labelled, path_field, path_line, secret_field, small_note};
@@ -10,7 +10,7 @@ use crate::workspace::BackupKind;
 
 const BACKUP_FILE: BrowseField = BrowseField {
     kind: FileKind::Pkcs12,
-    save_title: None,
+    asks_for: BrowseFor::File,
     text: |model| model.dialog::<RestoreForm>().map(|form| &mut form.file),
 };
 

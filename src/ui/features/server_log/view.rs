@@ -2,14 +2,14 @@ use egui::{Button, Frame, Label, RichText, ScrollArea, Stroke, TextEdit, TextSty
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::server_log::{LogView, SaveLogForm};
-use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
+use crate::ui::model::{BrowseField, BrowseFor, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, form, path_field, small_note};
 
 const LOG_FILE: BrowseField = BrowseField {
     kind: FileKind::Text,
-    save_title: Some(T::SaveLogTitle),
+    asks_for: BrowseFor::NewFile(T::SaveLogTitle),
     text: |model| model.dialog::<SaveLogForm>().map(|form| &mut form.path),
 };
 

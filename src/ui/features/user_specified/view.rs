@@ -2,26 +2,26 @@ use egui::{RichText, Ui};
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::user_specified::{UserFiles, UserSpecifiedForm};
-use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
+use crate::ui::model::{BrowseField, BrowseFor, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, form, labelled, mistake, path_field, path_line, secret_field};
 
 const PFX_FILE: BrowseField = BrowseField {
     kind: FileKind::Pkcs12,
-    save_title: None,
+    asks_for: BrowseFor::File,
     text: |model| model.dialog::<UserSpecifiedForm>().map(|form| &mut form.pfx),
 };
 
 const CERTIFICATE_FILE: BrowseField = BrowseField {
     kind: FileKind::Certificate,
-    save_title: None,
+    asks_for: BrowseFor::File,
     text: |model| model.dialog::<UserSpecifiedForm>().map(|form| &mut form.certificate),
 };
 
 const KEY_FILE: BrowseField = BrowseField {
     kind: FileKind::Key,
-    save_title: None,
+    asks_for: BrowseFor::File,
     text: |model| model.dialog::<UserSpecifiedForm>().map(|form| &mut form.key),
 };
 

@@ -87,7 +87,7 @@ fn assert_ways(folder: &Path, from: &Path, sidecar: &Sidecar) {
     assert!(fs::read(&csv).expect("a CSV file") == fs::read(&again).expect("a CSV file"));
     let names: Vec<String> = sidecar.columns.iter().map(|column| column.name.clone()).collect();
     for file in [from, &parquet] {
-        recorder::load(file, &names, &LiveValues::default(), &CancellationToken::new()).expect("a recording");
+        recorder::load(file, &LiveValues::new(names.clone()), &CancellationToken::new()).expect("a recording");
     }
 }
 

@@ -8,14 +8,14 @@ use crate::model::Problem;
 use crate::remote::Command;
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::remote_control::{IoView, RemoteForm, WhyNot};
-use crate::ui::model::{BrowseField, Message, Model};
+use crate::ui::model::{BrowseField, BrowseFor, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{form as fields, mistake, path_field, small_note};
 
 const LABELS: BrowseField = BrowseField {
     kind: FileKind::Csv,
-    save_title: None,
+    asks_for: BrowseFor::File,
     text: |model| model.dialog::<RemoteForm>().map(|form| &mut form.io.labels_file.path),
 };
 

@@ -2,14 +2,14 @@ use egui::{Button, Frame, Label, RichText, ScrollArea, Stroke, TextStyle, TextWr
 
 use crate::texts::{self, TextKey as T};
 use crate::ui::features::remote_control::{LogForm, RemoteForm, SaveExchanges};
-use crate::ui::model::{BrowseField, DialogAnswer, Message, Model};
+use crate::ui::model::{BrowseField, BrowseFor, DialogAnswer, Message, Model};
 use crate::ui::picker::FileKind;
 use crate::ui::theme::{self, palette};
 use crate::ui::widgets::{Buttons, dialog, form as fields, path_field, small_note};
 
 const LOG_FILE: BrowseField = BrowseField {
     kind: FileKind::Text,
-    save_title: Some(T::RemoteSaveTitle),
+    asks_for: BrowseFor::NewFile(T::RemoteSaveTitle),
     text: |model| model.dialog::<SaveExchanges>().map(|form| &mut form.path),
 };
 
