@@ -300,7 +300,7 @@ fn ended(file: &std::path::Path, sidecar: &Sidecar, language: Language) -> Strin
 /// A recording for a terminal: its facts, then each gap.
 fn summary(sidecar: &Sidecar, language: Language) -> String {
     let time = |time: chrono::DateTime<chrono::Utc>| time.format("%Y-%m-%d %H:%M:%S UTC").to_string();
-    let facts = texts::recording_facts(language, sidecar, &time);
+    let facts = texts::recording_facts(language, sidecar, time);
     let rows: Vec<Vec<String>> =
         facts.into_iter().map(|(label, value)| vec![label.text(language).to_owned(), value]).collect();
     let mut text = table(&["", ""], &rows).trim_start_matches('\n').to_owned();

@@ -232,7 +232,7 @@ impl DataType {
             },
             _ => {
                 let value = match text.strip_prefix("0x").or_else(|| text.strip_prefix("0X")) {
-                    Some(digits) => self.from_hexadecimal(digits).ok_or_else(wrong)?,
+                    Some(digits) => self.parse_hexadecimal(digits).ok_or_else(wrong)?,
                     None => text.parse().map_err(|_| wrong())?,
                 };
                 let (low, high) = self.range().ok_or_else(wrong)?;
@@ -245,7 +245,7 @@ impl DataType {
         }
     }
 
-    fn from_hexadecimal(self, digits: &str) -> Option<i64> {
+    fn parse_hexadecimal(self, digits: &str) -> Option<i64> {
         let bits = i64::from(u32::from_str_radix(digits, 16).ok().filter(|_| !digits.starts_with('+'))?);
         Some(match self {
             Self::I16 if bits <= 0xFFFF => i64::from((bits as u16).cast_signed()),

@@ -104,8 +104,8 @@ impl Model {
 
     /// Opens the hidden dialog of this type again. Returns whether there was one.
     pub fn show_hidden<D: Dialog>(&mut self) -> bool {
-        let is_it = |dialog: &Box<dyn Dialog>| as_any(dialog.as_ref()).is::<D>();
-        let found = self.hidden.iter().position(is_it).map(|at| self.hidden.remove(at));
+        let position = self.hidden.iter().position(|dialog| as_any(dialog.as_ref()).is::<D>());
+        let found = position.map(|at| self.hidden.remove(at));
         let was_hidden = found.is_some();
         self.dialogs.extend(found);
         was_hidden

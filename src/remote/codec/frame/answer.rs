@@ -8,6 +8,9 @@ use crate::remote::codec::received::Received;
 use crate::remote::codec::refusal::RefusalCode;
 use crate::remote::codec::reply::{Answer, DataLength, ExpectedReply, Reply};
 
+/// The command that is answered, and its answer.
+type DecodedAnswer = Result<(Command, Answer), DecodeError>;
+
 /// A good answer as a frame.
 ///
 /// Errors: [`EncodeError`] if the answer cannot be sent in frames.
@@ -80,7 +83,7 @@ impl AnswerDecoder {
     }
 
     /// Length of the data and the answer; `None` while bytes are missing.
-    fn read(&self, bytes: &[u8]) -> Option<(usize, Result<(Command, Answer), DecodeError>)> {
+    fn read(&self, bytes: &[u8]) -> Option<(usize, DecodedAnswer)> {
         let [first, letter, data @ ..] = bytes else { return None };
         let mut expected = std::iter::once(&self.expected).chain(&self.interjected);
         let Some(expected) = expected.find(|one| one.command.letter() == Some(*letter)) else {
