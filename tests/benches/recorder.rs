@@ -24,7 +24,7 @@ mod usage;
 use std::fs;
 use std::path::Path;
 use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use command_line_test::CommandLineTest;
 use opcua_client::{Failure, TestApplication};
@@ -149,10 +149,9 @@ fn run(
 ) -> Result<(String, Option<f64>, Option<f64>), Failure> {
     let process = plant.controllers.id();
     let (reader, controllers) = (processor_seconds_of_ended(), processor_seconds(process));
-    let start = Instant::now();
     let ended = Running::start(command)?.finish(Duration::from_secs(seconds as u64 + 120));
-    let lasted = start.elapsed().as_secs_f64() * plant.ready.len() as f64;
-    let spent = |before: Option<f64>, after: Option<f64>| Some((after? - before?) / lasted);
+    let recorded = (seconds * plant.ready.len()) as f64;
+    let spent = |before: Option<f64>, after: Option<f64>| Some((after? - before?) / recorded);
     let reader = spent(reader, processor_seconds_of_ended());
     let controllers = spent(controllers, processor_seconds(process));
     match ended.code {
