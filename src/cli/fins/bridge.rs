@@ -9,7 +9,7 @@ use super::super::table::table;
 use super::super::{CommandContext, CommandOutcome, runtime};
 use super::value_as_json;
 use crate::fins::bridge::map::Row;
-use crate::fins::bridge::robot::Direction;
+use crate::fins::bridge::robot::{Direction, RobotError};
 use crate::fins::bridge::status::{BridgeStatus, RowError, RowStatus};
 use crate::jobs::open_fins_bridge;
 use crate::model::{ErrorCode, Language, Problem, with_sources};
@@ -65,22 +65,18 @@ pub fn run(cli: &CommandContext, args: &BridgeArgs) -> Result<CommandOutcome, Pr
     Ok(if is_good { CommandOutcome::AllDone } else { CommandOutcome::SomeFailed })
 }
 
-/// What was said of a row last.
-#[derive(Debug, Clone, PartialEq)]
+/// What was said of a row last. An error is said once, until another one follows.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Shown {
     Nothing,
     Copied,
-    Failed(RowFailure),
+    Failed(ErrorCode),
 }
-
-/// Errors that differ in their times only are the same.
-#[derive(Debug, Clone, PartialEq)]
-struct RowFailure(std::mem::Discriminant<RowError>, Option<ErrorCode>);
 
 fn show_changes(cli: &CommandContext, rows: &[Row], status: &BridgeStatus, shown: &mut [Shown]) {
     for ((row, status), shown) in rows.iter().zip(&status.rows).zip(shown) {
         let now = match &status.error {
-            Some(error) => Shown::Failed(RowFailure(std::mem::discriminant(error), code(error))),
+            Some(error) => Shown::Failed(problem(error).code),
             None if status.copied > 0 => Shown::Copied,
             None => Shown::Nothing,
         };
@@ -95,34 +91,24 @@ fn show_changes(cli: &CommandContext, rows: &[Row], status: &BridgeStatus, shown
             );
         } else {
             say(&match &status.error {
-                Some(error) => format!("{}: {}", row.name, error_text(error, cli.output.language())),
+                Some(error) => format!("{}: {}", row.name, problem(error).in_one_line(cli.output.language())),
                 None => texts::bridge_row_copied(cli.output.language(), &row.name),
             });
         }
     }
 }
 
-fn code(error: &RowError) -> Option<ErrorCode> {
-    problem(error).map(|problem| problem.code)
-}
-
 /// The error as that of a single request.
-fn problem(error: &RowError) -> Option<Problem> {
+fn problem(error: &RowError) -> Problem {
+    let detailed = |code| Problem::with_detail(code, with_sources(error));
     match error {
-        RowError::Plc(error) => Some(error.clone().into()),
-        RowError::PlcWrite(error) => Some(error.clone().into()),
-        RowError::Value(error) => Some(error.clone().into()),
-        RowError::Robot(_) | RowError::ConnectedAnew => None,
-    }
-}
-
-fn error_text(error: &RowError, language: Language) -> String {
-    match problem(error) {
-        Some(problem) => problem.in_one_line(language),
-        None => match error {
-            RowError::Robot(error) => format!("{}: {}", TextKey::FinsRobot.text(language), with_sources(error)),
-            error => with_sources(error),
-        },
+        RowError::Plc(error) => error.clone().into(),
+        RowError::PlcWrite(error) => error.clone().into(),
+        RowError::Value(error) => error.clone().into(),
+        RowError::Robot(RobotError::NotReached(_)) => detailed(ErrorCode::Unreachable),
+        RowError::Robot(RobotError::Refused(_)) => detailed(ErrorCode::Refused),
+        RowError::Robot(RobotError::Unknown(_)) => detailed(ErrorCode::RemoteOutcomeUnknown),
+        RowError::ConnectedAnew => detailed(ErrorCode::ConnectionLost),
     }
 }
 
@@ -181,7 +167,7 @@ fn as_text(rows: &[Row], status: &BridgeStatus, language: Language) -> String {
             status.copied.to_string(),
             status.failed.to_string(),
             status.unknown.to_string(),
-            status.error.as_ref().map(|error| error_text(error, language)).unwrap_or_default(),
+            status.error.as_ref().map(|error| problem(error).in_one_line(language)).unwrap_or_default(),
         ]
     };
     let lines: Vec<Vec<String>> = rows.iter().zip(&status.rows).map(line).collect();

@@ -25,8 +25,6 @@ english_texts! { fins:
     HeadingFailed: "FAILED";
     HeadingUnknown: "UNKNOWN";
     HeadingError: "ERROR";
-    FinsPlc: "PLC";
-    FinsRobot: "Robot";
 }
 
 texts_of_values! { end_code(KnownEndCode):

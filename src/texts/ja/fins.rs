@@ -25,8 +25,6 @@ fixed_texts! {
     HeadingFailed: "失敗";
     HeadingUnknown: "不明";
     HeadingError: "エラー";
-    FinsPlc: "PLC";
-    FinsRobot: "ロボット";
 }
 
 texts_of_values! { end_code(KnownEndCode):

@@ -25,8 +25,6 @@ fixed_texts! {
     HeadingFailed: "失败";
     HeadingUnknown: "不确定";
     HeadingError: "错误";
-    FinsPlc: "PLC";
-    FinsRobot: "机器人";
 }
 
 texts_of_values! { end_code(KnownEndCode):

@@ -160,9 +160,11 @@ fn another_protocol_is_told_from_fins() {
     let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
     let to = listener.local_addr().unwrap().to_string();
     std::thread::spawn(move || {
-        use std::io::Write as _;
+        use std::io::{Read as _, Write as _};
         while let Ok((mut stream, _)) = listener.accept() {
             let _ = stream.write_all(b"SSH-2.0-OpenSSH_9.2\r\n");
+            // Until the client has enough: closed earlier, the line might never arrive.
+            while stream.read(&mut [0; 64]).is_ok_and(|read| read > 0) {}
         }
     });
     let (exit, line) = json_of(&["fins", "status", "--to", &to]);
