@@ -14,8 +14,20 @@ pub struct Series {
     levels: Vec<Vec<Extremes>>,
     /// Indices of points that do not follow the point before.
     breaks: Vec<usize>,
-    /// Points that are kept at most; `None`: all.
-    limit: Option<usize>,
+    /// Of a series that keeps so many points at most.
+    thinning: Option<Thinning>,
+}
+
+/// How a series stays below a limit: the newest points are all there, and of those before, the lowest and the highest of
+/// each stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Thinning {
+    /// Points that are kept at most.
+    limit: usize,
+    /// Points at the start that are thinned out: three quarters of the limit at most.
+    thinned: usize,
+    /// How many points each two of those stand for.
+    stretch: usize,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,10 +53,12 @@ pub struct Bar {
 const FACTOR: usize = 16;
 
 impl Series {
-    /// A series that keeps at most `limit` points, 64 at least. Beyond the limit, the older half is thinned out: of each 16
-    /// points, the lowest and the highest stay. The whole time stays visible with every peak, the older the coarser.
+    /// A series that keeps at most `limit` points, 64 at least. A quarter of it, at least, is the newest points; of the time
+    /// before, the lowest and the highest point of each of many equal stretches stay. The whole time stays visible with
+    /// every peak.
     pub fn limited(limit: usize) -> Self {
-        Self { limit: Some(limit.max(4 * FACTOR)), ..Self::default() }
+        let thinning = Thinning { limit: limit.max(4 * FACTOR), thinned: 0, stretch: FACTOR };
+        Self { thinning: Some(thinning), ..Self::default() }
     }
 
     /// Appends a point. `x` smaller than that of the last point is taken as that one; a `y` that is not a number is left
@@ -67,19 +81,27 @@ impl Series {
             self.levels[level].push(complete);
             lower = self.levels[level].len();
         }
-        if self.limit.is_some_and(|limit| self.y.len() > limit) {
-            self.thin();
+        if let Some(thinning) = self.thinning.filter(|thinning| self.y.len() > thinning.limit) {
+            self.thin(thinning);
         }
     }
 
-    /// Thins the older half out.
-    fn thin(&mut self) {
+    /// Thins out the older half of the newest points, and all the thinned ones again when they are too many.
+    fn thin(&mut self, thinning: Thinning) {
+        let Thinning { limit, thinned, mut stretch } = thinning;
         let all = std::mem::take(self);
-        self.limit = all.limit;
-        let old = all.y.len() / 2 / FACTOR * FACTOR;
-        let thinned = (0..old).step_by(FACTOR).flat_map(|start| all.extreme_points(start..start + FACTOR));
+        let half = (all.y.len() - thinned) / 2;
+        let chunk = stretch.min(half).max(1);
+        let newest = thinned + half / chunk * chunk;
+        let mut kept: Vec<usize> = (0..thinned).collect();
+        kept.extend((thinned..newest).step_by(chunk).flat_map(|start| all.extreme_points(start..start + chunk)));
+        while kept.len() > limit / 4 * 3 {
+            kept = kept.chunks(4).flat_map(|four| all.extreme_points(four.iter().copied())).collect();
+            stretch = stretch.saturating_mul(2);
+        }
+        let thinned = kept.len();
         let mut breaks = all.breaks.iter().peekable();
-        for index in thinned.chain(old..all.y.len()) {
+        for index in kept.into_iter().chain(newest..all.y.len()) {
             // Gaps among the points that are left out stay gaps.
             while breaks.next_if(|at| **at <= index).is_some() {
                 self.push_gap();
@@ -89,17 +111,24 @@ impl Series {
         if breaks.next().is_some() {
             self.push_gap();
         }
+        self.thinning = Some(Thinning { limit, thinned, stretch });
     }
 
-    /// The lowest and the highest of some points, in their order.
-    fn extreme_points(&self, range: Range<usize>) -> impl Iterator<Item = usize> + use<> {
-        let first = range.start;
-        let (lowest, highest) = range.fold((first, first), |(lowest, highest), index| {
-            let lowest = if self.y[index] < self.y[lowest] { index } else { lowest };
-            (lowest, if self.y[index] > self.y[highest] { index } else { highest })
-        });
-        let (one, other) = (lowest.min(highest), lowest.max(highest));
-        [one, other].into_iter().take(if one == other { 1 } else { 2 })
+    /// The lowest and the highest of some points, in their order; one where both are the same.
+    fn extreme_points(&self, indices: impl IntoIterator<Item = usize>) -> impl Iterator<Item = usize> {
+        let mut found = None;
+        for index in indices {
+            let (lowest, highest) = found.get_or_insert((index, index));
+            if self.y[index] < self.y[*lowest] {
+                *lowest = index;
+            }
+            if self.y[index] > self.y[*highest] {
+                *highest = index;
+            }
+        }
+        let (lowest, highest) = found.unzip();
+        let first = lowest.min(highest);
+        [first, lowest.max(highest).filter(|last| Some(*last) != first)].into_iter().flatten()
     }
 
     /// Of entries of a level; level 0 are the points.
@@ -316,9 +345,12 @@ mod tests {
         assert_eq!((series.gaps(), series.last()), (1, Some((99_999.0, f64::from(99_999 % 7)))));
         let lines = series.lines(0.0..100_000.0, 300);
         assert_eq!(lines.len(), 2, "one gap");
-        // As exact as a pixel is wide.
+        // As exact as a stretch is long: three quarters of the limit are for the time before the newest points.
         let (end, start) = (lines[0].last().unwrap()[0], lines[1][0][0]);
-        assert!(end < 40_003.0 && (39_600.0..40_400.0).contains(&start), "{end} {start}");
+        let stretch = 2.0 * 2.0 * 100_000.0 / 750.0;
+        assert!(end < 40_003.0 && (40_003.0 - stretch..40_003.0 + stretch).contains(&start), "{end} {start}");
+        let newest = series.query(99_900.0..99_999.0, 1_000);
+        assert!(newest.len() >= 100, "the newest points are all there: {}", newest.len());
         assert!(lines.iter().flatten().any(|point| point[1] == 99.0), "the peak of long ago");
         // Many gaps do not stop the thinning.
         let mut torn = Series::limited(64);

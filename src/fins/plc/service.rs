@@ -12,6 +12,7 @@ use super::super::codec::header::Endpoint;
 use super::super::codec::response::Response;
 use super::super::codec::{MAX_MESSAGE_BYTES, header::HEADER_BYTES};
 use super::memory::Memory;
+use crate::model::clock;
 
 /// A write that a client had executed.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -137,7 +138,7 @@ impl PlcState {
                 ControllerDataPart::All => [self.data.encode(), ControllerData::encode_bus_units()].concat(),
             }),
             Command::Status => Ok(self.status.encode()),
-            Command::Clock => Ok(encode_clock(self.clock.unwrap_or_else(|| Local::now().naive_local())).to_vec()),
+            Command::Clock => Ok(encode_clock(self.clock.unwrap_or_else(|| clock::now().with_timezone(&Local).naive_local())).to_vec()),
             Command::Other { code: RUN, parameters } => {
                 // Program number, mode; without a mode the PLC goes to MONITOR.
                 let mode = match parameters.get(2) {

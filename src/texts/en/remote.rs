@@ -18,8 +18,8 @@ english_texts! { remote:
     RemoteActAlarm: "The alarm of a part that wears is reset";
     RemoteNeedsAuto: "The mode is not AUTO, or remote is not the control device. Switch to AUTO and set the control device.";
     RemoteNeedsReady: "A task runs or is paused. Stop it, or wait until it has ended.";
-    RemoteNeedsRunning: "No task runs that could be paused.";
-    RemoteNeedsPaused: "No task is paused that could continue.";
+    RemoteNeedsRunning: "No task runs, so there is nothing to pause.";
+    RemoteNeedsPaused: "No task is paused, so there is nothing to continue.";
     RemoteNeedsNoError: "There is an error. Clear its cause, then reset it.";
     RemoteNeedsNoEStop: "The emergency stop is on. Release it, then reset it.";
     RemoteNeedsNoSafeguard: "The safeguard is open. Close it.";
