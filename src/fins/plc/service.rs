@@ -138,7 +138,10 @@ impl PlcState {
                 ControllerDataPart::All => [self.data.encode(), ControllerData::encode_bus_units()].concat(),
             }),
             Command::Status => Ok(self.status.encode()),
-            Command::Clock => Ok(encode_clock(self.clock.unwrap_or_else(|| clock::now().with_timezone(&Local).naive_local())).to_vec()),
+            Command::Clock => {
+                let time = self.clock.unwrap_or_else(|| clock::now().with_timezone(&Local).naive_local());
+                Ok(encode_clock(time).to_vec())
+            }
             Command::Other { code: RUN, parameters } => {
                 // Program number, mode; without a mode the PLC goes to MONITOR.
                 let mode = match parameters.get(2) {

@@ -184,7 +184,8 @@ pub fn plc_watched(what: &str) -> String {
 }
 
 pub fn bridge_started(rows: usize) -> String {
-    format!("The bridge copies {rows} rows; Ctrl-C ends it")
+    let rows = if rows == 1 { "1 row".to_owned() } else { format!("{rows} rows") };
+    format!("The bridge copies {rows}; Ctrl-C ends it")
 }
 
 pub fn bridge_row_copied(row: &str) -> String {
