@@ -94,13 +94,11 @@ fn a_wrong_password_is_told_and_the_right_one_connects() {
     assert!(!log.contains("secret") && !log.contains("guess"), "{log}");
     app.click("Save…");
     app.click("Save");
-    let folder = app.workspace.root().to_owned();
     wait_until(&mut app.window, WAIT_LIMIT, |window| {
         window.state().model.status.as_ref().is_some_and(|status| status.starts_with("Saved in"))
     });
-    let saved =
-        fs::read_dir(folder).unwrap().flatten().find(|file| file.path().extension().is_some_and(|e| e == "txt"));
-    let saved = fs::read_to_string(saved.unwrap().path()).unwrap();
+    let status = app.window.state().model.status.clone().unwrap();
+    let saved = fs::read_to_string(status.trim_start_matches("Saved in ")).unwrap();
     assert!(saved.contains("$Login,***<0D><0A>\t24 4C 6F 67 69 6E"), "{saved}");
 }
 
