@@ -15,7 +15,7 @@ pub fn fins_stream(bytes: &[u8]) {
     for frame in whole {
         let encoded = frame.encode();
         assert!(encoded.len() <= MAX_FRAME_BYTES);
-        assert_eq!(frames(&encoded, encoded.len()), [frame.clone()]);
+        assert_eq!(frames(&encoded, encoded.len()), std::slice::from_ref(&frame));
         if let TcpFrame::Message(message) = frame {
             fins_message(&message);
         }
