@@ -12,7 +12,7 @@ use super::{as_json, as_text};
 use crate::fins::bridge::robot::{ReadError, read_values};
 use crate::fins::client::ClientError;
 use crate::fins::data_type::Value;
-use crate::model::{ErrorCode, Problem};
+use crate::model::{ErrorCode, Problem, clock};
 use crate::platform::stop_signal::StopSignals;
 use crate::texts;
 
@@ -58,7 +58,7 @@ pub fn run(cli: &CommandContext, args: &WatchArgs) -> Result<CommandOutcome, Pro
             match result {
                 Ok(values) => {
                     if !matches!(&shown, Shown::Values(old) if *old == values) {
-                        let now = Local::now();
+                        let now = clock::now().with_timezone(&Local);
                         if output.is_json() {
                             let mut result = as_json(range, &values);
                             result["at"] = json!(now.to_rfc3339());

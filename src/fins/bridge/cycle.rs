@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use chrono::Utc;
 use tokio_util::sync::CancellationToken;
 
 use super::super::client::ClientError;
@@ -11,6 +10,7 @@ use super::Bridge;
 use super::map::Row;
 use super::robot::{Direction, ReadError, RobotError, ValuesNotWritten, read_values, write_values};
 use super::status::{RowError, SideStatus};
+use crate::model::clock;
 
 impl Bridge {
     /// Copies every row once. `stop` ends the cycle before the next row.
@@ -73,7 +73,7 @@ impl Bridge {
         match written {
             Ok(()) => {
                 status.copied += 1;
-                status.copied_at = Some(Utc::now());
+                status.copied_at = Some(clock::now());
                 status.error = None;
                 true
             }
