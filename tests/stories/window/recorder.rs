@@ -220,8 +220,8 @@ fn a_force_recording_survives_a_lost_connection_and_ends_with_its_footer() {
     assert!(shows(&app.window, "Forces [N]") && shows(&app.window, "Torques [N·m]"));
     app.run(StopServer);
     app.wait_for("Connecting again");
-    // Why: at first the connection is lost, then there is no server.
-    app.wait_for("The OPC UA server");
+    // Why.
+    app.wait_for("The connection to the OPC UA server failed");
     let before = app.recordings()[0].progress.rows;
     app.run(StartServer);
     app.wait_for_recordings(|recording| recording.progress.rows > before + 20);
