@@ -52,7 +52,7 @@ impl RecordingPlot {
         self.shown.len() >= MAX_PLOTS
     }
 
-    /// Shows a quantity, or shows it no more. Beyond [`MAX_PLOTS`] nothing is added.
+    /// Shows a quantity, or shows it no more. Beyond `MAX_PLOTS` nothing is added.
     pub fn toggle(&mut self, quantity: Quantity) {
         match self.shown.iter().position(|shown| *shown == quantity) {
             Some(at) => drop(self.shown.remove(at)),
