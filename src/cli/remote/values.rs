@@ -115,7 +115,7 @@ pub fn get_variable(
 }
 
 fn element(indices: &str) -> Option<Element> {
-    let indices: Option<Vec<u16>> = indices.split(',').map(|index| index.trim().parse().ok()).collect();
+    let indices: Option<Vec<u16>> = indices.split(',').map(|index| index.trim().parse::<u16>().ok()).collect();
     Element::new(&indices?)
 }
 

@@ -109,7 +109,7 @@ fn variable(text: &str) -> Option<RemoteItem> {
     let (name, element) = match text.split_once('(') {
         None => (text, None),
         Some((name, indices)) => {
-            let indices = indices.strip_suffix(')')?.split(',').map(|index| index.trim().parse().ok());
+            let indices = indices.strip_suffix(')')?.split(',').map(|index| index.trim().parse::<u16>().ok());
             (name, Some(Element::new(&indices.collect::<Option<Vec<u16>>>()?)?))
         }
     };

@@ -228,7 +228,7 @@ fn names_of(list: &str) -> Vec<&str> {
 /// The numbers between the brackets of an array, which the first bracket does not belong to.
 fn bounds(dimensions: &str) -> Option<Vec<u16>> {
     let numbers = dimensions.trim_end().strip_suffix(')')?;
-    let bounds = numbers.split(',').map(|number| number.trim().parse().ok()).collect::<Option<Vec<u16>>>()?;
+    let bounds = numbers.split(',').map(|number| number.trim().parse::<u16>().ok()).collect::<Option<Vec<u16>>>()?;
     (bounds.len() <= MAX_DIMENSIONS).then_some(bounds)
 }
 

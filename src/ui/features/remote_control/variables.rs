@@ -56,7 +56,8 @@ impl VariableTable {
         let read = if self.indices.trim().is_empty() {
             VariableRead::scalar(name, self.kind)
         } else {
-            let indices: Result<Vec<u16>, _> = self.indices.split(',').map(|index| index.trim().parse()).collect();
+            let indices: Result<Vec<u16>, _> =
+                self.indices.split(',').map(|index| index.trim().parse::<u16>()).collect();
             let first = indices.ok().and_then(|indices| Element::new(&indices)).ok_or(T::RemoteIndicesRule)?;
             let count = self.count.trim().parse().ok().and_then(|count| ElementRange::new(first, count));
             let range = count.ok_or(T::RemoteCountRule)?;
