@@ -121,6 +121,7 @@ mod unix {
 #[cfg(all(unix, not(target_os = "macos")))]
 pub use unix::{MissingLibrary, is_there, is_wayland, missing_library, prefers_x11};
 
+/// Whether windows are drawn by a Wayland compositor; never here.
 #[cfg(not(all(unix, not(target_os = "macos"))))]
 pub fn is_wayland() -> bool {
     false

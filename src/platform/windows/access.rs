@@ -85,6 +85,9 @@ pub fn open_file(path: &Path, how: Open) -> io::Result<File> {
 pub struct Descriptor(PSECURITY_DESCRIPTOR);
 
 impl Descriptor {
+    /// Of a private file or folder.
+    ///
+    /// Errors: those of the system.
     pub fn private() -> io::Result<Self> {
         // The owner too: on a file server, this account's name is another one (S-1-3-4 is OWNER RIGHTS).
         let text = format!("D:P(A;OICI;FA;;;SY)(A;OICI;FA;;;S-1-3-4)(A;OICI;FA;;;{})", account()?);

@@ -47,6 +47,7 @@ macro_rules! next {
 }
 
 impl StopSignals {
+    /// Listens from now on. What cannot be listened to is logged.
     pub fn listen() -> Self {
         let ended = ENDED.get_or_init(Notify::new);
         if let Err(error) = thread::Builder::new().name("session end".to_owned()).spawn(watch) {
@@ -62,6 +63,7 @@ impl StopSignals {
         }
     }
 
+    /// Waits for the first of them.
     pub async fn received(&mut self) {
         tokio::select! {
             () = next!(self.ctrl_c) => {}

@@ -25,6 +25,7 @@ pub struct StartRequests {
 }
 
 impl StartRequests {
+    /// The lock proves that no other window listens. Errors: the name of the pipe cannot be made.
     pub fn listen(root: &Path, _lock: &WorkspaceLock) -> io::Result<Self> {
         Ok(Self { name: pipe_name(root)? })
     }
