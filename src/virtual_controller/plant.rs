@@ -80,9 +80,9 @@ pub fn ask_plant(data: &Path, serial: &SerialNumber, command: Option<&str>) -> R
         Ok(serde_json::from_slice(&content)?)
     };
     let Announcement { address, token } = read().map_err(|source| PlantError::NotRunning { path, source })?;
-    let mut stream = TcpStream::connect_timeout(&address, PATIENCE)?;
-    stream.set_read_timeout(Some(PATIENCE))?;
-    stream.set_write_timeout(Some(PATIENCE))?;
+    let mut stream = TcpStream::connect_timeout(&address, STEP_LIMIT)?;
+    stream.set_read_timeout(Some(STEP_LIMIT))?;
+    stream.set_write_timeout(Some(STEP_LIMIT))?;
     let request = Request { token, serial: serial.clone(), command: command.map(str::to_owned) };
     let mut line = serde_json::to_vec(&request).map_err(io::Error::from)?;
     line.push(b'\n');
@@ -162,12 +162,12 @@ async fn talk(stream: tokio::net::TcpStream, plant: &Plant) -> io::Result<()> {
     loop {
         line.clear();
         let mut bounded = (&mut reader).take(MAX_LINE as u64);
-        if timeout(PATIENCE, bounded.read_until(b'\n', &mut line)).await?? == 0 || !line.ends_with(b"\n") {
+        if timeout(STEP_LIMIT, bounded.read_until(b'\n', &mut line)).await?? == 0 || !line.ends_with(b"\n") {
             return Ok(());
         }
         let mut answer = plant.answer(&line).to_string();
         answer.push('\n');
-        timeout(PATIENCE, writer.write_all(answer.as_bytes())).await??;
+        timeout(STEP_LIMIT, writer.write_all(answer.as_bytes())).await??;
     }
 }
 
@@ -230,7 +230,7 @@ fn state(now: &CellSnapshot, cell: &CellHandle) -> Value {
     })
 }
 
-const PATIENCE: Duration = Duration::from_secs(10);
+const STEP_LIMIT: Duration = Duration::from_secs(10);
 const PAUSE: Duration = Duration::from_millis(100);
 const MAX_LINE: usize = 4096;
 const MAX_ANSWER: usize = 64 * 1024;
@@ -274,7 +274,7 @@ mod tests {
         while path(folder.path()).exists() {
             tokio::task::yield_now().await;
         }
-        assert!(TcpStream::connect_timeout(&address, PATIENCE).is_err());
+        assert!(TcpStream::connect_timeout(&address, STEP_LIMIT).is_err());
     }
 
     #[tokio::test]
@@ -286,7 +286,7 @@ mod tests {
         let answers = tokio::task::spawn_blocking(move || {
             let say = |text: &[u8]| {
                 let mut stream = TcpStream::connect(address).unwrap();
-                stream.set_read_timeout(Some(PATIENCE)).unwrap();
+                stream.set_read_timeout(Some(STEP_LIMIT)).unwrap();
                 // The peer may have closed the connection already.
                 let _sent = stream.write_all(text);
                 let mut answer = String::new();

@@ -264,7 +264,7 @@ impl FinsClient {
                 if let Some(Retry { at, .. }) = &self.retry {
                     tokio::time::sleep_until((*at).into()).await;
                 }
-                // Whatever becomes of the second one, the first one may have been executed.
+                // The first one may have been executed, also if the second one fails.
                 self.change_once(command).await.map_err(|error| match error {
                     ChangeError::NotDone(error) | ChangeError::Unknown(error) => ChangeError::Unknown(error),
                 })

@@ -286,7 +286,7 @@ proptest! {
             let mut encoded = Vec::new();
             response.encode_into(&mut encoded);
             prop_assert_eq!(encoded, bytes);
-            // Reading them as whatever command must not panic.
+            // Reading them as any command must not panic.
             let _ = (CpuStatus::decode(&response), ControllerData::decode(&response), decode_clock(&response));
             let _ = (response.words(3), response.bits(3), response.relay_error_at());
         }

@@ -16,7 +16,7 @@ use super::super::codec::frame::{FrameDecoder, TcpFrame, TcpRefusal};
 use super::{Delivery, Shared};
 
 /// A client that connects and says nothing, or does not read its answers, is disconnected after this time.
-const PATIENCE: Duration = Duration::from_secs(10);
+const STEP_LIMIT: Duration = Duration::from_secs(10);
 
 /// Most connections, those included whose client has no node yet.
 const MOST_SOCKETS: usize = 256;
@@ -67,7 +67,7 @@ impl<'a> Connection<'a> {
         stream.set_nodelay(true)?;
         let confirm = Arc::new(Notify::new());
         let mut connection = Self { stream, decoder: FrameDecoder::default(), shared, confirm };
-        let first = timeout(PATIENCE, connection.next_frame()).await??;
+        let first = timeout(STEP_LIMIT, connection.next_frame()).await??;
         let Some(TcpFrame::ClientNode { node }) = first else {
             return connection.refuse(TcpRefusal::UnsupportedCommand).await;
         };
@@ -176,6 +176,6 @@ impl<'a> Connection<'a> {
 
     /// In one piece: there are clients that take one read for one answer.
     async fn write(&mut self, bytes: &[u8]) -> io::Result<()> {
-        timeout(PATIENCE, self.stream.write_all(bytes)).await?
+        timeout(STEP_LIMIT, self.stream.write_all(bytes)).await?
     }
 }

@@ -1,7 +1,7 @@
 use tokio::time::Instant;
 use zeroize::Zeroizing;
 
-use super::desk::{Desk, Outcome};
+use super::request_handler::{Outcome, RequestHandler};
 use super::wire::{Incoming, Origin, Wire};
 use crate::remote::{Answer, Command, Password, RefusalCode, Reply, Request};
 
@@ -9,7 +9,7 @@ use crate::remote::{Answer, Command, Password, RefusalCode, Reply, Request};
 /// and reads no clock.
 #[derive(Debug)]
 pub(super) struct Conversation {
-    desk: Desk,
+    handler: RequestHandler,
     wire: Wire,
     /// The controller is reached at an address of the internet.
     is_global: bool,
@@ -73,10 +73,10 @@ const MAX_UNREAD: usize = 64 * 1024;
 const MAX_WRONG_PASSWORDS: u32 = 10;
 
 impl Conversation {
-    pub fn new(desk: Desk, wire: Wire, is_global: bool, now: Instant) -> Self {
+    pub fn new(handler: RequestHandler, wire: Wire, is_global: bool, now: Instant) -> Self {
         let access = if wire.has_to_be_opened() { Access::Closed } else { Access::Opened };
         let mut conversation = Self {
-            desk,
+            handler,
             wire,
             is_global,
             access,
@@ -133,7 +133,7 @@ impl Conversation {
     /// The client is gone. What Execute still runs for it ends.
     pub fn hang_up(&mut self) {
         if let Some(executing) = self.executing.take() {
-            self.desk.abandon(executing.number);
+            self.handler.abandon(executing.number);
         }
     }
 
@@ -192,15 +192,15 @@ impl Conversation {
             },
             _ if self.access != Access::LoggedIn => Answer::Refused(RefusalCode::UnknownCommand),
             Request::Logout if self.executing.is_some() => Answer::Refused(RefusalCode::ExecuteRunning),
-            Request::Logout if self.desk.may_log_out() => {
+            Request::Logout if self.handler.may_log_out() => {
                 self.give(Access::Opened, now);
                 Answer::Good(Reply::Done)
             }
             Request::Logout => Answer::Refused(RefusalCode::NotReady),
-            _ => match self.desk.act(&request) {
+            _ => match self.handler.act(&request) {
                 Outcome::Answer(answer) => answer,
                 Outcome::Executing(number) => {
-                    let ask_at = now + self.desk.ask_again(number);
+                    let ask_at = now + self.handler.ask_again(number);
                     self.executing = Some(Executing { number, origin, request, ask_at });
                     return None;
                 }
@@ -210,10 +210,10 @@ impl Conversation {
     }
 
     fn log_in(&mut self, password: &Password) -> Result<(), RefusalCode> {
-        if self.is_global && self.desk.options().password.expose().is_empty() {
+        if self.is_global && self.handler.options().password.expose().is_empty() {
             return Err(RefusalCode::PasswordRequired);
         }
-        if self.desk.is_password(password) {
+        if self.handler.is_password(password) {
             self.wrong_passwords = 0;
             return Ok(());
         }
@@ -225,8 +225,8 @@ impl Conversation {
     /// The answer of an Execute that has ended.
     fn ask_execution(&mut self, now: Instant) -> Option<Outgoing> {
         let executing = self.executing.take()?;
-        let Some(answer) = self.desk.execution(executing.number) else {
-            let ask_at = now + self.desk.ask_again(executing.number);
+        let Some(answer) = self.handler.execution(executing.number) else {
+            let ask_at = now + self.handler.ask_again(executing.number);
             self.executing = Some(Executing { ask_at, ..executing });
             return None;
         };
@@ -236,7 +236,7 @@ impl Conversation {
 
     fn give(&mut self, access: Access, now: Instant) {
         self.access = access;
-        let options = self.desk.options();
+        let options = self.handler.options();
         let allowed = match access {
             Access::Closed | Access::Opened => Some(options.login_window),
             Access::LoggedIn => Some(options.time_out).filter(|time_out| !time_out.is_zero()),

@@ -11,7 +11,7 @@ use tokio_util::sync::CancellationToken;
 use super::backup_file::BackupFile;
 use super::connection::serve;
 use super::conversation::Conversation;
-use super::desk::Desk;
+use super::request_handler::RequestHandler;
 use super::wire::Wire;
 
 /// After an error of `accept`, which is most likely that the process is out of file descriptors.
@@ -25,16 +25,22 @@ pub(super) enum Form {
 }
 
 impl Form {
-    pub fn wire(self, desk: &Desk) -> Wire {
+    pub fn wire(self, handler: &RequestHandler) -> Wire {
         match self {
-            Self::Text => Wire::text(desk.options()),
+            Self::Text => Wire::text(handler.options()),
             Self::Frames => Wire::frames(),
         }
     }
 }
 
 /// Serves one client after the other until `off`. A client that comes while another one is connected is disconnected.
-pub(super) async fn listen(listener: TcpListener, form: Form, desk: Desk, kept: BackupFile, off: CancellationToken) {
+pub(super) async fn listen(
+    listener: TcpListener,
+    form: Form,
+    handler: RequestHandler,
+    kept: BackupFile,
+    off: CancellationToken,
+) {
     let is_busy = Arc::new(AtomicBool::new(false));
     let mut clients = JoinSet::new();
     loop {
@@ -49,9 +55,9 @@ pub(super) async fn listen(listener: TcpListener, form: Form, desk: Desk, kept: 
                     tracing::debug!(%address, "a second client of the remote commands is disconnected");
                     continue;
                 };
-                let (desk, kept, off) = (desk.clone(), kept.clone(), off.clone());
+                let (handler, kept, off) = (handler.clone(), kept.clone(), off.clone());
                 clients.spawn(async move {
-                    serve_client(stream, form, desk, &kept, &off).await;
+                    serve_client(stream, form, handler, &kept, &off).await;
                     drop(turn);
                 });
             }
@@ -64,12 +70,18 @@ pub(super) async fn listen(listener: TcpListener, form: Form, desk: Desk, kept: 
     while clients.join_next().await.is_some() {}
 }
 
-async fn serve_client(mut stream: TcpStream, form: Form, desk: Desk, kept: &BackupFile, off: &CancellationToken) {
+async fn serve_client(
+    mut stream: TcpStream,
+    form: Form,
+    handler: RequestHandler,
+    kept: &BackupFile,
+    off: &CancellationToken,
+) {
     // Answers are small and should not wait for acknowledgements.
     let _ = stream.set_nodelay(true);
     let is_global = stream.local_addr().is_ok_and(|address| is_global(address.ip()));
-    let wire = form.wire(&desk);
-    let mut conversation = Conversation::new(desk, wire, is_global, Instant::now());
+    let wire = form.wire(&handler);
+    let mut conversation = Conversation::new(handler, wire, is_global, Instant::now());
     serve(&mut stream, &mut conversation, kept, off).await;
 }
 

@@ -6,7 +6,7 @@
 //! | `options` | [`RemoteOptions`]: what is switched on, and how |
 //! | `refusals` | the code of a refusal of the cell |
 //! | `monitoring` | the commands of the vendor's monitoring client |
-//! | `desk` | what the requests ask of a cell |
+//! | `request_handler` | what the requests ask of a cell |
 //! | `wire` | both forms of the messages |
 //! | `conversation` | one client: login, time-outs, an Execute that runs |
 //! | `backup_file` | what outlives a power-off, on disk |
@@ -34,11 +34,11 @@
 mod backup_file;
 mod connection;
 mod conversation;
-mod desk;
 mod listener;
 mod monitoring;
 mod options;
 mod refusals;
+mod request_handler;
 #[cfg(unix)]
 mod serial_line;
 #[cfg(test)]
@@ -57,9 +57,9 @@ use tokio::task::JoinSet;
 use tokio_util::sync::CancellationToken;
 
 pub(super) use backup_file::BackupFile;
-use desk::Desk;
 use listener::{Form, listen};
 pub use options::{RemoteOptions, RemoteRole, SerialChoice};
+use request_handler::RequestHandler;
 #[cfg(unix)]
 use serial_line::SerialLine;
 
@@ -114,7 +114,7 @@ impl RemoteServer {
         let off = CancellationToken::new();
         let mut tasks = JoinSet::new();
         let options = Arc::new(options);
-        let desk = Desk::new(cell, Arc::clone(&options));
+        let handler = RequestHandler::new(cell, Arc::clone(&options));
         let mut addresses = [None, None];
         let ports = [(options.text_port, Form::Text), (options.frames_port, Form::Frames)];
         for (address, (port, form)) in addresses.iter_mut().zip(ports) {
@@ -123,10 +123,10 @@ impl RemoteServer {
             let failed = |source| RemoteServerError::Listen { address: wanted, source };
             let listener = TcpListener::bind(wanted).await.map_err(failed)?;
             *address = Some(listener.local_addr().map_err(failed)?);
-            tasks.spawn(listen(listener, form, desk.clone(), kept.clone(), off.clone()));
+            tasks.spawn(listen(listener, form, handler.clone(), kept.clone(), off.clone()));
         }
         let serial = match &options.serial {
-            Some(choice) => Some(open_serial(choice, &mut tasks, &desk, &kept, &off)?),
+            Some(choice) => Some(open_serial(choice, &mut tasks, &handler, &kept, &off)?),
             None => None,
         };
         let [text, frames] = addresses;
@@ -167,13 +167,13 @@ impl Drop for RemoteServer {
 fn open_serial(
     choice: &SerialChoice,
     tasks: &mut JoinSet<()>,
-    desk: &Desk,
+    handler: &RequestHandler,
     kept: &BackupFile,
     off: &CancellationToken,
 ) -> Result<PathBuf, RemoteServerError> {
     let line = SerialLine::open(choice).map_err(|source| RemoteServerError::Serial { name: name(choice), source })?;
     let path = line.path().to_owned();
-    tasks.spawn(line.listen(desk.clone(), kept.clone(), off.clone()));
+    tasks.spawn(line.listen(handler.clone(), kept.clone(), off.clone()));
     Ok(path)
 }
 
@@ -182,7 +182,7 @@ fn open_serial(
 fn open_serial(
     choice: &SerialChoice,
     _tasks: &mut JoinSet<()>,
-    _desk: &Desk,
+    _handler: &RequestHandler,
     _kept: &BackupFile,
     _off: &CancellationToken,
 ) -> Result<PathBuf, RemoteServerError> {

@@ -14,8 +14,8 @@ use tokio_util::sync::CancellationToken;
 use super::backup_file::BackupFile;
 use super::connection::serve;
 use super::conversation::Conversation;
-use super::desk::Desk;
 use super::options::SerialChoice;
+use super::request_handler::RequestHandler;
 use super::wire::Wire;
 use crate::platform::terminal_line::{TerminalLine, pseudo_terminal, serial_device};
 
@@ -58,9 +58,9 @@ impl SerialLine {
     }
 
     /// Answers one session after the other until `off`.
-    pub async fn listen(mut self, desk: Desk, kept: BackupFile, off: CancellationToken) {
+    pub async fn listen(mut self, handler: RequestHandler, kept: BackupFile, off: CancellationToken) {
         while !off.is_cancelled() {
-            let mut conversation = Conversation::new(desk.clone(), Wire::frames(), false, Instant::now());
+            let mut conversation = Conversation::new(handler.clone(), Wire::frames(), false, Instant::now());
             serve(&mut self, &mut conversation, &kept, &off).await;
             if !conversation.is_over() {
                 // The line broke.

@@ -7,7 +7,7 @@ use egui::Ui;
 use crate::jobs;
 use crate::model::FileFormat;
 use crate::texts::TextKey;
-use crate::ui::features::subject_fields::{SubjectFields, SubjectForm, read_policies};
+use crate::ui::features::subject_fields::{SubjectFields, SubjectForm};
 use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, Task};
 
 /// A certificate signing request (manual 2.7.1.5).
@@ -54,9 +54,6 @@ impl SubjectForm for CsrForm {
 
 impl Model {
     pub(in crate::ui) fn open_csr(&mut self, rows: Vec<RowId>) -> Vec<BackendCommand> {
-        let subject = SubjectFields::new(rows.clone(), self);
-        let reading = subject.reading;
-        self.open(CsrForm { subject, format: FileFormat::default() });
-        if reading { self.start(read_policies::<CsrForm>(), rows, None) } else { vec![] }
+        self.open_subject_form(rows, |subject| CsrForm { subject, format: FileFormat::default() })
     }
 }

@@ -7,7 +7,7 @@ use egui::Ui;
 use crate::jobs::{self, CsrFields, SelfSignedFields};
 use crate::model::Validity;
 use crate::texts::TextKey;
-use crate::ui::features::subject_fields::{SubjectFields, SubjectForm, read_policies};
+use crate::ui::features::subject_fields::{SubjectFields, SubjectForm};
 use crate::ui::model::{BackendCommand, Dialog, DialogAnswer, DialogPlace, Message, Model, RowId, Task, UiCommand};
 
 /// A self-signed server certificate (manual 2.7.1.2).
@@ -65,9 +65,6 @@ impl SubjectForm for SelfSignedForm {
 
 impl Model {
     pub(in crate::ui) fn open_self_signed(&mut self, rows: Vec<RowId>) -> Vec<BackendCommand> {
-        let subject = SubjectFields::new(rows.clone(), self);
-        let reading = subject.reading;
-        self.open(SelfSignedForm { subject, years: 5 });
-        if reading { self.start(read_policies::<SelfSignedForm>(), rows, None) } else { vec![] }
+        self.open_subject_form(rows, |subject| SelfSignedForm { subject, years: 5 })
     }
 }

@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use crate::jobs::{self, CsrFields};
 use crate::model::{KeyLength, SecurityPolicy, Subject, SubjectError, offered_key_lengths};
 use crate::texts::TextKey;
-use crate::ui::model::{Dialog, Model, RowId, Task};
+use crate::ui::model::{BackendCommand, Dialog, Model, RowId, Task};
 
 pub use view::show;
 
@@ -130,8 +130,22 @@ impl SubjectFields {
     }
 }
 
+impl Model {
+    /// Opens a dialog with empty fields for these controllers. Of a single one, the policies are read first.
+    pub(in crate::ui) fn open_subject_form<F: SubjectForm>(
+        &mut self,
+        rows: Vec<RowId>,
+        form: impl FnOnce(SubjectFields) -> F,
+    ) -> Vec<BackendCommand> {
+        let subject = SubjectFields::new(rows.clone(), self);
+        let reading = subject.reading;
+        self.open(form(subject));
+        if reading { self.start(read_policies::<F>(), rows, None) } else { vec![] }
+    }
+}
+
 /// Reads which policies the controller has on, for a form that waits for them.
-pub fn read_policies<F: SubjectForm>() -> Task {
+fn read_policies<F: SubjectForm>() -> Task {
     Task::with_results(TextKey::SettingsTitle, jobs::ReadBasicSettings, |model, row, result| {
         let name = model.rows.get(row).and_then(|row| row.info()).map(|info| info.application_name.clone());
         if let (Ok(settings), Some(form)) = (result, model.dialog::<F>()) {

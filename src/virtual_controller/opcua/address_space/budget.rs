@@ -13,7 +13,7 @@ pub(super) fn of_response(
     longest: &LongestResponse,
     items: usize,
 ) -> Result<usize, StatusCode> {
-    let session = context.session().try_read_for(PATIENCE).ok_or(StatusCode::BadTooManyOperations)?;
+    let session = context.session().try_read_for(STEP_LIMIT).ok_or(StatusCode::BadTooManyOperations)?;
     let limits = &context.info.config.limits;
     let of_session = match session.max_response_message_size() {
         0 => usize::MAX,
@@ -25,7 +25,7 @@ pub(super) fn of_response(
 }
 
 /// As long as the server may hold the session.
-const PATIENCE: Duration = Duration::from_secs(1);
+const STEP_LIMIT: Duration = Duration::from_secs(1);
 /// More than a response's headers.
 const HEAD: usize = 512;
 /// More than one value that is no packet.

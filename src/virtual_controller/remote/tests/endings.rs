@@ -2,13 +2,13 @@ use tokio::time::Instant;
 
 use super::*;
 use crate::virtual_controller::remote::conversation::Conversation;
-use crate::virtual_controller::remote::desk::Desk;
+use crate::virtual_controller::remote::request_handler::RequestHandler;
 use crate::virtual_controller::remote::wire::Wire;
 
 fn conversation(options: RemoteOptions, now: Instant) -> Conversation {
-    let desk = Desk::new(cell(CellClock::manual()), options.into());
-    let wire = Wire::text(desk.options());
-    Conversation::new(desk, wire, false, now)
+    let handler = RequestHandler::new(cell(CellClock::manual()), options.into());
+    let wire = Wire::text(handler.options());
+    Conversation::new(handler, wire, false, now)
 }
 
 const MINUTE: Duration = Duration::from_secs(60);

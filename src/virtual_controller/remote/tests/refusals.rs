@@ -2,7 +2,7 @@ use tokio::time::Instant;
 
 use super::*;
 use crate::virtual_controller::remote::conversation::Conversation;
-use crate::virtual_controller::remote::desk::Desk;
+use crate::virtual_controller::remote::request_handler::RequestHandler;
 use crate::virtual_controller::remote::wire::Wire;
 
 /// Each code of the manual, provoked in the text form; 16 exists in frames only.
@@ -56,9 +56,9 @@ async fn without_a_password_nobody_logs_in_at_an_address_of_the_internet() {
         [("", true, "!Login,98\r\n"), ("", false, "#Login,0\r\n"), ("right", true, "#Login,0\r\n")]
     {
         let options = RemoteOptions { password: Password::new(password).unwrap(), ..options() };
-        let desk = Desk::new(cell(CellClock::manual()), options.into());
-        let wire = Wire::text(desk.options());
-        let mut conversation = Conversation::new(desk, wire, is_global, Instant::now());
+        let handler = RequestHandler::new(cell(CellClock::manual()), options.into());
+        let wire = Wire::text(handler.options());
+        let mut conversation = Conversation::new(handler, wire, is_global, Instant::now());
         let answers = conversation.receive(format!("$Login,{password}\r\n").as_bytes(), Instant::now());
         assert_eq!(*conversation.encode(&answers[0]), answer.as_bytes());
     }

@@ -13,7 +13,7 @@ use crate::virtual_controller::cell::{
 
 /// Does what the requests of clients ask of one cell. Knows nothing of connections, logins and forms.
 #[derive(Debug, Clone)]
-pub(super) struct Desk {
+pub(super) struct RequestHandler {
     cell: CellHandle,
     options: Arc<RemoteOptions>,
 }
@@ -23,7 +23,7 @@ pub(super) struct Desk {
 pub(super) enum Outcome {
     /// The answer.
     Answer(Answer),
-    /// An Execute runs; [`Desk::execution`] has the answer later.
+    /// An Execute runs; [`RequestHandler::execution`] has the answer later.
     Executing(u64),
 }
 
@@ -31,7 +31,7 @@ pub(super) enum Outcome {
 const BYTE: u32 = 8;
 const WORD: u32 = 16;
 
-impl Desk {
+impl RequestHandler {
     pub fn new(cell: CellHandle, options: Arc<RemoteOptions>) -> Self {
         Self { cell, options }
     }
